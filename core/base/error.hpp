@@ -1,0 +1,22 @@
+// Bad input, as a stable code and a sentence that names the thing, the value and the cure.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace sculpt {
+
+/// Thrown wherever input cannot be used; `code` is a word of the error catalogue (proto/PROTOCOL.md).
+class InputError : public std::runtime_error {
+ public:
+  InputError(std::string code, const std::string& sentence) : std::runtime_error(sentence), code_(std::move(code)) {}
+  const std::string& code() const { return code_; }
+
+ private:
+  std::string code_;
+};
+
+/// Thrown by `Watch::step` once a stop was requested. Not an error: the work simply ends.
+struct Cancelled {};
+
+}  // namespace sculpt

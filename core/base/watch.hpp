@@ -1,0 +1,45 @@
+// Progress out, cancel in: the one object that every long stage is handed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+
+#include "core/base/error.hpp"
+
+namespace sculpt {
+
+enum class Stage { load, voxelize, octree, plan, verify, write };
+
+/// Plain counts of the running stage; done <= total.
+struct Progress {
+  Stage stage = Stage::load;
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;
+};
+
+/// Copyable. `tell` is called on the thread that does the work, as often as the work likes: receivers thin it out.
+struct Watch {
+  std::stop_token stop;
+  std::function<void(const Progress&)> tell;
+
+  /// Reports, and throws `Cancelled` if a stop was requested. Cheap enough for every voxel row, block or node.
+  void step(Stage stage, std::uint64_t done, std::uint64_t total) const {
+    if (stop.stop_requested()) throw Cancelled{};
+    if (tell) tell({stage, done, total});
+  }
+};
+
+constexpr const char* name(Stage stage) {
+  switch (stage) {
+    case Stage::load: return "load";
+    case Stage::voxelize: return "voxelize";
+    case Stage::octree: return "octree";
+    case Stage::plan: return "plan";
+    case Stage::verify: return "verify";
+    case Stage::write: return "write";
+  }
+  return "unknown";
+}
+
+}  // namespace sculpt

@@ -1,0 +1,48 @@
+// A cell: the room as one URDF, plus where the stock stands, the tool and the home configuration.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "core/cell/chain.hpp"
+#include "core/cell/tool.hpp"
+#include "core/material/voxel.hpp"
+
+namespace sculpt {
+
+/// Everything a cell is made of, as bytes: it can be sent to a machine that does not share this disk.
+struct CellFiles {
+  std::string name;                          ///< file name without extension
+  std::string cell_json;
+  std::map<std::string, std::string> files;  ///< the URDF under its name in the cell file, each mesh under its reference in the URDF
+};
+
+struct Cell {
+  std::string name;
+  Robot robot;
+  int stock_link = -1;
+  int tool_link = -1;
+  double stock_size_m = 0;                   ///< edge of the grid's cube
+  Vec3 stock_origin_m = Vec3::Zero();        ///< corner of voxel (0,0,0) in the stock link's frame
+  ToolSpec tool;
+  std::vector<double> rest;                  ///< value of every robot joint at home
+
+  Grid grid(int n) const { return {n, stock_size_m / n, stock_origin_m}; }
+  /// The cell must outlive the chain.
+  Chain chain() const { return Chain(robot, stock_link, tool_link, tool.stickout_m, rest); }
+  /// Home in the coordinates of `chain`.
+  Configuration home(const Chain& chain) const;
+};
+
+/// `cell`: a path to a cell file (anything with a '/' or ending in .json), else a name looked up in each of `folders`.
+/// Throws InputError `cell_unknown` (lists the names there are).
+std::filesystem::path find_cell(const std::string& cell, const std::vector<std::filesystem::path>& folders);
+
+/// Reads the cell file, its URDF and every mesh it refers to. package://NAME/rest is looked for under the cell file's "packages" map, else in
+/// each folder above the URDF (NAME itself or a sub-folder NAME), else in ROS_PACKAGE_PATH. Throws InputError `cell_invalid` or `file_missing`.
+CellFiles read_cell_files(const std::filesystem::path& path);
+
+/// Throws InputError `cell_invalid` (unknown or missing fields with their JSON pointer, link or joint names that do not exist, home outside limits) or `urdf_invalid`.
+Cell parse_cell(const CellFiles& files);
+
+}  // namespace sculpt

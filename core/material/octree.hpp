@@ -1,0 +1,34 @@
+// VoxelGrid -> Octree. Leaves are sorted by the Morton code of their corner; a leaf's id is its index.
+#pragma once
+
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/material/voxel_grid.hpp"
+
+namespace sculpt {
+
+/// A leaf: an aligned cube of `size` voxels an edge, all of one label.
+struct Block {
+  Voxel corner;
+  int size = 1;
+  Label label = Label::air;
+
+  bool contains(Voxel v) const {
+    return v.i >= corner.i && v.j >= corner.j && v.k >= corner.k && v.i < corner.i + size && v.j < corner.j + size &&
+           v.k < corner.k + size;
+  }
+};
+
+/// Every voxel of the grid lies in exactly one leaf, and no eight siblings of one label are left unmerged.
+struct Octree {
+  int n = 0;
+  std::vector<Block> leaves;
+
+  /// Id of the leaf that holds `v` (inside the grid). O(log leaves).
+  int find(Voxel v) const;
+};
+
+Octree build_octree(const VoxelGrid& voxels, const Watch& watch);
+
+}  // namespace sculpt

@@ -1,0 +1,48 @@
+// A set of voxels of an n x n x n grid, one bit each.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "core/material/voxel.hpp"
+
+namespace sculpt {
+
+/// Bit i + n (j + n k) stands for voxel (i, j, k). Reads from several threads are safe, writes are not.
+class VoxelSet {
+ public:
+  VoxelSet() = default;
+  explicit VoxelSet(int n, bool full = false)
+      : n_(n), words_((static_cast<std::size_t>(n) * n * n + 63) / 64, full ? ~std::uint64_t{0} : 0) {}
+
+  int n() const { return n_; }
+  std::size_t index(Voxel v) const { return static_cast<std::size_t>(v.i) + n_ * (v.j + static_cast<std::size_t>(n_) * v.k); }
+  bool contains(Voxel v) const {
+    const std::size_t at = index(v);
+    return (words_[at >> 6] >> (at & 63)) & 1;
+  }
+  void insert(Voxel v) {
+    const std::size_t at = index(v);
+    words_[at >> 6] |= std::uint64_t{1} << (at & 63);
+  }
+  void erase(Voxel v) {
+    const std::size_t at = index(v);
+    words_[at >> 6] &= ~(std::uint64_t{1} << (at & 63));
+  }
+  std::size_t size() const {
+    std::size_t sum = 0;
+    for (std::uint64_t word : words_) sum += static_cast<std::size_t>(std::popcount(word));
+    return sum;
+  }
+  /// The bits, lowest index in the lowest bit of the first word. n^3 is a multiple of 64 for every n >= 4.
+  const std::vector<std::uint64_t>& words() const { return words_; }
+  std::vector<std::uint64_t>& words() { return words_; }
+  bool operator==(const VoxelSet&) const = default;
+
+ private:
+  int n_ = 0;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace sculpt

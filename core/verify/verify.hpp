@@ -1,0 +1,33 @@
+// Trajectory -> verdict: replays what was emitted with its own kinematics, FCL and octomap. Includes nothing of search/ or motion/.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/cell/cell.hpp"
+#include "core/material/voxel_grid.hpp"
+
+namespace sculpt {
+
+struct Finding {
+  std::uint64_t line = 0;  ///< 1-based line of the trajectory
+  std::string sentence;    ///< what touches what, where
+};
+
+struct Verdict {
+  bool clean = false;
+  std::uint64_t collisions = 0;      ///< all findings, also those not listed
+  std::uint64_t voxels_checked = 0;  ///< voxels whose removal was replayed
+  VoxelSet left;                     ///< material that still stands at the end
+  std::vector<Finding> findings;     ///< the first 100
+};
+
+/// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell and grid, start and end at home,
+/// joint limits kept, every removed voxel a remove voxel removed once with the ball within tolerance of its centre, no contact of
+/// tool or link with material, room or itself at any time (the tool may touch the voxel being cut, nothing else may), nothing of keep removed.
+/// Throws InputError `trajectory_invalid` for text that is no trajectory; Cancelled.
+Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch);
+
+}  // namespace sculpt
