@@ -1,0 +1,90 @@
+#include "core/collision/distance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+/// How far x lies outside [low, high], signed: negative below, positive above, 0 inside.
+double excess(double x, double low, double high) {
+  if (x < low) return x - low;
+  if (x > high) return x - high;
+  return 0;
+}
+
+}  // namespace
+
+double distance(const Segment& first, const Segment& second) {
+  const Vec3 d1 = first.b - first.a, d2 = second.b - second.a, r = first.a - second.a;
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r);
+  constexpr double tiny = 1e-24;
+  double s = 0, t = 0;
+  if (a <= tiny && e <= tiny) return r.norm();
+  if (a <= tiny) {
+    t = std::clamp(f / e, 0.0, 1.0);
+  } else {
+    const double c = d1.dot(r);
+    if (e <= tiny) {
+      s = std::clamp(-c / a, 0.0, 1.0);
+    } else {
+      const double b = d1.dot(d2), det = a * e - b * b;
+      if (det > 0) s = std::clamp((b * f - c * e) / det, 0.0, 1.0);
+      t = (b * s + f) / e;
+      if (t < 0) {
+        t = 0;
+        s = std::clamp(-c / a, 0.0, 1.0);
+      } else if (t > 1) {
+        t = 1;
+        s = std::clamp((b - c) / a, 0.0, 1.0);
+      }
+    }
+  }
+  return (first.a + s * d1 - second.a - t * d2).norm();
+}
+
+double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high) {
+  // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): piecewise linear and rising,
+  // with corners where a coordinate passes a face. The minimum is where that slope passes zero.
+  const Vec3 d = segment.b - segment.a;
+  std::array<double, 8> corners{0, 1};
+  std::size_t count = 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (d[axis] == 0) continue;
+    for (double face : {low[axis], high[axis]}) {
+      const double t = (face - segment.a[axis]) / d[axis];
+      if (t > 0 && t < 1) corners[count++] = t;
+    }
+  }
+  std::sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count));
+  const auto slope = [&](double t) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      sum += d[axis] * excess(segment.a[axis] + t * d[axis], low[axis], high[axis]);
+    return sum;
+  };
+  double best = 1;
+  double previous = 0, previous_slope = slope(0);
+  if (previous_slope >= 0) {
+    best = 0;
+  } else {
+    for (std::size_t at = 1; at < count; ++at) {
+      const double here = slope(corners[at]);
+      if (here >= 0) {
+        best = previous + (corners[at] - previous) * previous_slope / (previous_slope - here);
+        break;
+      }
+      previous = corners[at];
+      previous_slope = here;
+    }
+  }
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double out = excess(segment.a[axis] + best * d[axis], low[axis], high[axis]);
+    squared += out * out;
+  }
+  return std::sqrt(squared);
+}
+
+}  // namespace sculpt

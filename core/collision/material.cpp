@@ -1,0 +1,82 @@
+#include "core/collision/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+/// The part of the segment with low <= coordinate[axis] <= high, as parameters; false if there is none.
+bool clip(const Segment& segment, int axis, double low, double high, double& from, double& to) {
+  const double start = segment.a[axis], step = segment.b[axis] - start;
+  if (step == 0) return start >= low && start <= high;
+  double enter = (low - start) / step, leave = (high - start) / step;
+  if (enter > leave) std::swap(enter, leave);
+  from = std::max(from, enter);
+  to = std::min(to, leave);
+  return from <= to;
+}
+
+int floor_to(double x, int low, int high) {
+  return static_cast<int>(std::floor(std::clamp(x, static_cast<double>(low), static_cast<double>(high))));
+}
+
+}  // namespace
+
+Material::Material(const VoxelSet& standing) : solid_(standing) {
+  const int size = solid_.n();
+  for (int level = 1; (1 << level) <= size; ++level) {
+    const int m = size >> level;
+    std::vector<std::uint32_t> sums(static_cast<std::size_t>(m) * m * m);
+    for (int k = 0; k < 2 * m; ++k)
+      for (int j = 0; j < 2 * m; ++j)
+        for (int i = 0; i < 2 * m; ++i)
+          sums[static_cast<std::size_t>(i / 2) + static_cast<std::size_t>(m) * (static_cast<std::size_t>(j / 2) + static_cast<std::size_t>(m) * (k / 2))] +=
+              level == 1 ? (solid_.contains({i, j, k}) ? 1 : 0) : count(level - 1, {i, j, k});
+    counts_.push_back(std::move(sums));
+  }
+}
+
+void Material::remove(Voxel v) {
+  if (!solid_.contains(v)) return;
+  solid_.erase(v);
+  for (std::size_t level = 1; level <= counts_.size(); ++level) {
+    const std::size_t m = static_cast<std::size_t>(n()) >> level;
+    const auto at = [level](int x) { return static_cast<std::size_t>(x) >> level; };
+    --counts_[level - 1][at(v.i) + m * (at(v.j) + m * at(v.k))];
+  }
+}
+
+bool Material::meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const {
+  const Vec3 d = segment.b - segment.a;
+  int main = 0;
+  d.cwiseAbs().maxCoeff(&main);
+  const int u = (main + 1) % 3, v = (main + 2) % 3, last = n() - 1;
+  const double lowest = std::min(segment.a[main], segment.b[main]) - radius;
+  const double highest = std::max(segment.a[main], segment.b[main]) + radius;
+  if (highest <= 0 || lowest >= n()) return false;
+  const int first_slab = floor_to(lowest, 0, last), last_slab = floor_to(highest, 0, last);
+  for (int slab = first_slab; slab <= last_slab; ++slab) {
+    double from = 0, to = 1;
+    if (!clip(segment, main, slab - radius, slab + 1 + radius, from, to)) continue;
+    const Vec3 p = segment.a + from * d, q = segment.a + to * d;
+    const double low_u = std::min(p[u], q[u]) - radius, high_u = std::max(p[u], q[u]) + radius;
+    const double low_v = std::min(p[v], q[v]) - radius, high_v = std::max(p[v], q[v]) + radius;
+    if (high_u <= 0 || low_u >= n() || high_v <= 0 || low_v >= n()) continue;
+    for (int y = floor_to(low_v, 0, last); y <= floor_to(high_v, 0, last); ++y) {
+      for (int x = floor_to(low_u, 0, last); x <= floor_to(high_u, 0, last); ++x) {
+        int cell[3];
+        cell[main] = slab;
+        cell[u] = x;
+        cell[v] = y;
+        const Voxel at{cell[0], cell[1], cell[2]};
+        if (!solid_.contains(at) || (exempt && *exempt == at)) continue;
+        const Vec3 low(at.i, at.j, at.k);
+        if (distance_to_box(segment, low, low + Vec3::Ones()) < radius) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace sculpt

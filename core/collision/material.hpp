@@ -1,0 +1,62 @@
+// What still stands, and whether a tool or a box of space meets it. Lengths in voxel edges, origin at the corner of voxel (0,0,0).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/collision/distance.hpp"
+#include "core/material/voxel_set.hpp"
+
+namespace sculpt {
+
+/// The standing voxels with counts per aligned cube of 2, 4, 8... voxels, so that full cubes (blocks) and empty space are found
+/// at once. Reads from several threads are safe, `remove` is not.
+class Material {
+ public:
+  explicit Material(const VoxelSet& standing);
+
+  int n() const { return solid_.n(); }
+  const VoxelSet& solid() const { return solid_; }
+  /// False outside the grid.
+  bool contains(Voxel v) const {
+    return v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i < n() && v.j < n() && v.k < n() && solid_.contains(v);
+  }
+  void remove(Voxel v);
+
+  /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
+  bool meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
+
+  /// Calls `visit(corner, size)` for the full cubes, as large as they come, that overlap the box [low, high], until it returns true;
+  /// returns whether it did.
+  template <typename Visit>
+  bool any_block(const Vec3& low, const Vec3& high, Visit&& visit) const {
+    return any_block_below(static_cast<int>(counts_.size()), {0, 0, 0}, low, high, visit);
+  }
+
+ private:
+  template <typename Visit>
+  bool any_block_below(int level, Voxel at, const Vec3& low, const Vec3& high, Visit&& visit) const {
+    const int size = 1 << level;
+    const std::uint32_t full = static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size);
+    const std::uint32_t standing = level == 0 ? (solid_.contains(at) ? 1 : 0) : count(level, at);
+    if (standing == 0) return false;
+    const Voxel corner = at * size;
+    if (corner.i >= high.x() || corner.j >= high.y() || corner.k >= high.z()) return false;
+    if (corner.i + size <= low.x() || corner.j + size <= low.y() || corner.k + size <= low.z()) return false;
+    if (standing == full) return visit(corner, size);
+    for (int child = 0; child < 8; ++child) {
+      const Voxel below{2 * at.i + (child & 1), 2 * at.j + (child >> 1 & 1), 2 * at.k + (child >> 2)};
+      if (any_block_below(level - 1, below, low, high, visit)) return true;
+    }
+    return false;
+  }
+  std::uint32_t count(int level, Voxel at) const {
+    const std::size_t m = static_cast<std::size_t>(n() >> level);
+    return counts_[static_cast<std::size_t>(level) - 1][static_cast<std::size_t>(at.i) + m * (static_cast<std::size_t>(at.j) + m * static_cast<std::size_t>(at.k))];
+  }
+
+  VoxelSet solid_;
+  std::vector<std::vector<std::uint32_t>> counts_;  // [level - 1]: standing voxels per aligned cube of edge 2^level
+};
+
+}  // namespace sculpt
