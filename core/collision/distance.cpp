@@ -45,8 +45,8 @@ double distance(const Segment& first, const Segment& second) {
 }
 
 double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high) {
-  // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): piecewise linear and rising,
-  // with corners where a coordinate passes a face. The minimum is where that slope passes zero.
+  // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): piecewise linear
+  // and rising, with corners where a coordinate passes a face. The minimum is where that slope passes zero.
   const Vec3 d = segment.b - segment.a;
   std::array<double, 8> corners{0, 1};
   std::size_t count = 2;
@@ -60,8 +60,7 @@ double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high
   std::sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count));
   const auto slope = [&](double t) {
     double sum = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      sum += d[axis] * excess(segment.a[axis] + t * d[axis], low[axis], high[axis]);
+    for (int axis = 0; axis < 3; ++axis) sum += d[axis] * excess(segment.a[axis] + t * d[axis], low[axis], high[axis]);
     return sum;
   };
   double best = 1;

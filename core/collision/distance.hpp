@@ -9,7 +9,8 @@ struct Segment {
   Vec3 a, b;
 };
 
-/// Smallest distance between two segments (Ericson, Real-Time Collision Detection, 5.1.9); degenerate segments are points.
+/// Smallest distance between two segments (Ericson, Real-Time Collision Detection, 5.1.9); degenerate segments are
+/// points.
 double distance(const Segment& first, const Segment& second);
 
 /// Smallest distance between a segment and the solid box [low, high]; 0 where they meet.

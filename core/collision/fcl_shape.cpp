@@ -22,11 +22,14 @@ std::shared_ptr<fcl::CollisionGeometryd> make_bvh(const Mesh& mesh) {
 std::shared_ptr<fcl::CollisionGeometryd> make_fcl_geometry(const Shape& shape, double grow_m) {
   const double grow = fcl_mm * grow_m;
   switch (shape.kind) {
-    case ShapeKind::sphere: return std::make_shared<fcl::Sphered>(fcl_mm * shape.radius_m + grow);
-    case ShapeKind::box: return std::make_shared<fcl::Boxd>(fcl_mm * shape.sides_m + Vec3::Constant(2 * grow));
+    case ShapeKind::sphere:
+      return std::make_shared<fcl::Sphered>(fcl_mm * shape.radius_m + grow);
+    case ShapeKind::box:
+      return std::make_shared<fcl::Boxd>(fcl_mm * shape.sides_m + Vec3::Constant(2 * grow));
     case ShapeKind::cylinder:
       return std::make_shared<fcl::Cylinderd>(fcl_mm * shape.radius_m + grow, fcl_mm * shape.length_m + 2 * grow);
-    case ShapeKind::mesh: return make_bvh(*shape.mesh);
+    case ShapeKind::mesh:
+      return make_bvh(*shape.mesh);
   }
   return nullptr;
 }

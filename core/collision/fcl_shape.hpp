@@ -1,4 +1,5 @@
-// Shape -> FCL geometry. Internal to collision/: the FCL world is in millimetres, because FCL's tolerances are absolute and sized for that.
+// Shape -> FCL geometry. Internal to collision/: the FCL world is in millimetres, because FCL's tolerances are absolute
+// and sized for that.
 #pragma once
 
 #include <fcl/fcl.h>
@@ -21,6 +22,7 @@ inline Frame to_fcl(const Frame& pose) {
 }
 
 /// True when the two touch. Poses as `to_fcl` gives them.
-bool fcl_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b, const Frame& pose_b);
+bool fcl_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
+               const Frame& pose_b);
 
 }  // namespace sculpt

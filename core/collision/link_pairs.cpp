@@ -20,8 +20,7 @@ struct Geometry {
 std::vector<std::vector<Geometry>> make_geometries(const Robot& robot) {
   std::vector<std::vector<Geometry>> all(robot.links.size());
   for (std::size_t link = 0; link < robot.links.size(); ++link)
-    for (const Shape& shape : robot.links[link].shapes)
-      all[link].push_back({shape.pose, make_fcl_geometry(shape, 0)});
+    for (const Shape& shape : robot.links[link].shapes) all[link].push_back({shape.pose, make_fcl_geometry(shape, 0)});
   return all;
 }
 
@@ -68,7 +67,9 @@ std::vector<std::pair<int, int>> find_link_pairs(const Robot& robot) {
   for (int a = 0; a < static_cast<int>(robot.links.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(robot.links.size()); ++b) {
       const int group_a = group[static_cast<std::size_t>(a)], group_b = group[static_cast<std::size_t>(b)];
-      if (robot.links[static_cast<std::size_t>(a)].shapes.empty() || robot.links[static_cast<std::size_t>(b)].shapes.empty()) continue;
+      if (robot.links[static_cast<std::size_t>(a)].shapes.empty() ||
+          robot.links[static_cast<std::size_t>(b)].shapes.empty())
+        continue;
       if (group_a == group_b || joined.count(std::minmax(group_a, group_b)) > 0) continue;
       pairs.emplace_back(a, b);
     }

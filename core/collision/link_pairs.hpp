@@ -8,9 +8,9 @@
 
 namespace sculpt {
 
-/// The pairs of link indices (first < second) whose shapes must be kept apart. Left out are links without shapes, links that are
-/// rigidly joined, neighbours across one joint, and pairs that touch in every one of many sampled configurations (they touch by design).
-/// Deterministic.
+/// The pairs of link indices (first < second) whose shapes must be kept apart. Left out are links without shapes, links
+/// that are rigidly joined, neighbours across one joint, and pairs that touch in every one of many sampled
+/// configurations (they touch by design). Deterministic.
 std::vector<std::pair<int, int>> find_link_pairs(const Robot& robot);
 
 /// Group of each link: links joined by fixed joints share one (the index of their topmost link).

@@ -31,7 +31,9 @@ Material::Material(const VoxelSet& standing) : solid_(standing) {
     for (int k = 0; k < 2 * m; ++k)
       for (int j = 0; j < 2 * m; ++j)
         for (int i = 0; i < 2 * m; ++i)
-          sums[static_cast<std::size_t>(i / 2) + static_cast<std::size_t>(m) * (static_cast<std::size_t>(j / 2) + static_cast<std::size_t>(m) * (k / 2))] +=
+          sums[static_cast<std::size_t>(i / 2) +
+               static_cast<std::size_t>(m) *
+                   (static_cast<std::size_t>(j / 2) + static_cast<std::size_t>(m) * (k / 2))] +=
               level == 1 ? (solid_.contains({i, j, k}) ? 1 : 0) : count(level - 1, {i, j, k});
     counts_.push_back(std::move(sums));
   }

@@ -1,4 +1,5 @@
-// What still stands, and whether a tool or a box of space meets it. Lengths in voxel edges, origin at the corner of voxel (0,0,0).
+// What still stands, and whether a tool or a box of space meets it. Lengths in voxel edges, origin at the corner of
+// voxel (0,0,0).
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@
 
 namespace sculpt {
 
-/// The standing voxels with counts per aligned cube of 2, 4, 8... voxels, so that full cubes (blocks) and empty space are found
-/// at once. Reads from several threads are safe, `remove` is not.
+/// The standing voxels with counts per aligned cube of 2, 4, 8... voxels, so that full cubes (blocks) and empty space
+/// are found at once. Reads from several threads are safe, `remove` is not.
 class Material {
  public:
   explicit Material(const VoxelSet& standing);
@@ -26,8 +27,8 @@ class Material {
   /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
   bool meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
 
-  /// Calls `visit(corner, size)` for the full cubes, as large as they come, that overlap the box [low, high], until it returns true;
-  /// returns whether it did.
+  /// Calls `visit(corner, size)` for the full cubes, as large as they come, that overlap the box [low, high], until it
+  /// returns true; returns whether it did.
   template <typename Visit>
   bool any_block(const Vec3& low, const Vec3& high, Visit&& visit) const {
     return any_block_below(static_cast<int>(counts_.size()), {0, 0, 0}, low, high, visit);
@@ -37,7 +38,8 @@ class Material {
   template <typename Visit>
   bool any_block_below(int level, Voxel at, const Vec3& low, const Vec3& high, Visit&& visit) const {
     const int size = 1 << level;
-    const std::uint32_t full = static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size);
+    const std::uint32_t full =
+        static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size);
     const std::uint32_t standing = level == 0 ? (solid_.contains(at) ? 1 : 0) : count(level, at);
     if (standing == 0) return false;
     const Voxel corner = at * size;
@@ -52,7 +54,9 @@ class Material {
   }
   std::uint32_t count(int level, Voxel at) const {
     const std::size_t m = static_cast<std::size_t>(n() >> level);
-    return counts_[static_cast<std::size_t>(level) - 1][static_cast<std::size_t>(at.i) + m * (static_cast<std::size_t>(at.j) + m * static_cast<std::size_t>(at.k))];
+    return counts_[static_cast<std::size_t>(level) - 1]
+                  [static_cast<std::size_t>(at.i) +
+                   m * (static_cast<std::size_t>(at.j) + m * static_cast<std::size_t>(at.k))];
   }
 
   VoxelSet solid_;

@@ -1,0 +1,133 @@
+#include "core/collision/body.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t most_boxes_a_mesh = 24;
+
+void set_core(Body& body) {
+  const Shape& shape = body.shape;
+  Vec3 half = Vec3::Zero();
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      body.core_radius_m = shape.radius_m;
+      break;
+    case ShapeKind::cylinder:
+      half.z() = shape.length_m / 2;
+      body.core_radius_m = shape.radius_m;
+      break;
+    case ShapeKind::box: {
+      int longest = 0;
+      shape.sides_m.maxCoeff(&longest);
+      Vec3 rest = shape.sides_m / 2;
+      half[longest] = rest[longest];
+      rest[longest] = 0;
+      body.core_radius_m = rest.norm();
+      break;
+    }
+    case ShapeKind::mesh:
+      break;
+  }
+  body.core = {shape.pose * Vec3(-half), shape.pose * half};
+}
+
+Body make_body(int link, const Shape& shape) {
+  Body body;
+  body.link = link;
+  body.shape = shape;
+  set_core(body);
+  return body;
+}
+
+/// A run of triangle indices and the box around them.
+struct Cluster {
+  std::vector<std::size_t> triangles;
+  Eigen::AlignedBox3d box;
+};
+
+Cluster make_cluster(const Mesh& mesh, std::vector<std::size_t> triangles) {
+  Cluster cluster{std::move(triangles), {}};
+  for (std::size_t t : cluster.triangles)
+    for (std::uint32_t v : mesh.triangles[t]) cluster.box.extend(mesh.vertices[v]);
+  return cluster;
+}
+
+/// Halves the cluster at the median of its triangles' centres along its longest side.
+std::pair<Cluster, Cluster> split(const Mesh& mesh, Cluster cluster) {
+  int axis = 0;
+  cluster.box.sizes().maxCoeff(&axis);
+  const auto centre = [&](std::size_t t) {
+    double sum = 0;
+    for (std::uint32_t v : mesh.triangles[t]) sum += mesh.vertices[v][axis];
+    return sum;
+  };
+  auto& all = cluster.triangles;
+  std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) { return centre(a) < centre(b); });
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  return {make_cluster(mesh, {all.begin(), middle}), make_cluster(mesh, {middle, all.end()})};
+}
+
+std::vector<Eigen::AlignedBox3d> cover_mesh(const Mesh& mesh) {
+  std::vector<std::size_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Cluster> clusters{make_cluster(mesh, all)};
+  while (clusters.size() < most_boxes_a_mesh) {
+    const auto largest = std::max_element(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
+      return (a.triangles.size() > 1 ? a.box.volume() : 0) < (b.triangles.size() > 1 ? b.box.volume() : 0);
+    });
+    if (largest->triangles.size() < 2) break;
+    auto [low, high] = split(mesh, std::move(*largest));
+    *largest = std::move(low);
+    clusters.push_back(std::move(high));
+  }
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Cluster& cluster : clusters) boxes.push_back(cluster.box);
+  return boxes;
+}
+
+Shape box_shape(const Frame& frame, const Eigen::AlignedBox3d& box) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.pose = frame * Eigen::Translation3d(box.center());
+  shape.sides_m = box.sizes();
+  return shape;
+}
+
+void add_tool(std::vector<Body>& bodies, int tool_link, const Tool& tool) {
+  Shape ball;
+  ball.kind = ShapeKind::sphere;
+  ball.radius_m = tool.ball_radius_m;
+  ball.pose.translation().z() = tool.stickout_m;
+  bodies.push_back(make_body(tool_link, ball));
+  bodies.back().tool = true;
+  if (tool.shank_radius_m <= 0) return;
+  Shape shank;
+  shank.kind = ShapeKind::cylinder;
+  shank.radius_m = tool.shank_radius_m;
+  shank.length_m = tool.stickout_m;
+  shank.pose.translation().z() = tool.stickout_m / 2;
+  bodies.push_back(make_body(tool_link, shank));
+  bodies.back().tool = true;
+}
+
+}  // namespace
+
+std::vector<Body> make_bodies(const Cell& cell, const Tool& tool) {
+  std::vector<Body> bodies;
+  for (int link = 0; link < static_cast<int>(cell.robot.links.size()); ++link)
+    for (const Shape& shape : cell.robot.links[static_cast<std::size_t>(link)].shapes) {
+      if (shape.kind != ShapeKind::mesh) {
+        bodies.push_back(make_body(link, shape));
+        continue;
+      }
+      for (const Eigen::AlignedBox3d& box : cover_mesh(*shape.mesh))
+        bodies.push_back(make_body(link, box_shape(shape.pose, box)));
+    }
+  add_tool(bodies, cell.tool_link, tool);
+  return bodies;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,77 @@
+#include "core/collision/motion_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+/// A joint on the way from link to link; `up` when passed from child to parent.
+struct Passage {
+  int joint;
+  bool up;
+};
+
+std::vector<int> joints_to_root(const Robot& robot, int link) {
+  std::vector<int> joints;
+  while (robot.links[static_cast<std::size_t>(link)].parent_joint >= 0) {
+    joints.push_back(robot.links[static_cast<std::size_t>(link)].parent_joint);
+    link = robot.joints[static_cast<std::size_t>(joints.back())].parent_link;
+  }
+  return joints;
+}
+
+std::vector<Passage> find_way(const Robot& robot, int from, int to) {
+  std::vector<int> up = joints_to_root(robot, from), down = joints_to_root(robot, to);
+  while (!up.empty() && !down.empty() && up.back() == down.back()) {
+    up.pop_back();
+    down.pop_back();
+  }
+  std::vector<Passage> way;
+  for (int joint : up) way.push_back({joint, true});
+  for (auto joint = down.rbegin(); joint != down.rend(); ++joint) way.push_back({*joint, false});
+  return way;
+}
+
+/// How far a prismatic joint can carry its child's origin away from where it is at 0.
+double travel(const Joint& joint) {
+  if (joint.kind != JointKind::prismatic) return 0;
+  return std::max(std::abs(joint.lower), std::abs(joint.upper));
+}
+
+/// Largest distance between the origins (child frames) of two consecutive joints of a way.
+double step_length(const Robot& robot, const Passage& here, const Passage& next) {
+  const Joint& a = robot.joints[static_cast<std::size_t>(here.joint)];
+  const Joint& b = robot.joints[static_cast<std::size_t>(next.joint)];
+  if (here.up && next.up) return a.origin.translation().norm() + travel(a);
+  if (!here.up) return b.origin.translation().norm() + travel(b);
+  return (a.origin.translation() - b.origin.translation()).norm() + travel(a) + travel(b);
+}
+
+}  // namespace
+
+Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double extent_m) {
+  const Robot& robot = chain.robot();
+  const std::vector<Passage> way = find_way(robot, fixed, moving);
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(chain.dof());
+  double reach = extent_m;
+  for (std::size_t at = way.size(); at-- > 0;) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(way[at].joint)];
+    if (at + 1 < way.size()) {
+      reach += step_length(robot, way[at], way[at + 1]);
+    } else if (way[at].up) {
+      reach += joint.origin.translation().norm() + travel(joint);
+    }
+    const bool follows = joint.mimic >= 0;
+    const int source = follows ? joint.mimic : way[at].joint;
+    for (int c = 0; c < chain.dof(); ++c) {
+      if (chain.joints()[static_cast<std::size_t>(c)] != source) continue;
+      const double rate = follows ? std::abs(joint.mimic_multiplier) : 1;
+      if (joint.kind == JointKind::revolute) bound[c] += rate * reach;
+      if (joint.kind == JointKind::prismatic) bound[c] += rate;
+    }
+  }
+  return bound;
+}
+
+}  // namespace sculpt

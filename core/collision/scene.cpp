@@ -1,0 +1,239 @@
+#include "core/collision/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/collision/body.hpp"
+#include "core/collision/fcl_shape.hpp"
+#include "core/collision/link_pairs.hpp"
+#include "core/collision/motion_bound.hpp"
+#include "core/collision/tool_sweep.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double link_margin_m = 2e-4;
+constexpr double tool_margin_voxels = 0.005;
+/// Intervals on which a body moves less than this and still is not certified count as touching.
+constexpr double finest_link_motion_m = 1e-4;
+
+/// Two bodies, or a body and the material (second = -1), that must stay apart.
+struct Pair {
+  int first, second;
+  Eigen::VectorXd speed_first,
+      speed_second;  // motion bounds of one seen from the other; either alone bounds their approach
+
+  double motion(const Eigen::VectorXd& joint_steps) const {
+    const double of_first = speed_first.dot(joint_steps);
+    return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
+  }
+};
+
+/// Farthest point of a body from its link's origin.
+double extent(const Body& body) {
+  return std::max(body.core.a.norm(), body.core.b.norm()) + body.core_radius_m;
+}
+
+Segment moved(const Frame& pose, const Segment& segment) {
+  return {pose * segment.a, pose * segment.b};
+}
+
+/// Half sides of the axis-aligned box around a placed sphere, box or cylinder.
+Vec3 half_extents(const Shape& shape, const Eigen::Matrix3d& turn) {
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return Vec3::Constant(shape.radius_m);
+    case ShapeKind::cylinder: {
+      const Vec3 axis = turn.col(2);
+      const Vec3 across = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+      return axis.cwiseAbs() * shape.length_m / 2 + across * shape.radius_m;
+    }
+    default:
+      return turn.cwiseAbs() * shape.sides_m / 2;
+  }
+}
+
+}  // namespace
+
+struct Scene::Impl {
+  Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
+      : chain(cell.chain()),
+        grid(where),
+        tool(make_tool(cell.tool, where.voxel_m)),
+        material(standing),
+        bodies(make_bodies(cell, tool)) {
+    add_pairs(cell);
+    const double h = grid.voxel_m;
+    tool_speed = motion_bound(chain, cell.stock_link, cell.tool_link, tool.stickout_m) / h;
+    radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
+    for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
+  }
+
+  void add_pairs(const Cell& cell) {
+    const std::vector<int> group = rigid_groups(cell.robot);
+    const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
+    const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
+    const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
+    const auto link_pairs = find_link_pairs(cell.robot);
+    const auto apart = [&](const Body& a, const Body& b) {
+      if (a.tool != b.tool) return group_of(a.tool ? b : a) != tool_group;
+      return !a.tool && std::binary_search(link_pairs.begin(), link_pairs.end(), std::make_pair(a.link, b.link));
+    };
+    for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
+      const Body& first = bodies[static_cast<std::size_t>(a)];
+      if (!first.tool && group_of(first) != stock_group)
+        pairs.push_back({a, -1, motion_bound(chain, cell.stock_link, first.link, extent(first)), {}});
+      for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
+        const Body& second = bodies[static_cast<std::size_t>(b)];
+        if (!apart(first, second)) continue;
+        Pair pair{a, b, motion_bound(chain, second.link, first.link, extent(first)),
+                  motion_bound(chain, first.link, second.link, extent(second))};
+        if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
+        pairs.push_back(std::move(pair));
+      }
+    }
+  }
+
+  ToolLine tool_line(const ToolPose& pose) const {
+    return {(pose.ball_m - grid.origin_m) / grid.voxel_m,
+            (pose.ball_m + tool.stickout_m * pose.axis - grid.origin_m) / grid.voxel_m};
+  }
+
+  bool near_material(const Body& body, const Frame& link_pose, double reach_m) const {
+    const Segment core = moved(link_pose, body.core);
+    const double side = grid.n * grid.voxel_m;
+    const Vec3 high = grid.origin_m + Vec3::Constant(side);
+    if (distance_to_box(core, grid.origin_m, high) > body.core_radius_m + reach_m) return false;
+    const Frame pose = link_pose * body.shape.pose;
+    const Vec3 half = half_extents(body.shape, pose.linear()) + Vec3::Constant(reach_m);
+    const Vec3 middle = pose.translation() - grid.origin_m;
+    const double h = grid.voxel_m;
+    std::shared_ptr<fcl::CollisionGeometryd> grown;
+    Frame fcl_pose = to_fcl(pose);
+    return material.any_block((middle - half) / h, (middle + half) / h, [&](Voxel corner, int size) {
+      if (!grown) grown = make_fcl_geometry(body.shape, reach_m);
+      const fcl::Boxd block(Vec3::Constant(fcl_mm * h * size));
+      Frame at = Frame::Identity();
+      at.translation() =
+          fcl_mm * (grid.origin_m + h * (Vec3(corner.i, corner.j, corner.k) + Vec3::Constant(size / 2.0)));
+      return fcl_touch(*grown, fcl_pose, block, at);
+    });
+  }
+
+  bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double reach_m) const {
+    const Segment core_a = moved(pose_a, a.core), core_b = moved(pose_b, b.core);
+    if (distance(core_a, core_b) > a.core_radius_m + b.core_radius_m + reach_m) return false;
+    for (const auto& [box, box_pose, other, core] : {std::tie(a, pose_a, b, core_b), std::tie(b, pose_b, a, core_a)}) {
+      if (box.shape.kind != ShapeKind::box) continue;
+      const Segment local = moved((box_pose * box.shape.pose).inverse(), core);
+      if (distance_to_box(local, -box.shape.sides_m / 2, box.shape.sides_m / 2) > other.core_radius_m + reach_m)
+        return false;
+    }
+    return fcl_touch(*make_fcl_geometry(a.shape, reach_m), to_fcl(pose_a * a.shape.pose),
+                     *make_fcl_geometry(b.shape, 0), to_fcl(pose_b * b.shape.pose));
+  }
+
+  bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const {
+    const Body& a = bodies[static_cast<std::size_t>(pair.first)];
+    const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
+    if (pair.second < 0) return near_material(a, pose_a, reach_m);
+    const Body& b = bodies[static_cast<std::size_t>(pair.second)];
+    return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
+  }
+
+  static Contact kind(const Pair& pair) { return pair.second < 0 ? Contact::link_material : Contact::link_link; }
+
+  /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
+  Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
+                        const std::vector<const Pair*>& open) const {
+    std::vector<Frame> at;
+    chain.link_poses(from + middle * step, at);
+    const Eigen::VectorXd joint_steps = half * step.cwiseAbs();
+    std::vector<const Pair*> left;
+    for (const Pair* pair : open) {
+      const double motion = pair->motion(joint_steps);
+      if (!near(*pair, at, motion + link_margin_m)) continue;
+      if (motion < finest_link_motion_m || near(*pair, at, link_margin_m)) return kind(*pair);
+      left.push_back(pair);
+    }
+    if (left.empty()) return Contact::none;
+    const Contact before = certify_links(from, step, middle - half / 2, half / 2, left);
+    if (before != Contact::none) return before;
+    return certify_links(from, step, middle + half / 2, half / 2, left);
+  }
+
+  /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
+  /// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
+  /// anywhere, so then the faster one does.
+  double tool_bend(const Configuration& step) const {
+    if (chain.translating()) return 0;
+    double sum = 0;
+    for (int i = 0; i < step.size(); ++i)
+      for (int j = 0; j <= i; ++j) {
+        const double speed = has_mimic ? std::max(tool_speed[i], tool_speed[j]) : tool_speed[i];
+        sum += (i == j ? 1 : 2) * std::abs(step[i] * step[j]) * speed;
+      }
+    return sum;
+  }
+
+  Chain chain;
+  Grid grid;
+  Tool tool;
+  Material material;
+  std::vector<Body> bodies;
+  std::vector<Pair> pairs;
+  Eigen::VectorXd tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
+  ToolRadii radii;             // voxel edges
+  bool has_mimic = false;
+};
+
+Scene::Scene(const Cell& cell, const Grid& grid, const VoxelSet& standing)
+    : impl_(std::make_unique<Impl>(cell, grid, standing)) {}
+Scene::~Scene() = default;
+
+const Chain& Scene::chain() const {
+  return impl_->chain;
+}
+const Grid& Scene::grid() const {
+  return impl_->grid;
+}
+const Tool& Scene::tool() const {
+  return impl_->tool;
+}
+const Material& Scene::material() const {
+  return impl_->material;
+}
+void Scene::remove(Voxel v) {
+  impl_->material.remove(v);
+}
+
+bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
+  const ToolLine line = impl_->tool_line(pose);
+  const Material& material = impl_->material;
+  if (material.meets_capsule({line.ball, line.ball}, impl_->radii.ball + tool_margin_voxels, exempt)) return false;
+  if (impl_->radii.shank <= 0) return true;
+  return !material.meets_capsule({line.ball, line.top}, impl_->radii.shank + tool_margin_voxels, exempt);
+}
+
+Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) const {
+  if (!impl_->chain.within_limits(q)) return Contact::limits;
+  if (!tool_fits(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
+  std::vector<Frame> at;
+  impl_->chain.link_poses(q, at);
+  for (const Pair& pair : impl_->pairs)
+    if (impl_->near(pair, at, link_margin_m)) return Impl::kind(pair);
+  return Contact::none;
+}
+
+Contact Scene::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
+  if (!impl_->chain.within_limits(from) || !impl_->chain.within_limits(to)) return Contact::limits;
+  const Configuration step = to - from;
+  const auto line_at = [&](double t) { return impl_->tool_line(impl_->chain.tool_pose(from + t * step)); };
+  if (!tool_sweep_is_free(impl_->material, line_at, impl_->tool_bend(step), impl_->radii, tool_margin_voxels, exempt))
+    return Contact::tool_material;
+  std::vector<const Pair*> open;
+  for (const Pair& pair : impl_->pairs) open.push_back(&pair);
+  return impl_->certify_links(from, step, 0.5, 0.5, open);
+}
+
+}  // namespace sculpt

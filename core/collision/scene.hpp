@@ -1,0 +1,47 @@
+// The cell with its material at one moment of the carving: is a configuration free, is an edge free all along.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/cell/cell.hpp"
+#include "core/collision/material.hpp"
+
+namespace sculpt {
+
+/// What a configuration or an edge runs into; `limits` = outside the joint limits.
+enum class Contact { none, limits, tool_material, link_material, link_link };
+
+/// Owns a copy of the cell's kinematics and shapes and of the standing material. Const calls are safe from one thread
+/// at a time (scratch space inside); make one scene a thread.
+class Scene {
+ public:
+  /// `cell` must outlive the scene.
+  Scene(const Cell& cell, const Grid& grid, const VoxelSet& standing);
+  ~Scene();
+
+  const Chain& chain() const;
+  const Grid& grid() const;
+  const Tool& tool() const;
+  const Material& material() const;
+  /// `v` stands no longer.
+  void remove(Voxel v);
+
+  /// Can the tool alone stand at `ball_m` with this axis (stock frame)? Exact for ball and shank against the material
+  /// but `exempt`.
+  bool tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const;
+
+  /// Contacts at q. The tool (not the links) may touch `exempt`.
+  Contact contact_at(const Configuration& q, std::optional<Voxel> exempt = {}) const;
+
+  /// Certifies the joint-linear edge from `from` to `to` at every point between, not at samples: `none` only if it is
+  /// free. May refuse an edge that passes closer than the margins (0.2 mm for links, 0.005 voxel for the tool). The
+  /// tool may touch `exempt`.
+  Contact certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt = {}) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,51 @@
+#include "core/collision/tool_sweep.hpp"
+
+#include <algorithm>
+
+namespace sculpt {
+namespace {
+
+/// Intervals whose tool moves less than this (voxel edges) and still is not certified count as touching.
+constexpr double finest_motion = 0.004;
+
+struct Sweep {
+  const Material& material;
+  const std::function<ToolLine(double)>& line_at;
+  double bend;
+  ToolRadii radii;  // margin included
+  std::optional<Voxel> exempt;
+
+  /// The path of a point over an interval of length w stays within bend w^2 / 8 of its chord.
+  bool is_free(double from, const ToolLine& start, double to, const ToolLine& end, bool ball_open,
+               bool shank_open) const {
+    const double width = to - from, middle = (from + to) / 2;
+    const ToolLine centre = line_at(middle);
+    const double chord_error = bend * width * width / 8;
+    if (ball_open) {
+      if (material.meets_capsule({centre.ball, centre.ball}, radii.ball, exempt)) return false;
+      ball_open = material.meets_capsule({start.ball, end.ball}, radii.ball + chord_error, exempt);
+    }
+    const double half_error = chord_error / 4;
+    const double motion = half_error + std::max({(start.ball - centre.ball).norm(), (end.ball - centre.ball).norm(),
+                                                 (start.top - centre.top).norm(), (end.top - centre.top).norm()});
+    if (shank_open) {
+      if (material.meets_capsule({centre.ball, centre.top}, radii.shank, exempt)) return false;
+      shank_open = material.meets_capsule({centre.ball, centre.top}, radii.shank + motion, exempt);
+    }
+    if (!ball_open && !shank_open) return true;
+    if (motion < finest_motion) return false;
+    return is_free(from, start, middle, centre, ball_open, shank_open) &&
+           is_free(middle, centre, to, end, ball_open, shank_open);
+  }
+};
+
+}  // namespace
+
+bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double bend,
+                        const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
+  const bool has_shank = radii.shank > 0;
+  const Sweep sweep{material, line_at, bend, {radii.ball + margin, radii.shank + margin}, exempt};
+  return sweep.is_free(0, line_at(0), 1, line_at(1), true, has_shank);
+}
+
+}  // namespace sculpt

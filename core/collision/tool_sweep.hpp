@@ -1,0 +1,28 @@
+// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the bend
+// between.
+#pragma once
+
+#include <functional>
+
+#include "core/cell/chain.hpp"
+#include "core/cell/tool.hpp"
+#include "core/collision/material.hpp"
+
+namespace sculpt {
+
+/// Ball's centre and the shank's other end, in voxel edges from the corner of voxel (0,0,0).
+struct ToolLine {
+  Vec3 ball, top;
+};
+
+/// Tool radii in voxel edges; shank 0 = none.
+struct ToolRadii {
+  double ball = 0, shank = 0;
+};
+
+/// `line_at(t)`: the tool at path parameter t in [0, 1]. `bend`: bound on the second derivative of any tool point by t,
+/// in voxel edges. True only if the tool stays clear of all material but `exempt` by `margin` (voxel edges) at every t.
+bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double bend,
+                        const ToolRadii& radii, double margin, std::optional<Voxel> exempt);
+
+}  // namespace sculpt
