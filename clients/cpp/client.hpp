@@ -1,0 +1,102 @@
+// A connection to sculptd, used one call at a time: what the command line needs, and a start for other C++ programs.
+//
+//   Client client("127.0.0.1:7878", "example/1.0");
+//   const std::string mesh = client.upload_file("david.stl");
+//   const Json job = client.call("job.submit", {{"spec", {{"mesh", {{"blob", mesh}, {"name", "david.stl"}}}, ...}}});
+//   client.read_artifact({job.at("job"), "trajectory"}, file);
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "proto/json.hpp"
+
+namespace sculpt {
+
+/// Nobody answers at the address, or the connection broke. The sentence names the address.
+class ServerUnreachable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The server answered with an error of the catalogue (proto/PROTOCOL.md section 6); what() is its sentence.
+class ServerError : public std::runtime_error {
+ public:
+  ServerError(std::string code, int number, bool retryable, std::string pointer, const std::string& sentence)
+      : std::runtime_error(sentence),
+        code_(std::move(code)),
+        number_(number),
+        retryable_(retryable),
+        pointer_(std::move(pointer)) {}
+  const std::string& code() const { return code_; }
+  int number() const { return number_; }
+  bool retryable() const { return retryable_; }
+  /// Place of the field to blame in the request, or empty.
+  const std::string& pointer() const { return pointer_; }
+
+ private:
+  std::string code_;
+  int number_;
+  bool retryable_;
+  std::string pointer_;
+};
+
+struct ArtifactRequest {
+  std::string job;
+  std::string artifact;            ///< trajectory, voxels, residue, report
+  std::string format = {};         ///< empty: the artifact's own
+  std::uint64_t offset = 0;        ///< where to go on
+  std::uint32_t chunk_bytes = 1 << 20;
+};
+
+/// Not shared between threads. Every method throws ServerUnreachable when the connection breaks and ServerError when the server refuses.
+class Client {
+ public:
+  /// Connects ("HOST:PORT", "[V6]:PORT") and says hello. `name` is for the server's log.
+  Client(const std::string& server, const std::string& name);
+  ~Client();
+
+  /// The reply to hello: server, epoch, features, limits.
+  const Json& hello() const { return hello_; }
+
+  /// Sends a request and waits for its result. Events that arrive meanwhile are kept for next_event.
+  Json call(const std::string& method, const Json& params = Json::object());
+
+  /// Uploads the content, unless the server has it, and returns its sha256. Goes on where an earlier upload stopped.
+  std::string upload(std::string_view bytes);
+  /// The same for a file. Throws std::runtime_error naming the path when it cannot be read.
+  std::string upload_file(const std::filesystem::path& path);
+
+  /// Writes the artifact from the offset to its end to `out` and returns the offset behind the last byte. Follows an artifact that still grows until
+  /// it is final or the job ended without it; `waiting` (if given) is called when it has caught up, and ends the reading by returning false.
+  /// When the connection breaks, `request.offset` plus what was written is the place to go on.
+  std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out, const std::function<bool()>& waiting = {});
+
+  /// Events of a job from behind `after` on (0 = all), to be read with next_event.
+  void subscribe(const std::string& job, std::uint64_t after = 0);
+  void unsubscribe(const std::string& job);
+  /// The params of the next event (job, type state|progress|live, seq?, data?). Waits for it; with a timeout returns nothing when none came in time.
+  std::optional<Json> next_event(std::optional<double> timeout_s = {});
+
+ private:
+  struct Line;
+  Line read_line(std::optional<double> timeout_s);
+  Json read_reply(std::int64_t id, std::string* chunk);
+  std::int64_t send(const std::string& method, const Json& params, std::string_view chunk, bool with_chunk);
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  Json hello_;
+  std::deque<Json> events_;
+  std::int64_t next_id_ = 1;
+};
+
+}  // namespace sculpt
