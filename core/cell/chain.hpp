@@ -15,8 +15,9 @@ struct ToolPose {
 };
 
 /// Forward kinematics in the stock frame (= the stock link's frame). Its coordinates are the independent joints on the path
-/// stock link -> tool link, in path order; mimic joints follow their source, all other movable joints stand at `rest` (their
-/// home value, else 0 clamped to their limits). Immutable after construction: safe to share between threads.
+/// stock link -> tool link, in path order; mimic joints follow their source (which is a coordinate even where it lies off the
+/// path), all other movable joints stand at `rest` (their home value, else 0 clamped to their limits). Immutable after
+/// construction: safe to share between threads.
 class Chain {
  public:
   /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the tool.
@@ -39,6 +40,8 @@ class Chain {
   ToolPose tool_pose(const Configuration& q) const;
   /// Rows 0-2: velocity of the ball's centre (m per unit of joint); rows 3-5: angular velocity of the tool (rad per unit). Stock frame. 6 x dof.
   Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(const Configuration& q) const;
+  /// Both at once; `jacobian` is resized where needed, so that a caller who keeps it pays no allocation.
+  ToolPose tool_pose(const Configuration& q, Eigen::Matrix<double, 6, Eigen::Dynamic>& jacobian) const;
 
   const Robot& robot() const { return *robot_; }
   int stock_link() const { return stock_link_; }
@@ -46,6 +49,20 @@ class Chain {
   double stickout_m() const { return stickout_m_; }
 
  private:
+  /// One moving joint on the path: `before` (everything fixed since the previous one), then a turn about or shift along z by
+  /// multiplier * q[coordinate] + offset. The joint's axis is turned onto z by the frames around it; joints on the stock side
+  /// are passed from child to parent, so their multiplier and offset are negated.
+  struct Step {
+    Frame before;
+    bool turns;
+    int coordinate;
+    double multiplier, offset;
+  };
+
+  void add_step(int joint, bool on_stock_side, Frame& fixed);
+  int add_coordinate(int joint);
+  double joint_value(std::size_t joint, const Configuration& q) const;
+
   const Robot* robot_;
   int stock_link_, tool_link_;
   double stickout_m_;
@@ -53,6 +70,9 @@ class Chain {
   std::vector<int> joints_;
   std::vector<int> coordinate_;  // per robot joint: its coordinate, or -1
   Configuration lower_, upper_;
+  std::vector<int> stock_path_;  // joints from the root to the stock link
+  std::vector<Step> steps_;
+  Frame last_ = Frame::Identity();  // from the last step's frame to the ball
 };
 
 }  // namespace sculpt
