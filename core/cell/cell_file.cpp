@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/cell/cell.hpp"
+
+namespace sculpt {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
+  throw InputError("cell_invalid",
+                   "cell file, " + (where.empty() ? std::string("top level") : where) + ": " + sentence);
+}
+
+/// One JSON value of the cell file and its JSON pointer; every read checks the type and names the place.
+class Field {
+ public:
+  Field(const json& value, std::string pointer) : value_(value), pointer_(std::move(pointer)) {}
+
+  /// Refuses anything but an object, and any field that is not in `known`.
+  void require_object(const std::vector<std::string>& known) const {
+    require(value_.is_object(), "an object");
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    for (const auto& [name, value] : value_.items()) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        refuse(pointer_ + "/" + name, "unknown field; known here: " + list);
+      }
+    }
+  }
+  bool has(const std::string& name) const { return value_.contains(name); }
+  Field at(const std::string& name) const {
+    if (!has(name)) refuse(pointer_ + "/" + name, "missing field");
+    return Field(value_.at(name), pointer_ + "/" + name);
+  }
+  std::string text() const {
+    require(value_.is_string() && !value_.get_ref<const std::string&>().empty(), "a text that is not empty");
+    return value_.get<std::string>();
+  }
+  double number() const {
+    require(value_.is_number(), "a number");
+    return value_.get<double>();
+  }
+  double number_from(double least) const {
+    const double number_here = number();
+    if (number_here < least) {
+      std::ostringstream limit;
+      limit << "must be at least " << least;
+      refuse(pointer_, limit.str());
+    }
+    return number_here;
+  }
+  Vec3 vector() const {
+    require(value_.is_array() && value_.size() == 3, "an array of three numbers");
+    Vec3 out;
+    for (std::size_t i = 0; i < 3; ++i)
+      out[static_cast<int>(i)] = Field(value_[i], pointer_ + "/" + std::to_string(i)).number();
+    return out;
+  }
+  std::vector<std::pair<std::string, Field>> members() const {
+    require(value_.is_object(), "an object");
+    std::vector<std::pair<std::string, Field>> out;
+    for (const auto& [name, value] : value_.items()) out.emplace_back(name, Field(value, pointer_ + "/" + name));
+    return out;
+  }
+  const std::string& pointer() const { return pointer_; }
+
+ private:
+  void require(bool good, const std::string& what) const {
+    if (!good) refuse(pointer_, "must be " + what + ", not " + value_.type_name());
+  }
+
+  const json& value_;
+  std::string pointer_;
+};
+
+json parse_json(const std::string& text) {
+  constexpr int deepest = 16;
+  const auto limit_depth = [](int depth, json::parse_event_t, json&) {
+    if (depth > deepest)
+      throw InputError("cell_invalid", "the cell file nests values more than 16 deep: it is no cell file");
+    return true;
+  };
+  try {
+    return json::parse(text, limit_depth);
+  } catch (const json::exception& error) {
+    // The library's sentence carries line and column.
+    throw InputError("cell_invalid", std::string("the cell file is not valid JSON: ") + error.what());
+  }
+}
+
+Field top_level(const json& document) {
+  Field top(document, "");
+  top.require_object({"name", "urdf", "packages", "stock", "tool", "home"});
+  return top;
+}
+
+std::string read_bytes(const fs::path& path, const std::string& what) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  std::error_code ignored;
+  if (!in || fs::is_directory(path, ignored) || !(bytes << in.rdbuf()).good()) {
+    throw InputError("file_missing",
+                     what + " '" + path.string() + "' cannot be read, or is empty: check the path and its permissions");
+  }
+  return bytes.str();
+}
+
+/// Folders that may be the ROS package `package`, best first.
+std::vector<fs::path> package_folders(const std::string& package, const fs::path& cell_folder, const fs::path& urdf,
+                                      const Field& top) {
+  std::vector<fs::path> folders;
+  if (top.has("packages")) {
+    for (const auto& [name, folder] : top.at("packages").members()) {
+      if (name == package) folders.push_back(cell_folder / folder.text());
+    }
+  }
+  for (fs::path above = fs::absolute(urdf).lexically_normal().parent_path(); above.has_relative_path();
+       above = above.parent_path()) {
+    if (above.filename() == package) folders.push_back(above);
+    folders.push_back(above / package);
+  }
+  if (const char* roots = std::getenv("ROS_PACKAGE_PATH")) {
+    std::istringstream list(roots);
+    for (std::string root; std::getline(list, root, ':');) {
+      if (root.empty()) continue;
+      if (fs::path(root).filename() == package) folders.emplace_back(root);
+      folders.push_back(fs::path(root) / package);
+    }
+  }
+  return folders;
+}
+
+fs::path find_mesh(const std::string& reference, const fs::path& cell_folder, const fs::path& urdf, const Field& top) {
+  const std::string package_scheme = "package://", file_scheme = "file://";
+  if (reference.starts_with(file_scheme)) return reference.substr(file_scheme.size());
+  if (!reference.starts_with(package_scheme)) return urdf.parent_path() / reference;
+  const std::string path = reference.substr(package_scheme.size());
+  const std::size_t slash = path.find('/');
+  const std::string package = path.substr(0, slash);
+  const std::string rest = slash == std::string::npos ? "" : path.substr(slash + 1);
+  for (const fs::path& folder : package_folders(package, cell_folder, urdf, top)) {
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / rest, ignored)) return folder / rest;
+  }
+  throw InputError("file_missing",
+                   "mesh '" + reference + "' was not found: add \"packages\": {\"" + package +
+                       "\": \"folder\"} to the cell file, or put the package's folder into ROS_PACKAGE_PATH");
+}
+
+int find_link(const Robot& robot, const Field& field) {
+  const std::string name = field.text();
+  const int link = robot.find_link(name);
+  if (link >= 0) return link;
+  std::string names;
+  for (const Link& each : robot.links) names += (names.empty() ? "" : ", ") + each.name;
+  refuse(field.pointer(), "the URDF has no link '" + name + "'; its links are: " + names);
+}
+
+/// Reads one radius, given either in voxels or in metres.
+double read_radius(const Field& tool, const std::string& part, bool in_voxels) {
+  const std::string name = part + (in_voxels ? "_radius_voxels" : "_radius_m");
+  return tool.has(name) ? tool.at(name).number_from(0) : 0;
+}
+
+ToolSpec parse_tool(const Field& field) {
+  field.require_object(
+      {"link", "stickout_m", "ball_radius_voxels", "shank_radius_voxels", "ball_radius_m", "shank_radius_m"});
+  ToolSpec tool;
+  tool.in_voxels = field.has("ball_radius_voxels");
+  const std::string other = tool.in_voxels ? "_radius_m" : "_radius_voxels";
+  for (const std::string part : {"ball", "shank"}) {
+    if (field.has(part + other) && (field.has("ball_radius_voxels") || field.has("ball_radius_m"))) {
+      refuse(field.pointer() + "/" + part + other,
+             "give the radii of ball and shank either both in voxels or both in metres");
+    }
+  }
+  if (!tool.in_voxels && !field.has("ball_radius_m")) {
+    refuse(field.pointer(), "missing field: give ball_radius_voxels or ball_radius_m");
+  }
+  tool.ball_radius = read_radius(field, "ball", tool.in_voxels);
+  tool.shank_radius = read_radius(field, "shank", tool.in_voxels);
+  tool.stickout_m = field.has("stickout_m") ? field.at("stickout_m").number_from(0) : 0;
+  if (tool.ball_radius <= 0) refuse(field.pointer(), "the ball's radius must be above 0");
+  if (tool.shank_radius > tool.ball_radius) refuse(field.pointer(), "the shank must not be thicker than the ball");
+  return tool;
+}
+
+/// Every joint of the robot: the value the cell file gives, else 0 as far as its limits allow.
+std::vector<double> parse_home(const Robot& robot, const Field& top) {
+  std::vector<double> rest;
+  for (const Joint& joint : robot.joints) {
+    rest.push_back(joint.kind == JointKind::fixed ? 0.0 : std::clamp(0.0, joint.lower, joint.upper));
+  }
+  for (const auto& [name, value] : top.at("home").members()) {
+    const int index = robot.find_joint(name);
+    if (index < 0) refuse(value.pointer(), "the URDF has no such joint");
+    const Joint& joint = robot.joints[static_cast<std::size_t>(index)];
+    if (joint.kind == JointKind::fixed) refuse(value.pointer(), "this joint is fixed: leave it out");
+    if (joint.mimic >= 0) {
+      refuse(value.pointer(),
+             "this joint follows '" + robot.joints[static_cast<std::size_t>(joint.mimic)].name + "': give that one");
+    }
+    const double q = value.number();
+    if (q < joint.lower || q > joint.upper) {
+      std::ostringstream text;
+      text << q << " is outside the joint's limits of " << joint.lower << " to " << joint.upper;
+      refuse(value.pointer(), text.str());
+    }
+    rest[static_cast<std::size_t>(index)] = q;
+  }
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (joint.mimic >= 0)
+      rest[j] = joint.mimic_multiplier * rest[static_cast<std::size_t>(joint.mimic)] + joint.mimic_offset;
+  }
+  return rest;
+}
+
+const std::string& file_named(const CellFiles& files, const std::string& name) {
+  const auto at = files.files.find(name);
+  if (at == files.files.end())
+    throw InputError("file_missing", "'" + name + "' did not come with the cell: send it along");
+  return at->second;
+}
+
+}  // namespace
+
+Configuration Cell::home(const Chain& chain) const {
+  Configuration q(chain.dof());
+  for (int c = 0; c < chain.dof(); ++c)
+    q[c] = rest[static_cast<std::size_t>(chain.joints()[static_cast<std::size_t>(c)])];
+  return q;
+}
+
+fs::path find_cell(const std::string& cell, const std::vector<fs::path>& folders) {
+  if (cell.find('/') != std::string::npos || cell.ends_with(".json")) return cell;
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / (cell + ".json"), ignored)) return folder / (cell + ".json");
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw InputError("cell_unknown", "there is no cell '" + cell + "'; known cells: " + (list.empty() ? "none" : list) +
+                                       "; or give the path of a cell file (with a '/' or ending in .json)");
+}
+
+CellFiles read_cell_files(const fs::path& path) {
+  CellFiles files;
+  files.name = path.stem().string();
+  files.cell_json = read_bytes(path, "cell file");
+  const json document = parse_json(files.cell_json);
+  const Field top = top_level(document);
+  const std::string urdf_name = top.at("urdf").text();
+  const fs::path urdf = path.parent_path() / urdf_name;
+  files.files[urdf_name] = read_bytes(urdf, "the cell's URDF");
+  // Parsing is what knows which meshes there are.
+  parse_urdf(files.files[urdf_name], [&](const std::string& reference) {
+    return files.files[reference] = read_bytes(find_mesh(reference, path.parent_path(), urdf, top), "mesh");
+  });
+  return files;
+}
+
+Cell parse_cell(const CellFiles& files) {
+  const json document = parse_json(files.cell_json);
+  const Field top = top_level(document);
+  Cell cell;
+  cell.name = top.has("name") ? top.at("name").text() : files.name;
+  if (top.has("packages")) {
+    for (const auto& [package, folder] : top.at("packages").members()) folder.text();
+  }
+  const Field stock = top.at("stock"), tool = top.at("tool");
+  stock.require_object({"link", "size_m", "origin_m"});
+  cell.stock_size_m = stock.at("size_m").number_from(1e-6);
+  cell.stock_origin_m = stock.at("origin_m").vector();
+  cell.tool = parse_tool(tool);
+  const std::string urdf_name = top.at("urdf").text();
+  cell.robot = parse_urdf(file_named(files, urdf_name),
+                          [&](const std::string& reference) { return file_named(files, reference); });
+  cell.stock_link = find_link(cell.robot, stock.at("link"));
+  cell.tool_link = find_link(cell.robot, tool.at("link"));
+  cell.rest = parse_home(cell.robot, top);
+  cell.chain();  // refuses a cell in which nothing moves the tool
+  return cell;
+}
+
+}  // namespace sculpt
