@@ -14,12 +14,11 @@ namespace {
 
 constexpr double link_margin_m = 2e-4;
 constexpr double tool_margin_voxels = 0.005;
-/// Intervals on which a body moves less than this and still is not certified count as touching.
-constexpr double finest_link_motion_m = 1e-4;
 
 /// Two bodies, or a body and the material (second = -1), that must stay apart.
 struct Pair {
   int first, second;
+  double margin_m;  // kept between the two; intervals on which they move less than half of it are not split further
   Eigen::VectorXd speed_first,
       speed_second;  // motion bounds of one seen from the other; either alone bounds their approach
 
@@ -82,11 +81,12 @@ struct Scene::Impl {
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
       const Body& first = bodies[static_cast<std::size_t>(a)];
       if (!first.tool && group_of(first) != stock_group)
-        pairs.push_back({a, -1, motion_bound(chain, cell.stock_link, first.link, extent(first)), {}});
+        pairs.push_back({a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, extent(first)), {}});
       for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
         const Body& second = bodies[static_cast<std::size_t>(b)];
         if (!apart(first, second)) continue;
-        Pair pair{a, b, motion_bound(chain, second.link, first.link, extent(first)),
+        const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
+        Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, extent(first)),
                   motion_bound(chain, first.link, second.link, extent(second))};
         if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
         pairs.push_back(std::move(pair));
@@ -97,6 +97,12 @@ struct Scene::Impl {
   ToolLine tool_line(const ToolPose& pose) const {
     return {(pose.ball_m - grid.origin_m) / grid.voxel_m,
             (pose.ball_m + tool.stickout_m * pose.axis - grid.origin_m) / grid.voxel_m};
+  }
+
+  bool tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const {
+    const ToolLine line = tool_line(pose);
+    if (material.meets_capsule({line.ball, line.ball}, radii.ball + tool_margin_voxels, exempt)) return true;
+    return radii.shank > 0 && material.meets_capsule({line.ball, line.top}, radii.shank + tool_margin_voxels, exempt);
   }
 
   bool near_material(const Body& body, const Frame& link_pose, double reach_m) const {
@@ -152,8 +158,8 @@ struct Scene::Impl {
     std::vector<const Pair*> left;
     for (const Pair* pair : open) {
       const double motion = pair->motion(joint_steps);
-      if (!near(*pair, at, motion + link_margin_m)) continue;
-      if (motion < finest_link_motion_m || near(*pair, at, link_margin_m)) return kind(*pair);
+      if (!near(*pair, at, motion + pair->margin_m)) continue;
+      if (motion < pair->margin_m / 2 || near(*pair, at, pair->margin_m)) return kind(*pair);
       left.push_back(pair);
     }
     if (left.empty()) return Contact::none;
@@ -209,19 +215,17 @@ void Scene::remove(Voxel v) {
 
 bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   const ToolLine line = impl_->tool_line(pose);
-  const Material& material = impl_->material;
-  if (material.meets_capsule({line.ball, line.ball}, impl_->radii.ball + tool_margin_voxels, exempt)) return false;
-  if (impl_->radii.shank <= 0) return true;
-  return !material.meets_capsule({line.ball, line.top}, impl_->radii.shank + tool_margin_voxels, exempt);
+  const double radius = std::max(impl_->radii.ball, impl_->radii.shank) + tool_margin_voxels;
+  return !impl_->material.meets_capsule({line.ball, line.top}, radius, exempt);
 }
 
 Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(q)) return Contact::limits;
-  if (!tool_fits(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
+  if (impl_->tool_meets_material(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
   for (const Pair& pair : impl_->pairs)
-    if (impl_->near(pair, at, link_margin_m)) return Impl::kind(pair);
+    if (impl_->near(pair, at, pair.margin_m)) return Impl::kind(pair);
   return Contact::none;
 }
 

@@ -10,6 +10,7 @@
 #include "core/cell/cell.hpp"
 #include "core/material/placement.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/motion/residue.hpp"
 
 namespace sculpt {
 
@@ -22,29 +23,23 @@ struct MeshFile {
 
 /// What is clamped at the start: the whole grid, or a box of it, or a mesh in the same frame as the placed target.
 struct Stock {
-  struct Box { Vec3 min_m, max_m; };  ///< metres from the corner of voxel (0,0,0)
+  struct Box {
+    Vec3 min_m, max_m;
+  };  ///< metres from the corner of voxel (0,0,0)
   std::optional<Box> box;
-  std::optional<MeshFile> mesh;       ///< metres from the corner of voxel (0,0,0); or a .binvox of the same resolution
+  std::optional<MeshFile> mesh;  ///< metres from the corner of voxel (0,0,0); or a .binvox of the same resolution
 };
 
 struct Job {
   MeshFile mesh;
   CellFiles cell;
-  int resolution = 0;                  ///< power of two, 8 to 1024
+  int resolution = 0;  ///< power of two, 8 to 1024
   std::string search = "octree";
   std::uint64_t seed = 0;
-  int threads = 1;                     ///< the plan is the same at any number
+  int threads = 1;  ///< the plan is the same at any number
   Placement placement;
   Stock stock;
   std::uint64_t memory_cap_bytes = 2ull << 30;
-};
-
-enum class Reason { enclosed, tool_cannot_reach, out_of_reach, joint_limits, link_collision, no_transit, loose_piece };
-const char* name(Reason reason);  ///< "enclosed", "tool cannot reach", "out of reach", "joint limits", "link collision", "no transit", "would free a loose piece"
-
-struct Residue {
-  Voxel voxel;
-  Reason reason;
 };
 
 /// The figures of `sculpt report` (DESIGN section 5). Seconds are wall time.
@@ -52,15 +47,27 @@ struct Report {
   std::string mesh, robot, search;
   std::uint64_t seed = 0;
   int resolution = 0, threads = 1;
-  struct { std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0; } voxels;
+  struct {
+    std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0;
+  } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
-  struct { std::uint64_t leaves = 0, remove_leaves = 0; } octree;
-  struct { std::uint64_t keyframes = 0, rows = 0, transits = 0; double cut_m = 0, travel_m = 0, joint_travel_rad = 0; } path;
-  struct { double load = 0, voxelize = 0, octree = 0, plan = 0, verify = 0, total = 0; } seconds;
+  struct {
+    std::uint64_t leaves = 0, remove_leaves = 0;
+  } octree;
+  struct {
+    std::uint64_t keyframes = 0, rows = 0, transits = 0;
+    double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
+  } path;
+  struct {
+    double load = 0, voxelize = 0, octree = 0, plan = 0, verify = 0, total = 0;
+  } seconds;
   std::uint64_t peak_memory_bytes = 0;
   std::string plan_sha256;
-  struct { bool clean = false; std::uint64_t collisions = 0, voxels_checked = 0; } verify;
-  std::vector<std::string> findings;   ///< first sentences of an unclean replay
+  struct {
+    bool clean = false;
+    std::uint64_t collisions = 0, voxels_checked = 0;
+  } verify;
+  std::vector<std::string> findings;  ///< first sentences of an unclean replay
 };
 
 struct JobResult {
@@ -70,15 +77,17 @@ struct JobResult {
   std::vector<Residue> residue;
 };
 
-/// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite, a solid at a coarse grid), predicted
-/// memory, stock within reach of the chain. Takes well under a second for usual meshes. Throws InputError.
+/// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
+/// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual
+/// meshes. Throws InputError.
 void check_job(const Job& job, const Watch& watch);
 
 /// Mesh (or .binvox) to labelled voxels; used by planning, `voxelize` and `verify FILE`. Throws InputError, Cancelled.
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
 
-/// Plans, writing trajectory lines to `trajectory` as they become final (flushed at least once per block), then verifies the written file.
-/// Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error. Any thread; several jobs may run at once.
+/// Plans, writing trajectory lines to `trajectory` as they become final (flushed at least once per block), then
+/// verifies the written file. Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error.
+/// Any thread; several jobs may run at once.
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch);
 
 /// The report as the JSON object of DESIGN section 5, without "job" and "state", which the server adds; one line.

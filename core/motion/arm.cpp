@@ -1,0 +1,212 @@
+#include "core/motion/arm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "core/motion/line.hpp"
+#include "core/motion/random_configuration.hpp"
+#include "core/motion/tool_axes.hpp"
+#include "core/motion/transit.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t most_hubs = 12;
+/// Attempts by effort: configurations to start IK from, and iterations of RRTConnect.
+constexpr int random_seeds[] = {3, 10, 30};
+constexpr int rrt_iterations[] = {150, 600, 3000};
+
+/// A path walked backwards.
+std::vector<Configuration> reversed(std::vector<Configuration> path) {
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace
+
+Arm::Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit)
+    : scene_(scene),
+      home_(home),
+      seed_(seed),
+      stop_(std::move(stop)),
+      emit_(std::move(emit)),
+      axes_(tool_axes()),
+      q_(home) {
+  const int n = scene.grid().n;
+  at_ = {n / 2, n / 2, n - 1};
+  trail_ = {home};
+}
+
+bool Arm::fits(Voxel voxel, std::size_t axis) const {
+  return scene_.tool_fits({centre(voxel), axes_[axis]}, voxel);
+}
+
+Vec3 Arm::outside(const Vec3& ball_m, const Vec3& axis) const {
+  const Grid& grid = scene_.grid();
+  const double clear = scene_.tool().ball_radius_m + 0.3 * grid.voxel_m, side = grid.n * grid.voxel_m;
+  double shortest = std::numeric_limits<double>::max();
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(axis[i]) < 1e-9) continue;
+    const double face = axis[i] > 0 ? side + clear : -clear;
+    shortest = std::min(shortest, (grid.origin_m[i] + face - ball_m[i]) / axis[i]);
+  }
+  return ball_m + std::max(0.0, shortest) * axis;
+}
+
+Vec3 Arm::beside(Voxel voxel, const Vec3& axis) const {
+  // A ball of radius below h/2 is clear of the cube once its centre is h (straight) or 1.4 h (tilted: half a diagonal
+  // and the radius) away.
+  const double distance = axis.cwiseAbs().maxCoeff() > 1 - 1e-9 ? 1.0 : 1.4;
+  return centre(voxel) + distance * scene_.grid().voxel_m * axis;
+}
+
+bool Arm::cut_neighbour(Voxel voxel) {
+  if (outside_ || l1(voxel, at_) != 1 || !fits(voxel, axis_)) return false;
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[axis_]}, q_);
+  if (!q || scene_.certify(q_, *q, voxel) != Contact::none) return false;
+  commit({}, *q, voxel);
+  return true;
+}
+
+bool Arm::cut_after_hop(Voxel voxel) {
+  if (outside_ || !fits(voxel, axis_)) return false;
+  const double h = scene_.grid().voxel_m;
+  for (int lift = 1; lift <= 2 * scene_.grid().n; lift *= 2)
+    if (hop(voxel, lift * h)) return true;
+  return false;
+}
+
+bool Arm::hop(Voxel voxel, double lift_m) {
+  const Vec3& axis = axes_[axis_];
+  const Vec3 here = scene_.chain().tool_pose(q_).ball_m, there = centre(voxel);
+  const double height = std::max(here.dot(axis), there.dot(axis)) + lift_m;
+  const Vec3 above_here = here + (height - here.dot(axis)) * axis,
+             above_there = there + (height - there.dot(axis)) * axis;
+  const int samples = 1 + static_cast<int>(2 * (above_there - above_here).norm() / scene_.grid().voxel_m);
+  for (int s = 0; s <= samples; ++s)
+    if (!scene_.tool_fits({above_here + s * (above_there - above_here) / samples, axis}, {})) return false;
+
+  Path path{q_};
+  for (const Vec3& ball : {above_here, above_there, beside(voxel, axis)}) {
+    const auto piece = track_line(scene_, path.back(), ball, axis);
+    if (!piece) return false;
+    path.insert(path.end(), piece->begin(), piece->end());
+  }
+  const auto q = solve_rounded(scene_.chain(), {there, axis}, path.back());
+  if (!q || scene_.certify(path.back(), *q, voxel) != Contact::none) return false;
+  commit(shorten(scene_, path), *q, voxel);
+  return true;
+}
+
+const Arm::Path& Arm::way_out() {
+  if (!way_out_.empty()) return way_out_;
+  way_out_ = {q_};
+  if (outside_) return way_out_;
+  const auto path = track_line(scene_, q_, outside(scene_.chain().tool_pose(q_).ball_m, axes_[axis_]), axes_[axis_]);
+  if (path) {
+    way_out_.insert(way_out_.end(), path->begin(), path->end());
+  } else {
+    way_out_ = shorten(scene_, reversed({trail_.begin() + static_cast<std::ptrdiff_t>(last_outside_), trail_.end()}));
+  }
+  return way_out_;
+}
+
+std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int effort) {
+  std::vector<Configuration> seeds;
+  if (axis == axis_) seeds.push_back(q_);
+  Path hubs = hubs_[axis];
+  const Vec3 ball = outside(centre(voxel), axes_[axis]);
+  const auto distance = [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); };
+  std::stable_sort(hubs.begin(), hubs.end(),
+                   [&](const Configuration& a, const Configuration& b) { return distance(a) < distance(b); });
+  const std::size_t most = effort == 0 ? 3 : most_hubs;
+  for (std::size_t i = 0; i < std::min(most, hubs.size()); ++i) seeds.push_back(hubs[i]);
+  seeds.push_back(home_);
+  Random random(mix(seed_, mix(scene_.material().solid().index(voxel), axis + 64 * static_cast<std::size_t>(effort))));
+  for (int i = 0; i < random_seeds[effort]; ++i) seeds.push_back(random_configuration(scene_.chain(), random));
+  return seeds;
+}
+
+std::optional<Arm::Entry> Arm::find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const {
+  const Vec3& direction = axes_[axis];
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), direction}, seed);
+  if (!q || scene_.contact_at(*q, voxel) != Contact::none) return {};
+  const auto first = solve_rounded(scene_.chain(), {beside(voxel, direction), direction}, *q);
+  if (!first || scene_.certify(*first, *q, voxel) != Contact::none) return {};
+  const auto rest = track_line(scene_, *first, outside(centre(voxel), direction), direction);
+  if (!rest) return {};
+  Path path{*first};
+  path.insert(path.end(), rest->begin(), rest->end());
+  return Entry{reversed(std::move(path)), *q};
+}
+
+bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
+  if (!fits(voxel, axis)) return false;
+  int failures = 0;
+  for (const Configuration& seed : entry_seeds(voxel, axis, effort)) {
+    if (stop_.stop_requested()) throw Cancelled{};
+    const auto entry = find_entry(voxel, axis, seed);
+    if (!entry) continue;
+    const Configuration& hub = entry->from_outside.front();
+    const Path& out = way_out();
+    const Path across = plan_transit(scene_, out.back(), hub, mix(seed_, queries_++), stop_, {rrt_iterations[effort]});
+    if (across.empty()) {
+      if (++failures > 1 + 2 * effort) return false;
+      continue;
+    }
+    Path& hubs = hubs_[axis];
+    if (hubs.size() < most_hubs) hubs.push_back(hub);
+    Path to_hub(out);
+    to_hub.insert(to_hub.end(), across.begin() + 1, across.end());
+    move(shorten(scene_, to_hub));
+    last_outside_ = trail_.size() - 1;
+    axis_ = axis;
+    commit(shorten(scene_, entry->from_outside), entry->cut, voxel);
+    return true;
+  }
+  return false;
+}
+
+void Arm::move(const Path& moves) {
+  for (const Configuration& q : moves) {
+    if (q == q_) continue;
+    emit_({q, false, {}, {}});
+    trail_.push_back(q);
+    q_ = q;
+  }
+}
+
+void Arm::commit(const Path& moves, const Configuration& cut, Voxel voxel) {
+  move(moves);
+  emit_({cut, true, voxel, voxel});
+  trail_.push_back(cut);
+  scene_.remove(voxel);
+  last_step_ = voxel - at_;
+  at_ = voxel;
+  q_ = cut;
+  outside_ = false;
+  way_out_.clear();
+}
+
+void Arm::go_home() {
+  if (q_ == home_) return;
+  Path path = way_out();
+  Path across;
+  for (int iterations : rrt_iterations)
+    if (across.empty()) across = plan_transit(scene_, path.back(), home_, mix(seed_, queries_++), stop_, {iterations});
+  if (stop_.stop_requested()) throw Cancelled{};
+  if (across.empty()) {
+    path = reversed(trail_);
+  } else {
+    path.insert(path.end(), across.begin() + 1, across.end());
+  }
+  move(shorten(scene_, path));
+  outside_ = true;
+  way_out_.clear();
+  trail_ = {home_};
+  last_outside_ = 0;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,81 @@
+// The manipulator at work: where it stands, how it comes to the next voxel, and what it has done so far.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <stop_token>
+
+#include "core/collision/scene.hpp"
+#include "core/trajectory/trajectory.hpp"
+
+namespace sculpt {
+
+/// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:
+/// cut edges are free in both directions once their voxel is gone. Single-threaded; the same calls give the same
+/// keyframes.
+class Arm {
+ public:
+  using Emit = std::function<void(const Keyframe&)>;
+
+  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut.
+  Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit);
+
+  /// The voxel whose centre the ball stands at (or stood at before it left the stock).
+  Voxel at() const { return at_; }
+  /// The step that led to `at` from the voxel cut before it.
+  Voxel last_step() const { return last_step_; }
+  const Scene& scene() const { return scene_; }
+  const std::vector<Vec3>& axes() const { return axes_; }
+
+  /// Could the tool come down `axis` to the voxel, as far as material goes?
+  bool fits(Voxel voxel, std::size_t axis) const;
+
+  /// Cuts a voxel next to this one with the axis as it is. False, and nothing done, if that edge is not free.
+  bool cut_neighbour(Voxel voxel);
+  /// Cuts a voxel after lifting the tool along its axis just far enough, moving across and coming down again.
+  bool cut_after_hop(Voxel voxel);
+  /// Cuts a voxel from another direction: leaves the stock, moves freely (OMPL where the direct edge is not free),
+  /// comes in along `axis`.
+  bool cut_after_transit(Voxel voxel, std::size_t axis, int effort);
+
+  /// Leaves the stock and goes home.
+  void go_home();
+
+ private:
+  using Path = std::vector<Configuration>;
+  struct Entry {
+    Path from_outside;  // first: clear of the stock; last: beside the voxel
+    Configuration cut;
+  };
+
+  Vec3 centre(Voxel voxel) const { return scene_.grid().centre(voxel); }
+  /// Ball position on the line from the voxel along the axis where the whole tool is outside the grid's cube.
+  Vec3 outside(const Vec3& ball_m, const Vec3& axis) const;
+  /// Ball position before the cut: on the same line, just clear of the voxel.
+  Vec3 beside(Voxel voxel, const Vec3& axis) const;
+  bool hop(Voxel voxel, double lift_m);
+  /// From where the arm stands to outside the stock, both included; never fails.
+  const Path& way_out();
+  std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort);
+  std::optional<Entry> find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const;
+  void commit(const Path& moves, const Configuration& cut, Voxel voxel);
+  void move(const Path& moves);
+
+  Scene& scene_;
+  Configuration home_;
+  std::uint64_t seed_, queries_ = 0;
+  std::stop_token stop_;
+  Emit emit_;
+  std::vector<Vec3> axes_;
+
+  Configuration q_;
+  Voxel at_, last_step_;
+  std::size_t axis_ = 0;
+  bool outside_ = true;               // stands clear of the stock
+  Path way_out_;                      // cached; empty = not known
+  Path trail_;                        // every keyframe since home, home first: walked backwards it is free for ever
+  std::size_t last_outside_ = 0;      // where on the trail the arm last stood outside the stock
+  std::map<std::size_t, Path> hubs_;  // per axis: configurations outside the stock that entries came from
+};
+
+}  // namespace sculpt

@@ -1,0 +1,81 @@
+#include "core/motion/residue.hpp"
+
+#include <algorithm>
+
+#include "core/base/random.hpp"
+#include "core/cell/ik.hpp"
+#include "core/material/cavities.hpp"
+#include "core/motion/random_configuration.hpp"
+#include "core/motion/tool_axes.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int seeds_an_axis = 8;
+
+/// The farthest that a tool axis gets at this voxel, from these starting points of IK.
+Reason explain_axis(const Scene& scene, Voxel voxel, const Vec3& axis, const std::vector<Configuration>& seeds) {
+  const Vec3 ball = scene.grid().centre(voxel);
+  if (!scene.tool_fits({ball, axis}, voxel)) return Reason::tool_cannot_reach;
+  Reason farthest = Reason::out_of_reach;
+  for (const Configuration& seed : seeds) {
+    if (const auto q = solve_ik(scene.chain(), {ball, axis}, seed)) {
+      if (scene.contact_at(*q, voxel) == Contact::none) return Reason::no_transit;
+      farthest = Reason::link_collision;
+    } else if (farthest == Reason::out_of_reach) {
+      IkSettings beyond_limits;
+      beyond_limits.respect_limits = false;
+      if (solve_ik(scene.chain(), {ball, axis}, seed, beyond_limits)) farthest = Reason::joint_limits;
+    }
+  }
+  return farthest;
+}
+
+Reason explain(const Scene& scene, Voxel voxel, std::uint64_t seed) {
+  Random random(mix(seed, scene.material().solid().index(voxel)));
+  std::vector<Configuration> seeds;
+  for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
+  Reason farthest = Reason::tool_cannot_reach;
+  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, voxel, axis, seeds));
+  return farthest;
+}
+
+}  // namespace
+
+const char* name(Reason reason) {
+  switch (reason) {
+    case Reason::enclosed:
+      return "enclosed";
+    case Reason::tool_cannot_reach:
+      return "tool cannot reach";
+    case Reason::out_of_reach:
+      return "out of reach";
+    case Reason::joint_limits:
+      return "joint limits";
+    case Reason::link_collision:
+      return "link collision";
+    case Reason::no_transit:
+      return "no transit";
+    case Reason::loose_piece:
+      return "would free a loose piece";
+  }
+  return "unknown";
+}
+
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
+                                     const Watch& watch) {
+  const VoxelSet enclosed = find_enclosed(voxels);
+  std::vector<Residue> residue;
+  const int n = voxels.n();
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const Voxel v{i, j, k};
+        if (!scene.material().contains(v) || voxels.label(v) != Label::remove) continue;
+        if (watch.stop.stop_requested()) throw Cancelled{};
+        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, v, seed)});
+      }
+  return residue;
+}
+
+}  // namespace sculpt

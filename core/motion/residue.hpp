@@ -1,0 +1,29 @@
+// Why a voxel was left.
+#pragma once
+
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
+#include "core/material/voxel_grid.hpp"
+
+namespace sculpt {
+
+enum class Reason { enclosed, tool_cannot_reach, out_of_reach, joint_limits, link_collision, no_transit, loose_piece };
+
+/// "enclosed", "tool cannot reach", "out of reach", "joint limits", "link collision", "no transit", "would free a loose
+/// piece".
+const char* name(Reason reason);
+
+struct Residue {
+  Voxel voxel;
+  Reason reason;
+};
+
+/// The remove voxels of `voxels` that still stand in `scene`, in index order, each with the first condition that no
+/// tool axis meets in the final state: joined to the outside; a free way down for the tool; a configuration at all; one
+/// within limits; one without contact. What meets all of them was left for want of a transit. Throws Cancelled.
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
+                                     const Watch& watch);
+
+}  // namespace sculpt

@@ -1,0 +1,128 @@
+// Job -> checked inputs: what can be refused before any planning, and mesh -> labelled voxels.
+#include <bit>
+
+#include "core/cell/ik.hpp"
+#include "core/material/binvox.hpp"
+#include "core/material/voxelize.hpp"
+#include "core/motion/random_configuration.hpp"
+#include "core/plan/plan.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int smallest_resolution = 8, largest_resolution = 1024;
+/// Per voxel: bit sets of stock, keep and standing material, their pyramid of counts, and the search's own marks.
+constexpr double bytes_a_voxel = 1.6;
+constexpr int coarse_resolution = 32;
+constexpr int reach_seeds = 24;
+
+void check_resolution(int n) {
+  if (n < smallest_resolution || n > largest_resolution || !std::has_single_bit(static_cast<unsigned>(n)))
+    throw InputError(
+        "resolution_invalid",
+        "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");
+}
+
+std::string mib(double bytes) {
+  return std::to_string(static_cast<std::uint64_t>(bytes / (1 << 20)) + 1) + " MiB";
+}
+
+void check_memory(const Job& job) {
+  const double n = job.resolution;
+  double bytes = bytes_a_voxel * n * n * n;
+  if (job.mesh.extension != "binvox")
+    bytes += static_cast<double>(predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
+  if (bytes > static_cast<double>(job.memory_cap_bytes))
+    throw InputError("memory_cap",
+                     "the job needs about " + mib(bytes) + ", over the cap of " +
+                         mib(static_cast<double>(job.memory_cap_bytes)) +
+                         ": use a mesh with fewer triangles, a smaller resolution, or raise the memory cap");
+}
+
+VoxelSet read_voxels(const MeshFile& file, int n) {
+  VoxelSet voxels = read_binvox(file.bytes);
+  if (voxels.n() != n)
+    throw InputError("resolution_invalid", "'" + file.name + "' holds " + std::to_string(voxels.n()) +
+                                               "^3 voxels, the job asks for " + std::to_string(n) +
+                                               "^3: pass --resolution " + std::to_string(voxels.n()));
+  return voxels;
+}
+
+VoxelSet make_target(const Job& job, const Grid& grid, const Watch& watch) {
+  if (job.mesh.extension == "binvox") return read_voxels(job.mesh, grid.n);
+  const Mesh mesh = load_mesh(job.mesh.bytes, job.mesh.extension, job.memory_cap_bytes, watch);
+  watch.step(Stage::load, 1, 1);
+  return voxelize(place_mesh(mesh, job.placement, grid), grid, watch);
+}
+
+VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
+  VoxelSet voxels(grid.n);
+  for (int k = 0; k < grid.n; ++k)
+    for (int j = 0; j < grid.n; ++j)
+      for (int i = 0; i < grid.n; ++i) {
+        const Vec3 centre = grid.centre({i, j, k}) - grid.origin_m;
+        if ((centre.array() >= box.min_m.array()).all() && (centre.array() <= box.max_m.array()).all())
+          voxels.insert({i, j, k});
+      }
+  if (voxels.size() == 0)
+    throw InputError("stock_empty",
+                     "the stock box holds no voxel centre of the grid: give min and max in metres from the corner of "
+                     "the grid, min below max");
+  return voxels;
+}
+
+VoxelSet make_stock(const Job& job, const Grid& grid, const Watch& watch) {
+  if (job.stock.box) return box_voxels(*job.stock.box, grid);
+  if (!job.stock.mesh) return VoxelSet(grid.n, true);
+  if (job.stock.mesh->extension == "binvox") return read_voxels(*job.stock.mesh, grid.n);
+  Mesh mesh = load_mesh(job.stock.mesh->bytes, job.stock.mesh->extension, job.memory_cap_bytes, watch);
+  for (Vec3& vertex : mesh.vertices) vertex += grid.origin_m;
+  return voxelize(mesh, grid, watch);
+}
+
+/// Can the ball come to any of 27 points of the stock, with whatever axis?
+void check_reach(const Cell& cell, const Grid& grid) {
+  const Chain chain = cell.chain();
+  Random random(1);
+  double nearest = std::numeric_limits<double>::max();
+  std::vector<Configuration> seeds{cell.home(chain)};
+  for (int i = 1; i < reach_seeds; ++i) seeds.push_back(random_configuration(chain, random));
+  for (int k : {0, grid.n / 2, grid.n - 1})
+    for (int j : {0, grid.n / 2, grid.n - 1})
+      for (int i : {0, grid.n / 2, grid.n - 1})
+        for (const Configuration& seed : seeds) {
+          if (solve_ik(chain, {grid.centre({i, j, k}), {}}, seed)) return;
+          nearest = std::min(nearest, (chain.tool_pose(seed).ball_m - grid.centre({i, j, k})).norm());
+        }
+  throw InputError("stock_out_of_reach", "cell '" + cell.name + "': the tool reaches no point of the stock at '" +
+                                             cell.robot.links[static_cast<std::size_t>(cell.stock_link)].name +
+                                             "' (nearest try " + std::to_string(nearest) +
+                                             " m away): move the stock or the robot in the cell file");
+}
+
+}  // namespace
+
+VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
+  VoxelGrid voxels{make_stock(job, grid, watch), make_target(job, grid, watch)};
+  for (std::size_t w = 0; w < voxels.keep.words().size(); ++w) voxels.keep.words()[w] &= voxels.stock.words()[w];
+  return voxels;
+}
+
+void check_job(const Job& job, const Watch& watch) {
+  check_resolution(job.resolution);
+  if (job.search != "octree")
+    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree");
+  if (job.threads < 1)
+    throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
+  check_memory(job);
+  const Cell cell = parse_cell(job.cell);
+  const Grid grid = cell.grid(job.resolution);
+  make_tool(cell.tool, grid.voxel_m);
+  check_reach(cell, grid);
+  Job coarse = job;
+  if (job.mesh.extension != "binvox" && !(job.stock.mesh && job.stock.mesh->extension == "binvox"))
+    coarse.resolution = std::min(job.resolution, coarse_resolution);
+  make_voxels(coarse, cell.grid(coarse.resolution), watch);
+}
+
+}  // namespace sculpt

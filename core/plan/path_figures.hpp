@@ -1,0 +1,29 @@
+// Keyframes -> the path figures of the report.
+#pragma once
+
+#include "core/cell/chain.hpp"
+#include "core/trajectory/trajectory.hpp"
+
+namespace sculpt {
+
+/// Counts as keyframes pass by. A row is a straight run of cuts one voxel after the other, a transit an unbroken series
+/// of moves; lengths are chords of the ball's path between keyframes (m), joint travel sums over revolute joints (rad).
+class PathFigures {
+ public:
+  PathFigures(const Chain& chain, const Configuration& home)
+      : chain_(chain), q_(home), ball_(chain.tool_pose(home).ball_m) {}
+
+  void add(const Keyframe& keyframe);
+
+  std::uint64_t keyframes = 0, rows = 0, transits = 0, removed = 0;
+  double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
+
+ private:
+  const Chain& chain_;
+  Configuration q_;
+  Vec3 ball_;
+  bool cutting_ = false, moving_ = false;
+  Voxel last_, along_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,193 @@
+#include "core/plan/plan.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "core/material/octree.hpp"
+#include "core/motion/block_carve.hpp"
+#include "core/motion/gantry.hpp"
+#include "core/plan/path_figures.hpp"
+#include "core/verify/verify.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int most_effort = 2;
+constexpr double tolerance_voxels = 0.02;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// The trajectory file as it grows, and the figures of what was written.
+class Output {
+ public:
+  Output(const std::filesystem::path& path, const TrajectoryHeader& header, const Chain& chain)
+      : file_(path, std::ios::binary | std::ios::trunc), writer_(file_, header), figures_(chain, header.home) {
+    check(path);
+    file_.flush();
+  }
+
+  void add(const Keyframe& keyframe) {
+    writer_.add(keyframe);
+    figures_.add(keyframe);
+  }
+  void flush() { file_.flush(); }
+  TrajectoryEnd finish(const std::filesystem::path& path) {
+    const TrajectoryEnd end = writer_.finish();
+    file_.flush();
+    check(path);
+    return end;
+  }
+  const PathFigures& figures() const { return figures_; }
+
+ private:
+  void check(const std::filesystem::path& path) const {
+    if (!file_)
+      throw InputError("file_unwritable",
+                       "cannot write '" + path.string() + "': check the folder, its rights and the free space");
+  }
+
+  std::ofstream file_;
+  TrajectoryWriter writer_;
+  PathFigures figures_;
+};
+
+void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
+                       const Configuration& home, Output& output, const Watch& watch) {
+  Gantry gantry(scene, home, translating_entry(octree.n), [&](const Keyframe& keyframe) { output.add(keyframe); });
+  carve_translating(
+      voxels, octree, graph, [&](const VoxelRun& run) { gantry.follow(run); }, watch);
+  gantry.go_home();
+}
+
+void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph, const Configuration& home,
+                    std::uint64_t seed, Output& output, const Watch& watch) {
+  Arm arm(scene, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
+  const auto try_block = [&](int block, int effort) {
+    const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
+    if (trial.removed > 0) output.flush();
+    return trial;
+  };
+  order_blocks(octree, graph, arm.at(), most_effort, try_block, watch);
+  arm.go_home();
+}
+
+TrajectoryHeader make_header(const Job& job, const Cell& cell, const Chain& chain, const Grid& grid) {
+  TrajectoryHeader header;
+  header.joints = chain.names();
+  header.home = rounded(cell.home(chain));
+  header.grid = grid;
+  header.tool = make_tool(cell.tool, grid.voxel_m);
+  header.tolerance_m = tolerance_voxels * grid.voxel_m;
+  header.cell = cell.name;
+  header.search = job.search;
+  header.seed = job.seed;
+  return header;
+}
+
+void count_voxels(Report& report, const VoxelGrid& voxels, const Octree& octree) {
+  const auto n = static_cast<std::uint64_t>(voxels.n());
+  const std::uint64_t stock = voxels.stock.size();
+  report.voxels.total = n * n * n;
+  report.voxels.air = report.voxels.total - stock;
+  report.voxels.keep = voxels.keep.size();
+  report.voxels.remove = stock - report.voxels.keep;
+  report.octree.leaves = octree.leaves.size();
+  for (const Block& block : octree.leaves)
+    if (block.label == Label::remove) ++report.octree.remove_leaves;
+}
+
+void count_path(Report& report, const PathFigures& figures) {
+  report.path = {figures.keyframes, figures.rows,     figures.transits,
+                 figures.cut_m,     figures.travel_m, figures.joint_travel_rad};
+  report.voxels.removed = figures.removed;
+}
+
+void count_residue(Report& report, const std::vector<Residue>& residue) {
+  report.voxels.residue = residue.size();
+  std::map<Reason, std::uint64_t> counts;
+  for (const Residue& left : residue) ++counts[left.reason];
+  report.residue.assign(counts.begin(), counts.end());
+}
+
+void replay(Report& report, const std::filesystem::path& trajectory, const Cell& cell, const VoxelGrid& voxels,
+            const Watch& watch) {
+  std::ifstream in(trajectory, std::ios::binary);
+  const Verdict verdict = verify_trajectory(in, cell, voxels, watch);
+  report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
+  for (const Finding& finding : verdict.findings)
+    report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
+}
+
+}  // namespace
+
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
+  const Stopwatch total;
+  JobResult result;
+  Report& report = result.report;
+  report.mesh = job.mesh.name;
+  report.robot = job.cell.name;
+  report.search = job.search;
+  report.seed = job.seed;
+  report.resolution = job.resolution;
+  report.threads = job.threads;
+
+  Stopwatch load;
+  watch.step(Stage::load, 0, 1);
+  check_job(job, watch);
+  const Cell cell = parse_cell(job.cell);
+  result.grid = cell.grid(job.resolution);
+  report.seconds.load = load.seconds();
+
+  Stopwatch voxelizing;
+  result.voxels = make_voxels(job, result.grid, watch);
+  report.seconds.voxelize = voxelizing.seconds();
+
+  Stopwatch building;
+  const Octree octree = build_octree(result.voxels, watch);
+  const BlockGraph graph = build_block_graph(octree, watch);
+  count_voxels(report, result.voxels, octree);
+  report.seconds.octree = building.seconds();
+
+  Stopwatch planning;
+  Scene scene(cell, result.grid, result.voxels.stock);
+  const Chain& chain = scene.chain();
+  const TrajectoryHeader header = make_header(job, cell, chain, result.grid);
+  if (scene.contact_at(header.home) != Contact::none)
+    throw InputError(
+        "cell_invalid",
+        "cell '" + cell.name +
+            "': home touches the stock, the room or the robot itself: choose a home clear of the full stock");
+  Output output(trajectory, header, chain);
+  if (chain.translating())
+    carve_with_gantry(scene, result.voxels, octree, graph, header.home, output, watch);
+  else
+    carve_with_arm(scene, octree, graph, header.home, job.seed, output, watch);
+  report.plan_sha256 = output.finish(trajectory).sha256;
+  count_path(report, output.figures());
+  result.residue = explain_residue(scene, result.voxels, job.seed, watch);
+  count_residue(report, result.residue);
+  report.seconds.plan = planning.seconds();
+
+  Stopwatch verifying;
+  replay(report, trajectory, cell, result.voxels, watch);
+  report.seconds.verify = verifying.seconds();
+  report.seconds.total = total.seconds();
+  report.peak_memory_bytes = peak_memory_bytes();
+  return result;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,61 @@
+#include <nlohmann/json.hpp>
+
+#include "core/plan/plan.hpp"
+
+namespace sculpt {
+
+std::string report_json(const Report& report) {
+  using Json = nlohmann::ordered_json;
+  Json residue = Json::array();
+  for (const auto& [reason, voxels] : report.residue) residue.push_back({{"reason", name(reason)}, {"voxels", voxels}});
+  const auto& v = report.voxels;
+  const auto& p = report.path;
+  const auto& s = report.seconds;
+  const Json json{{"mesh", report.mesh},
+                  {"robot", report.robot},
+                  {"search", report.search},
+                  {"seed", report.seed},
+                  {"resolution", report.resolution},
+                  {"voxels",
+                   {{"total", v.total},
+                    {"air", v.air},
+                    {"keep", v.keep},
+                    {"remove", v.remove},
+                    {"removed", v.removed},
+                    {"residue", v.residue}}},
+                  {"residue", residue},
+                  {"octree", {{"leaves", report.octree.leaves}, {"remove_leaves", report.octree.remove_leaves}}},
+                  {"path",
+                   {{"keyframes", p.keyframes},
+                    {"rows", p.rows},
+                    {"transits", p.transits},
+                    {"cut_m", p.cut_m},
+                    {"travel_m", p.travel_m},
+                    {"joint_travel_rad", p.joint_travel_rad}}},
+                  {"seconds",
+                   {{"load", s.load},
+                    {"voxelize", s.voxelize},
+                    {"octree", s.octree},
+                    {"plan", s.plan},
+                    {"verify", s.verify},
+                    {"total", s.total}}},
+                  {"peak_memory_bytes", report.peak_memory_bytes},
+                  {"threads", report.threads},
+                  {"plan_sha256", report.plan_sha256},
+                  {"verify",
+                   {{"clean", report.verify.clean},
+                    {"collisions", report.verify.collisions},
+                    {"voxels_checked", report.verify.voxels_checked},
+                    {"findings", report.findings}}}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string residue_ndjson(const std::vector<Residue>& residue) {
+  std::string text;
+  for (const Residue& left : residue)
+    text += "{\"voxel\":[" + std::to_string(left.voxel.i) + "," + std::to_string(left.voxel.j) + "," +
+            std::to_string(left.voxel.k) + "],\"reason\":\"" + name(left.reason) + "\"}\n";
+  return text;
+}
+
+}  // namespace sculpt

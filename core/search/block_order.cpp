@@ -1,0 +1,111 @@
+#include "core/search/block_order.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace sculpt {
+namespace {
+
+int gap(int x, int low, int size) {
+  return x < low ? low - x : std::max(0, x - (low + size - 1));
+}
+
+int l1_to_block(Voxel at, const Block& block) {
+  return gap(at.i, block.corner.i, block.size) + gap(at.j, block.corner.j, block.size) +
+         gap(at.k, block.corner.k, block.size);
+}
+
+bool touches_outside(const Block& block, int n) {
+  const auto at_side = [&](int low) { return low == 0 || low + block.size == n; };
+  return at_side(block.corner.i) || at_side(block.corner.j) || block.corner.k + block.size == n;
+}
+
+class Order {
+ public:
+  Order(const Octree& octree, const BlockGraph& graph, Voxel start) : octree_(octree), graph_(graph), at_(start) {
+    const std::size_t count = octree.leaves.size();
+    left_.resize(count, 0);
+    for (std::size_t b = 0; b < count; ++b) {
+      const Block& block = octree.leaves[b];
+      if (block.label == Label::remove) left_[b] = static_cast<std::uint64_t>(block.size) * block.size * block.size;
+      total_ += left_[b];
+    }
+    for (std::size_t b = 0; b < count; ++b)
+      if (left_[b] > 0 && has_open_face(static_cast<int>(b))) open_.insert(static_cast<int>(b));
+  }
+
+  void run(int most_effort, const TryBlock& try_block, const Watch& watch) {
+    int effort = 0;
+    std::uint64_t done_at_pass = 0;
+    while (true) {
+      while (!open_.empty()) {
+        watch.step(Stage::plan, done_, total_);
+        try_one(try_block, effort);
+      }
+      if (aside_.empty()) return;
+      if (done_ == done_at_pass && ++effort > most_effort) return;
+      done_at_pass = done_;
+      open_.swap(aside_);
+    }
+  }
+
+ private:
+  bool has_open_face(int block) const {
+    if (touches_outside(octree_.leaves[static_cast<std::size_t>(block)], octree_.n)) return true;
+    const auto near = graph_.of(block);
+    return std::any_of(near.begin(), near.end(),
+                       [&](std::uint32_t b) { return octree_.leaves[b].label != Label::keep && left_[b] < volume(b); });
+  }
+
+  std::uint64_t volume(std::uint32_t b) const {
+    const Block& block = octree_.leaves[b];
+    return block.label == Label::air ? 1 : static_cast<std::uint64_t>(block.size) * block.size * block.size;
+  }
+
+  int best() const {
+    int chosen = -1;
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (int b : open_) {
+      const auto at = static_cast<std::size_t>(b);
+      const auto h = static_cast<std::int64_t>(total_ - done_ - left_[at]) + l1_to_block(at_, octree_.leaves[at]);
+      if (h < least) {
+        least = h;
+        chosen = b;
+      }
+    }
+    return chosen;
+  }
+
+  void try_one(const TryBlock& try_block, int effort) {
+    const int block = best();
+    open_.erase(block);
+    const BlockTrial trial = try_block(block, effort);
+    if (trial.left > 0) aside_.insert(block);
+    if (trial.removed == 0) return;
+    done_ += static_cast<std::uint64_t>(trial.removed);
+    left_[static_cast<std::size_t>(block)] = static_cast<std::uint64_t>(trial.left);
+    at_ = trial.at;
+    for (std::uint32_t b : graph_.of(block)) {
+      if (left_[b] == 0 || octree_.leaves[b].label != Label::remove) continue;
+      aside_.erase(static_cast<int>(b));
+      open_.insert(static_cast<int>(b));
+    }
+  }
+
+  const Octree& octree_;
+  const BlockGraph& graph_;
+  Voxel at_;
+  std::vector<std::uint64_t> left_;  // per block: remove voxels still standing
+  std::uint64_t total_ = 0, done_ = 0;
+  std::set<int> open_, aside_;  // ids with voxels left: to be tried, and tried without full success
+};
+
+}  // namespace
+
+void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int most_effort,
+                  const TryBlock& try_block, const Watch& watch) {
+  Order(octree, graph, start).run(most_effort, try_block, watch);
+}
+
+}  // namespace sculpt
