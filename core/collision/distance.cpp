@@ -1,7 +1,6 @@
 #include "core/collision/distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace sculpt {
@@ -45,38 +44,31 @@ double distance(const Segment& first, const Segment& second) {
 }
 
 double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high) {
-  // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): piecewise linear
-  // and rising, with corners where a coordinate passes a face. The minimum is where that slope passes zero.
+  // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): rising and linear
+  // between the corners where a coordinate passes a face. Corners narrow [from, to] around the point where the slope
+  // passes zero.
   const Vec3 d = segment.b - segment.a;
-  std::array<double, 8> corners{0, 1};
-  std::size_t count = 2;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (d[axis] == 0) continue;
-    for (double face : {low[axis], high[axis]}) {
-      const double t = (face - segment.a[axis]) / d[axis];
-      if (t > 0 && t < 1) corners[count++] = t;
-    }
-  }
-  std::sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count));
   const auto slope = [&](double t) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) sum += d[axis] * excess(segment.a[axis] + t * d[axis], low[axis], high[axis]);
     return sum;
   };
-  double best = 1;
-  double previous = 0, previous_slope = slope(0);
-  if (previous_slope >= 0) {
-    best = 0;
-  } else {
-    for (std::size_t at = 1; at < count; ++at) {
-      const double here = slope(corners[at]);
-      if (here >= 0) {
-        best = previous + (corners[at] - previous) * previous_slope / (previous_slope - here);
-        break;
+  double from = 0, to = 1, slope_from = slope(0), slope_to = slope(1);
+  double best = 0;
+  if (slope_from < 0 && slope_to <= 0) {
+    best = 1;
+  } else if (slope_from < 0) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (d[axis] == 0) continue;
+      for (double face : {low[axis], high[axis]}) {
+        const double t = (face - segment.a[axis]) / d[axis];
+        if (t <= from || t >= to) continue;
+        const double here = slope(t);
+        (here < 0 ? from : to) = t;
+        (here < 0 ? slope_from : slope_to) = here;
       }
-      previous = corners[at];
-      previous_slope = here;
     }
+    best = from + (to - from) * slope_from / (slope_from - slope_to);
   }
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {

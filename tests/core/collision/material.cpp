@@ -1,0 +1,109 @@
+#include "core/collision/material.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+
+namespace sculpt {
+namespace {
+
+VoxelSet random_voxels(int n, double share, Random& random) {
+  VoxelSet voxels(n);
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        if (random.unit() < share) voxels.insert({i, j, k});
+  return voxels;
+}
+
+bool meets_by_brute_force(const VoxelSet& voxels, const Segment& segment, double radius, std::optional<Voxel> exempt) {
+  for (int k = 0; k < voxels.n(); ++k)
+    for (int j = 0; j < voxels.n(); ++j)
+      for (int i = 0; i < voxels.n(); ++i) {
+        const Voxel v{i, j, k};
+        if (!voxels.contains(v) || exempt == v) continue;
+        if (distance_to_box(segment, Vec3(i, j, k), Vec3(i + 1, j + 1, k + 1)) < radius) return true;
+      }
+  return false;
+}
+
+TEST(Material, CapsuleMeetsExactlyWhatBruteForceFinds) {
+  int met = 0;
+  constexpr int cases = 4000;
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const VoxelSet voxels = random_voxels(8, random.between(0, 0.06), random);
+    const Material material(voxels);
+    const auto point = [&] { return Vec3(random.between(-2, 10), random.between(-2, 10), random.between(-2, 10)); };
+    Segment segment{point(), point()};
+    if (seed % 3 == 0) segment.b = segment.a + Vec3::Unit(static_cast<int>(seed / 3 % 3)) * random.between(-8, 8);
+    if (seed % 7 == 0) segment.b = segment.a;
+    const double radius = random.between(0.05, 1.6);
+    const Voxel exempt{static_cast<int>(random.next() % 8), static_cast<int>(random.next() % 8),
+                       static_cast<int>(random.next() % 8)};
+    const bool expected = meets_by_brute_force(voxels, segment, radius, exempt);
+    EXPECT_EQ(material.meets_capsule(segment, radius, exempt), expected);
+    met += expected;
+  }
+  EXPECT_GT(met, cases / 10) << "the cases must hold hits and misses";
+  EXPECT_LT(met, cases * 9 / 10);
+}
+
+TEST(Material, ABallOf045FitsAOneVoxelSlotAndOneOf051DoesNot) {
+  VoxelSet voxels(8, true);
+  for (int k = 0; k < 8; ++k) voxels.erase({3, 3, k});
+  const Material material(voxels);
+  const Segment column{{3.5, 3.5, 0.5}, {3.5, 3.5, 20}};
+  EXPECT_FALSE(material.meets_capsule(column, 0.45, {}));
+  EXPECT_TRUE(material.meets_capsule(column, 0.51, {}));
+}
+
+TEST(Material, BlocksOverlappingABoxCoverExactlyItsStandingVoxels) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const int n = 16;
+    Material material(random_voxels(n, seed % 2 == 0 ? 0.95 : 0.3, random));
+    for (int r = 0; r < 200; ++r)
+      material.remove({static_cast<int>(random.next() % n), static_cast<int>(random.next() % n),
+                       static_cast<int>(random.next() % n)});
+    const Vec3 low(random.between(-2, 14), random.between(-2, 14), random.between(-2, 14));
+    const Vec3 high = low + Vec3(random.between(0, 6), random.between(0, 6), random.between(0, 6));
+    VoxelSet seen(n);
+    material.any_block(low, high, [&](Voxel corner, int size) {
+      for (int k = 0; k < size; ++k)
+        for (int j = 0; j < size; ++j)
+          for (int i = 0; i < size; ++i) {
+            const Voxel v = corner + Voxel{i, j, k};
+            EXPECT_TRUE(material.contains(v));
+            EXPECT_FALSE(seen.contains(v)) << "visited twice";
+            seen.insert(v);
+          }
+      return false;
+    });
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const bool overlaps =
+              i < high.x() && j < high.y() && k < high.z() && i + 1 > low.x() && j + 1 > low.y() && k + 1 > low.z();
+          if (overlaps && material.contains({i, j, k})) {
+            EXPECT_TRUE(seen.contains({i, j, k})) << i << " " << j << " " << k;
+          }
+        }
+  }
+}
+
+TEST(Material, VisitingStopsAtTheFirstTrue) {
+  const Material material(VoxelSet(8, true));
+  int visits = 0;
+  EXPECT_TRUE(material.any_block({0, 0, 0}, {8, 8, 8}, [&](Voxel, int size) {
+    ++visits;
+    EXPECT_EQ(size, 8) << "a full cube is one block";
+    return true;
+  }));
+  EXPECT_EQ(visits, 1);
+}
+
+}  // namespace
+}  // namespace sculpt
