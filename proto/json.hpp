@@ -20,8 +20,9 @@ class JsonError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws JsonError for anything but one value: syntax, deeper than max_json_depth, duplicate keys, numbers out of range, NUL in a string.
-/// The depth is checked before parsing, because nlohmann's own recursion overflows the stack when it writes such a value again.
+/// Throws JsonError for anything but one value: syntax, deeper than max_json_depth, duplicate keys, numbers out of
+/// range, NUL in a string. The depth is checked before parsing, because nlohmann's own recursion overflows the stack
+/// when it writes such a value again.
 Json parse_json(std::string_view text);
 
 /// One line; bytes that are not UTF-8 become U+FFFD.

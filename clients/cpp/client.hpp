@@ -51,13 +51,14 @@ class ServerError : public std::runtime_error {
 
 struct ArtifactRequest {
   std::string job;
-  std::string artifact;            ///< trajectory, voxels, residue, report
-  std::string format = {};         ///< empty: the artifact's own
-  std::uint64_t offset = 0;        ///< where to go on
+  std::string artifact;      ///< trajectory, voxels, residue, report
+  std::string format = {};   ///< empty: the artifact's own
+  std::uint64_t offset = 0;  ///< where to go on
   std::uint32_t chunk_bytes = 1 << 20;
 };
 
-/// Not shared between threads. Every method throws ServerUnreachable when the connection breaks and ServerError when the server refuses.
+/// Not shared between threads. Every method throws ServerUnreachable when the connection breaks and ServerError when
+/// the server refuses.
 class Client {
  public:
   /// Connects ("HOST:PORT", "[V6]:PORT") and says hello. `name` is for the server's log.
@@ -75,15 +76,18 @@ class Client {
   /// The same for a file. Throws std::runtime_error naming the path when it cannot be read.
   std::string upload_file(const std::filesystem::path& path);
 
-  /// Writes the artifact from the offset to its end to `out` and returns the offset behind the last byte. Follows an artifact that still grows until
-  /// it is final or the job ended without it; `waiting` (if given) is called when it has caught up, and ends the reading by returning false.
-  /// When the connection breaks, `request.offset` plus what was written is the place to go on.
-  std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out, const std::function<bool()>& waiting = {});
+  /// Writes the artifact from the offset to its end to `out` and returns the offset behind the last byte. Follows an
+  /// artifact that still grows until it is final or the job ended without it; `waiting` (if given) is called when it
+  /// has caught up, and ends the reading by returning false. When the connection breaks, `request.offset` plus what was
+  /// written is the place to go on.
+  std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out,
+                              const std::function<bool()>& waiting = {});
 
   /// Events of a job from behind `after` on (0 = all), to be read with next_event.
   void subscribe(const std::string& job, std::uint64_t after = 0);
   void unsubscribe(const std::string& job);
-  /// The params of the next event (job, type state|progress|live, seq?, data?). Waits for it; with a timeout returns nothing when none came in time.
+  /// The params of the next event (job, type state|progress|live, seq?, data?). Waits for it; with a timeout returns
+  /// nothing when none came in time.
   std::optional<Json> next_event(std::optional<double> timeout_s = {});
 
  private:

@@ -1,0 +1,113 @@
+#include "proto/job_spec.hpp"
+
+#include <limits>
+
+namespace sculpt {
+namespace {
+
+constexpr double huge = 1e6;  // metres or radians: beyond this a value is surely a mistake
+constexpr int max_threads = 256;
+constexpr std::size_t max_name_bytes = 200;
+
+BlobRef read_blob_ref(Fields fields) {
+  BlobRef ref{fields.sha256("blob"), fields.text("name", max_name_bytes)};
+  fields.done();
+  return ref;
+}
+
+Json to_json(const BlobRef& ref) {
+  return {{"blob", ref.sha256}, {"name", ref.name}};
+}
+
+// A name, not a path: it is looked up among the server's own files.
+std::string read_cell_name(Fields& fields) {
+  std::string name = fields.text("robot", max_name_bytes);
+  if (name.find_first_of("/\\") != std::string::npos || name.front() == '.' || name.ends_with(".json")) {
+    fields.refuse(
+        "robot",
+        "must be the plain name of a cell on the server (see server.info); send a cell of your own as a bundle");
+  }
+  return name;
+}
+
+std::string read_cell_ref(Fields robot) {
+  Fields cell = robot.object("cell");
+  std::string hash = cell.sha256("blob");
+  cell.done();
+  robot.done();
+  return hash;
+}
+
+PlacementSpec read_placement(Fields fields) {
+  PlacementSpec placement;
+  if (fields.has("scale_m")) placement.scale_m = fields.number("scale_m", std::numeric_limits<double>::min(), huge);
+  if (fields.has("rotation_rad")) placement.rotation_rad = fields.triple("rotation_rad");
+  if (fields.has("offset_m")) placement.offset_m = fields.triple("offset_m");
+  if (fields.has("margin_m")) placement.margin_m = fields.number("margin_m", 0, huge);
+  fields.done();
+  return placement;
+}
+
+Json to_json(const PlacementSpec& placement) {
+  const PlacementSpec plain;
+  Json json = Json::object();
+  if (placement.scale_m) json["scale_m"] = *placement.scale_m;
+  if (placement.rotation_rad != plain.rotation_rad) json["rotation_rad"] = placement.rotation_rad;
+  if (placement.offset_m != plain.offset_m) json["offset_m"] = placement.offset_m;
+  if (placement.margin_m != plain.margin_m) json["margin_m"] = placement.margin_m;
+  return json;
+}
+
+BoxSpec read_box(Fields fields) {
+  BoxSpec box{fields.triple("min_m"), fields.triple("max_m")};
+  fields.done();
+  return box;
+}
+
+void read_stock(Fields fields, JobSpec& spec) {
+  if (fields.has("box")) spec.stock_box = read_box(fields.object("box"));
+  if (fields.has("mesh")) spec.stock_mesh = read_blob_ref(fields.object("mesh"));
+  fields.done();
+  if (spec.stock_box.has_value() == spec.stock_mesh.has_value()) {
+    fields.refuse("box", "or mesh must be there, and not both");
+  }
+}
+
+}  // namespace
+
+JobSpec read_job_spec(Fields fields) {
+  JobSpec spec;
+  spec.mesh = read_blob_ref(fields.object("mesh"));
+  if (fields.value("robot").is_object()) {
+    spec.cell_bundle = read_cell_ref(fields.object("robot"));
+  } else {
+    spec.robot = read_cell_name(fields);
+  }
+  // Whether the number makes sense is the planner's to say (`resolution_invalid`).
+  spec.resolution = fields.integer("resolution", std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+  if (fields.has("search")) spec.search = fields.text("search", max_name_bytes);
+  if (fields.has("seed")) spec.seed = fields.count("seed");
+  if (fields.has("threads")) spec.threads = static_cast<int>(fields.integer("threads", 1, max_threads));
+  if (fields.has("placement")) spec.placement = read_placement(fields.object("placement"));
+  if (fields.has("stock")) read_stock(fields.object("stock"), spec);
+  fields.done();
+  return spec;
+}
+
+Json to_json(const JobSpec& spec) {
+  Json json;
+  json["mesh"] = to_json(spec.mesh);
+  json["robot"] = spec.cell_bundle.empty() ? Json(spec.robot) : Json{{"cell", {{"blob", spec.cell_bundle}}}};
+  json["resolution"] = spec.resolution;
+  if (spec.search) json["search"] = *spec.search;
+  if (spec.seed != 0) json["seed"] = spec.seed;
+  if (spec.threads) json["threads"] = *spec.threads;
+  if (Json placement = to_json(spec.placement); !placement.empty()) json["placement"] = std::move(placement);
+  if (spec.stock_box) {
+    json["stock"] = Json{{"box", {{"min_m", spec.stock_box->min_m}, {"max_m", spec.stock_box->max_m}}}};
+  }
+  if (spec.stock_mesh) json["stock"] = Json{{"mesh", to_json(*spec.stock_mesh)}};
+  return json;
+}
+
+}  // namespace sculpt

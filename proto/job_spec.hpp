@@ -1,0 +1,49 @@
+// What is to be planned, as it stands in job.submit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "proto/fields.hpp"
+
+namespace sculpt {
+
+struct BlobRef {
+  std::string sha256;
+  std::string name;  ///< file name of the client; its extension says what the blob is
+};
+
+/// Metres and radians; meaning as in core/material/placement.hpp.
+struct PlacementSpec {
+  std::optional<double> scale_m;
+  std::array<double, 3> rotation_rad{};
+  std::array<double, 3> offset_m{};
+  double margin_m = 0;
+};
+
+struct BoxSpec {
+  std::array<double, 3> min_m{}, max_m{};
+};
+
+struct JobSpec {
+  BlobRef mesh;
+  std::string robot;        ///< name of a cell on the server; empty if `cell_bundle` is set
+  std::string cell_bundle;  ///< hash of a cell bundle; empty if `robot` is set
+  std::int64_t resolution = 0;
+  std::optional<std::string> search;
+  std::uint64_t seed = 0;
+  std::optional<int> threads;
+  PlacementSpec placement;
+  std::optional<BoxSpec> stock_box;
+  std::optional<BlobRef> stock_mesh;
+};
+
+/// Throws ProtocolError `params_invalid` with the pointer of the field to blame.
+JobSpec read_job_spec(Fields fields);
+
+/// Fields at their default are left out, the rest stands in a fixed order: equal specs give equal text.
+Json to_json(const JobSpec& spec);
+
+}  // namespace sculpt

@@ -1,0 +1,109 @@
+#include "proto/json.hpp"
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace sculpt {
+namespace {
+
+void check_depth(std::string_view text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (in_string) {
+      if (c == '\\') ++at;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > max_json_depth) {
+        throw JsonError("the JSON is nested more than " + std::to_string(max_json_depth) + " levels deep");
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+// The keys of the objects that are open; throws where nlohmann would silently let the last of two equal keys win.
+class StrictKeys {
+ public:
+  bool operator()(int, Json::parse_event_t event, Json& value) {
+    using Event = Json::parse_event_t;
+    if (event == Event::object_start) open_.emplace_back();
+    if (event == Event::object_end) open_.pop_back();
+    if (event == Event::key) add(value.get_ref<const std::string&>());
+    if (event == Event::value && value.is_string()) refuse_nul(value.get_ref<const std::string&>());
+    return true;
+  }
+
+ private:
+  void add(const std::string& key) {
+    refuse_nul(key);
+    if (!open_.back().insert(key).second) throw JsonError("the key \"" + key + "\" occurs twice in one object");
+    if (open_.back().size() > max_json_fields) {
+      throw JsonError("an object has more than " + std::to_string(max_json_fields) + " fields");
+    }
+  }
+  static void refuse_nul(const std::string& text) {
+    if (text.find('\0') != std::string::npos) throw JsonError("a string holds the character NUL (\\u0000)");
+  }
+
+  std::vector<std::set<std::string>> open_;
+};
+
+// nlohmann's messages begin with "[json.exception.parse_error.101] parse error at line 1, column 5: ".
+std::string without_prefix(const std::string& message) {
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+// Length of the UTF-8 sequence at the start of `text`, or 0 if there is none (overlong forms, surrogates and cut ones
+// included).
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  if (lead == 0xe0 && byte(1) < 0xa0) return 0;
+  if (lead == 0xed && byte(1) > 0x9f) return 0;
+  if (lead == 0xf0 && byte(1) < 0x90) return 0;
+  if (lead == 0xf4 && byte(1) > 0x8f) return 0;
+  return length;
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text) {
+  check_depth(text);
+  try {
+    // The callback is passed by reference: nlohmann copies it into a std::function.
+    StrictKeys keys;
+    return Json::parse(text, std::ref(keys));
+  } catch (const Json::exception& error) {
+    throw JsonError(without_prefix(error.what()));
+  }
+}
+
+std::string write_json(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool is_text(std::string_view line) {
+  while (!line.empty()) {
+    const auto lead = static_cast<std::uint8_t>(line.front());
+    if ((lead < 0x20 && lead != '\t' && lead != '\r') || lead == 0x7f) return false;
+    const std::size_t length = sequence_length(line);
+    if (length == 0) return false;
+    line.remove_prefix(length);
+  }
+  return true;
+}
+
+}  // namespace sculpt

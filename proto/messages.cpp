@@ -1,0 +1,123 @@
+#include "proto/messages.hpp"
+
+#include "proto/framing.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t max_id_bytes = 64;
+constexpr std::size_t max_text_bytes = 200;
+constexpr int max_priority = 100;
+constexpr int max_list = 1000;
+constexpr double max_wait_s = 86400;
+
+Fields params_of(const Json& params) {
+  return Fields(params, "/params");
+}
+
+}  // namespace
+
+HelloParams read_hello(const Json& params) {
+  Fields fields = params_of(params);
+  HelloParams hello;
+  const Json& version = fields.value("protocol");
+  if (!version.is_array() || version.size() != 2 || !version[0].is_number_unsigned() ||
+      !version[1].is_number_unsigned()) {
+    fields.refuse("protocol", "must be [major, minor], for example [1,0]");
+  }
+  hello.major = version[0].get<int>();
+  hello.minor = version[1].get<int>();
+  hello.client = fields.text("client", max_text_bytes);
+  hello.max_line = max_line_bytes;
+  if (fields.has("max_line")) {
+    hello.max_line = static_cast<std::size_t>(fields.integer("max_line", min_max_line, max_line_bytes));
+  }
+  fields.done();
+  return hello;
+}
+
+BlobPutParams read_blob_put(const Json& params) {
+  Fields fields = params_of(params);
+  BlobPutParams put{fields.sha256("sha256"), fields.count("size"), fields.count("offset"),
+                    fields.count("bytes", max_chunk_bytes)};
+  fields.done();
+  if (put.offset > put.size || put.bytes > put.size - put.offset) {
+    fields.refuse("bytes", "reaches beyond size: offset " + std::to_string(put.offset) + " + bytes " +
+                               std::to_string(put.bytes) + " > size " + std::to_string(put.size));
+  }
+  return put;
+}
+
+std::string read_blob_name(const Json& params) {
+  Fields fields = params_of(params);
+  std::string hash = fields.sha256("sha256");
+  fields.done();
+  return hash;
+}
+
+SubmitParams read_submit(const Json& params) {
+  Fields fields = params_of(params);
+  SubmitParams submit;
+  if (fields.has("key")) submit.key = fields.text("key", max_text_bytes);
+  if (fields.has("priority"))
+    submit.priority = static_cast<int>(fields.integer("priority", -max_priority, max_priority));
+  submit.spec = read_job_spec(fields.object("spec"));
+  fields.done();
+  return submit;
+}
+
+std::string read_job_id(const Json& params) {
+  Fields fields = params_of(params);
+  std::string job = fields.text("job", max_id_bytes);
+  fields.done();
+  return job;
+}
+
+ListParams read_list(const Json& params) {
+  Fields fields = params_of(params);
+  ListParams list;
+  if (fields.has("after")) list.after = fields.text("after", max_id_bytes);
+  if (fields.has("limit")) list.limit = static_cast<int>(fields.integer("limit", 1, max_list));
+  fields.done();
+  return list;
+}
+
+WaitParams read_wait(const Json& params) {
+  Fields fields = params_of(params);
+  WaitParams wait{fields.text("job", max_id_bytes), fields.number("timeout_s", 0, max_wait_s)};
+  fields.done();
+  return wait;
+}
+
+SubscribeParams read_subscribe(const Json& params) {
+  Fields fields = params_of(params);
+  SubscribeParams subscribe{fields.text("job", max_id_bytes), 0};
+  if (fields.has("after")) subscribe.after = fields.count("after");
+  fields.done();
+  return subscribe;
+}
+
+ArtifactReadParams read_artifact_read(const Json& params) {
+  Fields fields = params_of(params);
+  ArtifactReadParams read{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
+  if (fields.has("format")) read.format = fields.text("format", max_text_bytes);
+  read.offset = fields.count("offset");
+  read.bytes = static_cast<std::size_t>(fields.integer("bytes", 1, max_chunk_bytes));
+  fields.done();
+  return read;
+}
+
+void read_nothing(const Json& params) {
+  params_of(params).done();
+}
+
+Json to_json(const EventMessage& event) {
+  Json json{{"job", event.job}};
+  if (event.seq) json["seq"] = *event.seq;
+  if (!event.time.empty()) json["t"] = event.time;
+  json["type"] = event.type;
+  if (!event.data.is_null()) json["data"] = event.data;
+  return json;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,80 @@
+// The params of each method and the larger results, as plain structs. Reading throws ProtocolError `params_invalid`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "proto/job_spec.hpp"
+
+namespace sculpt {
+
+inline constexpr int protocol_major = 1;
+inline constexpr int protocol_minor = 0;
+inline constexpr std::size_t min_max_line = 256;
+
+struct HelloParams {
+  int major = 0, minor = 0;
+  std::string client;
+  std::size_t max_line = 0;
+};
+HelloParams read_hello(const Json& params);
+
+struct BlobPutParams {
+  std::string sha256;
+  std::uint64_t size = 0, offset = 0, bytes = 0;
+};
+BlobPutParams read_blob_put(const Json& params);
+/// blob.has
+std::string read_blob_name(const Json& params);
+
+struct SubmitParams {
+  std::string key;  ///< empty: none
+  int priority = 0;
+  JobSpec spec;
+};
+SubmitParams read_submit(const Json& params);
+
+/// job.get, job.cancel, job.report, job.verify, events.unsubscribe, artifact.list
+std::string read_job_id(const Json& params);
+
+struct ListParams {
+  std::string after;  ///< empty: from the first
+  int limit = 100;
+};
+ListParams read_list(const Json& params);
+
+struct WaitParams {
+  std::string job;
+  double timeout_s = 0;
+};
+WaitParams read_wait(const Json& params);
+
+struct SubscribeParams {
+  std::string job;
+  std::uint64_t after = 0;
+};
+SubscribeParams read_subscribe(const Json& params);
+
+struct ArtifactReadParams {
+  std::string job, artifact;
+  std::string format;  ///< empty: the artifact's own
+  std::uint64_t offset = 0;
+  std::size_t bytes = 0;
+};
+ArtifactReadParams read_artifact_read(const Json& params);
+
+/// A method without params.
+void read_nothing(const Json& params);
+
+/// One event (section events.subscribe). Without seq: progress, live.
+struct EventMessage {
+  std::string job;
+  std::optional<std::uint64_t> seq;
+  std::string time;
+  std::string type;
+  Json data;
+};
+Json to_json(const EventMessage& event);
+
+}  // namespace sculpt
