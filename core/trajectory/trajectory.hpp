@@ -1,4 +1,5 @@
-// The plan as it leaves the planner: a header and keyframes, as newline-delimited JSON (DESIGN section 5 names the fields).
+// The plan as it leaves the planner: a header and keyframes, as newline-delimited JSON (DESIGN section 5 names the
+// fields).
 #pragma once
 
 #include <iosfwd>
@@ -16,15 +17,15 @@ namespace sculpt {
 struct TrajectoryHeader {
   std::vector<std::string> joints;  ///< names of the chain's coordinates
   Configuration home;
-  Grid grid;                        ///< resolution, voxel_m, origin_m
+  Grid grid;  ///< resolution, voxel_m, origin_m
   Tool tool;
-  double tolerance_m = 0;           ///< how far the ball's centre may be from a voxel's centre when it removes it
-  std::string cell, search;         ///< names, for people
+  double tolerance_m = 0;    ///< how far the ball's centre may be from a voxel's centre when it removes it
+  std::string cell, search;  ///< names, for people
   std::uint64_t seed = 0;
 };
 
-/// Linear joint motion from the previous keyframe (the first one starts at home) to q. A cut removes the straight run of voxels
-/// first..last (along one axis), the m-th of n at path parameter m/n; a move removes nothing.
+/// Linear joint motion from the previous keyframe (the first one starts at home) to q. A cut removes the straight run
+/// of voxels first..last (along one axis), the m-th of n at path parameter m/n; a move removes nothing.
 struct Keyframe {
   Configuration q;
   bool cut = false;
@@ -39,7 +40,8 @@ struct TrajectoryEnd {
   std::string sha256;  ///< of every byte before the end line
 };
 
-/// Joint values as they are stored: rounded to 1e-9 rad or m, so that the text read back gives the same double. Planners certify rounded values.
+/// Joint values as they are stored: rounded to 1e-9 rad or m, so that the text read back gives the same double.
+/// Planners certify rounded values.
 Configuration rounded(const Configuration& q);
 
 /// Writes lines to `out` as they come; the text depends on nothing but the values. Not shared between threads.
@@ -55,8 +57,8 @@ class TrajectoryWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads what TrajectoryWriter wrote, a keyframe at a time. Throws InputError `trajectory_invalid` with the line number, also
-/// for a missing end line, wrong counts or a wrong hash.
+/// Reads what TrajectoryWriter wrote, a keyframe at a time. Throws InputError `trajectory_invalid` with the line
+/// number, also for a missing end line, wrong counts or a wrong hash.
 class TrajectoryReader {
  public:
   explicit TrajectoryReader(std::istream& in);

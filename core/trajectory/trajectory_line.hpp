@@ -1,0 +1,36 @@
+// The text of single trajectory lines. Internal to trajectory/: files are read and written through trajectory.hpp and
+// export.hpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/trajectory/trajectory.hpp"
+
+namespace sculpt {
+
+/// Without the newline. Doubles in the shortest decimal form that reads back as the same double.
+std::string header_line(const TrajectoryHeader& header);
+/// Throws std::invalid_argument for a value that JSON cannot hold (NaN, infinite): that is a planner's bug, not bad
+/// input.
+std::string keyframe_line(const Keyframe& keyframe);
+std::string end_line(const TrajectoryEnd& end);
+
+void append_number(std::string& text, double value);
+
+/// What one line after the header holds.
+struct TrajectoryLine {
+  bool is_end = false;
+  Keyframe keyframe;
+  TrajectoryEnd end;
+};
+
+/// Both throw InputError `trajectory_invalid` that begins with `where`, e.g. "line 7".
+TrajectoryHeader parse_header_line(std::string_view text, const std::string& where);
+TrajectoryLine parse_line(std::string_view text, const TrajectoryHeader& header, const std::string& where);
+
+/// Throws unless the run lies in the grid along one axis.
+void check_run(const Keyframe& keyframe, const Grid& grid, const std::string& where);
+
+}  // namespace sculpt
