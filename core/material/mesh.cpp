@@ -1,0 +1,226 @@
+#include "core/material/mesh.hpp"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "core/material/vertex_join.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Peak bytes of memory a byte of file comes to while it is loaded: measured on a closed surface of 400 000 triangles
+/// in the densest common form of each kind (4.8 for binary STL), plus a fifth and more.
+struct Kind {
+  const char* extension;
+  double memory_per_byte;
+};
+constexpr std::array<Kind, 6> kinds{{{"stl", 6.5}, {"obj", 14}, {"ply", 10}, {"off", 8}, {"gltf", 9}, {"glb", 12}}};
+
+const Kind& find_kind(const std::string& extension) {
+  for (const Kind& kind : kinds)
+    if (extension == kind.extension) return kind;
+  throw InputError("mesh_unreadable",
+                   "mesh kind \"" + extension + "\" is not known: convert the mesh to stl, obj, ply, off, glb or gltf");
+}
+
+/// Reads the caller's bytes in place.
+class ViewStream final : public Assimp::IOStream {
+ public:
+  explicit ViewStream(std::string_view bytes) : bytes_(bytes) {}
+  size_t Read(void* out, size_t size, size_t count) override {
+    if (size == 0) return 0;
+    const size_t items = std::min(count, (bytes_.size() - at_) / size);
+    std::memcpy(out, bytes_.data() + at_, items * size);
+    at_ += items * size;
+    return items;
+  }
+  size_t Write(const void*, size_t, size_t) override { return 0; }
+  aiReturn Seek(size_t offset, aiOrigin origin) override {
+    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+    if (base + offset > bytes_.size()) return aiReturn_FAILURE;
+    at_ = base + offset;
+    return aiReturn_SUCCESS;
+  }
+  size_t Tell() const override { return at_; }
+  size_t FileSize() const override { return bytes_.size(); }
+  void Flush() override {}
+
+ private:
+  std::string_view bytes_;
+  size_t at_ = 0;
+};
+
+/// Holds the one file, so that a mesh from a client can never make the server open another (assimp's own memory reader
+/// falls back to the disk). Remembers the first other file asked for.
+class OneFile final : public Assimp::IOSystem {
+ public:
+  OneFile(std::string name, std::string_view bytes, std::string& missing)
+      : name_(std::move(name)), bytes_(bytes), missing_(missing) {}
+  bool Exists(const char* file) const override { return file == name_; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char*) override {
+    if (file == name_) return new ViewStream(bytes_);
+    if (missing_.empty()) missing_ = file;
+    return nullptr;
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::string name_;
+  std::string_view bytes_;
+  std::string& missing_;
+};
+
+/// assimp's JSON reader recurses once a nesting level, and once a node of a chain of nodes: neither may exhaust the
+/// stack.
+void refuse_deep_json(std::string_view bytes) {
+  constexpr int depth_limit = 64, node_limit = 2000;
+  int depth = 0, parents = 0;
+  bool in_string = false;
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    const char c = bytes[at];
+    if (in_string) {
+      if (c == '\\') ++at;
+      if (c == '"') in_string = false;
+      continue;
+    }
+    if (c == '"') {
+      in_string = true;
+      if (bytes.substr(at, 10) == "\"children\"") ++parents;
+    }
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth > depth_limit)
+      throw InputError("mesh_unreadable", "the glTF file nests its JSON deeper than 64 levels: export the mesh again");
+    if (parents > node_limit)
+      throw InputError("mesh_unreadable",
+                       "the glTF file has more than 2000 nodes with children: join its parts and export again");
+  }
+}
+
+void check_json(std::string_view bytes, const std::string& extension) {
+  constexpr size_t header = 20;  // of a .glb: magic, version, length, then length and kind of the JSON chunk
+  if (extension == "gltf") return refuse_deep_json(bytes);
+  if (extension != "glb" || bytes.size() < header) return;
+  std::uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, bytes.data() + 12, sizeof json_bytes);
+  refuse_deep_json(bytes.substr(header, json_bytes));
+}
+
+void check_memory(std::uint64_t needed, std::uint64_t cap, const std::string& what) {
+  if (needed > cap)
+    throw InputError("memory_cap", "loading " + what + " is predicted to take " + std::to_string(needed) +
+                                       " bytes of memory, the cap is " + std::to_string(cap) +
+                                       ": raise the memory cap, or reduce the mesh to fewer triangles");
+}
+
+const aiScene& import_scene(Assimp::Importer& importer, std::string_view bytes, const std::string& extension) {
+  const std::string name = "mesh." + extension;
+  std::string missing;
+  importer.SetIOHandler(new OneFile(name, bytes, missing));  // the importer owns it
+  const aiScene* scene = nullptr;
+  std::string reason;
+  try {
+    scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+    if (scene == nullptr) reason = importer.GetErrorString();
+  } catch (const std::bad_alloc&) {
+    throw InputError("memory_cap", "the mesh does not fit into memory: reduce it to fewer triangles");
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (scene != nullptr && scene->mRootNode != nullptr) return *scene;
+  if (!missing.empty() && (extension == "gltf" || extension == "glb"))
+    throw InputError("mesh_unreadable", "the glTF file needs another file, " + missing +
+                                            ", which was not sent: export it as one binary .glb file");
+  throw InputError("mesh_unreadable",
+                   "the file is no readable ." + extension + " mesh (" + reason + "): export it again as binary STL");
+}
+
+/// One appearance of a sub-mesh, with the transform of its node and all nodes above.
+struct Part {
+  const aiMesh* mesh;
+  Eigen::Matrix4d transform;
+};
+
+void collect_parts(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& above, std::vector<Part>& parts) {
+  Eigen::Matrix4d transform;
+  for (unsigned row = 0; row < 4; ++row)
+    for (unsigned column = 0; column < 4; ++column) transform(row, column) = node.mTransformation[row][column];
+  transform = above * transform;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) parts.push_back({scene.mMeshes[node.mMeshes[m]], transform});
+  for (unsigned c = 0; c < node.mNumChildren; ++c) collect_parts(scene, *node.mChildren[c], transform, parts);
+}
+
+void add_part(const Part& part, VertexJoin& join, Mesh& mesh, std::vector<std::uint32_t>& ids) {
+  ids.resize(part.mesh->mNumVertices);
+  for (unsigned v = 0; v < part.mesh->mNumVertices; ++v) {
+    const aiVector3D& p = part.mesh->mVertices[v];
+    const Vec3 at = (part.transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>();
+    if (!at.allFinite())
+      throw InputError("mesh_not_finite",
+                       "vertex " + std::to_string(v) +
+                           " of the mesh has a coordinate that is not a finite number: repair the mesh "
+                           "(for example \"remove non-finite vertices\" of a mesh editor)");
+    ids[v] = join.add(at);
+  }
+  for (unsigned f = 0; f < part.mesh->mNumFaces; ++f) {
+    const aiFace& face = part.mesh->mFaces[f];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    const std::array<std::uint32_t, 3> t{ids[face.mIndices[0]], ids[face.mIndices[1]], ids[face.mIndices[2]]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const Vec3 a = mesh.vertices[t[1]] - mesh.vertices[t[0]], b = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+    if (!a.cross(b).isZero(0)) mesh.triangles.push_back(t);
+  }
+}
+
+}  // namespace
+
+std::uint64_t predict_mesh_memory(std::uint64_t file_bytes, const std::string& extension) {
+  constexpr std::uint64_t importer_bytes = 4 << 20;
+  return importer_bytes +
+         static_cast<std::uint64_t>(static_cast<double>(file_bytes) * find_kind(extension).memory_per_byte);
+}
+
+Mesh load_mesh(std::string_view bytes, const std::string& extension, std::uint64_t memory_cap_bytes,
+               const Watch& watch) {
+  watch.step(Stage::load, 0, bytes.size());
+  check_memory(predict_mesh_memory(bytes.size(), extension), memory_cap_bytes,
+               "a ." + extension + " file of " + std::to_string(bytes.size()) + " bytes");
+  check_json(bytes, extension);
+  Assimp::Importer importer;
+  const aiScene& scene = import_scene(importer, bytes, extension);
+  watch.step(Stage::load, bytes.size() / 2, bytes.size());
+
+  std::vector<Part> parts;
+  collect_parts(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), parts);
+  std::uint64_t vertices = 0, faces = 0;
+  for (const Part& part : parts) {
+    vertices += part.mesh->mNumVertices;
+    faces += part.mesh->mNumFaces;
+  }
+  // A small glTF file may show one sub-mesh many times.
+  check_memory(vertices * VertexJoin::bytes_a_vertex + faces * sizeof(Mesh::triangles[0]), memory_cap_bytes,
+               "its " + std::to_string(faces) + " triangles");
+
+  Mesh mesh;
+  VertexJoin join(mesh.vertices, vertices);
+  std::vector<std::uint32_t> ids;
+  for (const Part& part : parts) {
+    watch.step(Stage::load, bytes.size() / 2, bytes.size());
+    add_part(part, join, mesh, ids);
+  }
+  if (mesh.triangles.empty())
+    throw InputError("mesh_empty", "the mesh has no triangle with an area: export the surface of a solid");
+  watch.step(Stage::load, bytes.size(), bytes.size());
+  return mesh;
+}
+
+}  // namespace sculpt

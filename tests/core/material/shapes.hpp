@@ -1,0 +1,40 @@
+// Small meshes with known insides, and the bytes of mesh files, for the tests of core/material.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/base/random.hpp"
+#include "core/material/mesh.hpp"
+#include "core/material/voxel_grid.hpp"
+
+namespace sculpt::shapes {
+
+/// Axis-aligned box as 12 triangles; `sides` of 0b111111 are present, in the order -x +x -y +y -z +z.
+Mesh box(const Vec3& low, const Vec3& high, unsigned sides = 0b111111);
+/// A closed surface of revolution about z; the profile is (radius, z) and must start and end on the axis (radius 0).
+Mesh revolution(const std::vector<std::array<double, 2>>& profile, int segments);
+Mesh sphere(const Vec3& centre, double radius, int segments = 48);
+/// Ring about z with centre line radius `major` and tube radius `minor`.
+Mesh torus(const Vec3& centre, double major, double minor, int segments = 64);
+Mesh transformed(Mesh mesh, const Frame& frame);
+Mesh joined(Mesh a, const Mesh& b);
+Frame random_frame(Random& random, const Vec3& at);
+
+/// 80 bytes of header, then the triangles with zero normals.
+std::string binary_stl(const Mesh& mesh);
+std::string ascii_stl(const Mesh& mesh);
+std::string obj(const Mesh& mesh);
+
+/// A random grid of blobs (union of boxes) or of noise, with some air at the top; keep is a subset of stock.
+VoxelGrid random_grid(int n, std::uint64_t seed);
+
+/// The content of a file of the shared data folder, empty where it is missing.
+std::string shared_data(const std::string& path);
+
+/// Code of the InputError thrown by `work`; "" when nothing is thrown.
+std::string error_code(const std::function<void()>& work);
+/// Sentence of the InputError thrown by `work`; "" when nothing is thrown.
+std::string error_sentence(const std::function<void()>& work);
+
+}  // namespace sculpt::shapes
