@@ -1,0 +1,35 @@
+// Files named on the command line: read whole, or written beside their final name and renamed when complete.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace sculpt {
+
+/// Throws Failure (usage) `file_missing` or `file_unreadable`; `what` names the thing in the sentence, e.g. "mesh".
+std::string read_input(const std::filesystem::path& path, const std::string& what);
+
+/// Extension in lower case without the dot; empty if there is none.
+std::string extension_of(const std::filesystem::path& path);
+
+/// An output file that never shows a half: bytes go to `FILE.part`, `finish` renames it. Without `finish` nothing stays
+/// behind. Throws Failure (usage) `file_unwritable`.
+class PartFile {
+ public:
+  explicit PartFile(std::filesystem::path path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  /// Where the bytes go; open for writing from the start.
+  const std::filesystem::path& part() const { return part_; }
+  std::ofstream& stream() { return stream_; }
+  void finish();
+
+ private:
+  std::filesystem::path path_, part_;
+  std::ofstream stream_;
+};
+
+}  // namespace sculpt

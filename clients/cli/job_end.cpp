@@ -1,0 +1,54 @@
+#include "clients/cli/job_end.hpp"
+
+#include <iostream>
+
+#include "clients/cli/exit_code.hpp"
+
+namespace sculpt {
+
+bool is_final(const std::string& state) {
+  return state == "succeeded" || state == "failed" || state == "cancelled";
+}
+
+Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
+  client.subscribe(job);
+  for (bool ended = false; !ended;) {
+    const Json event = *client.next_event();
+    const std::string type = event.value("type", "");
+    if (event.value("job", "") != job || !event.contains("data")) continue;
+    const Json& data = event["data"];
+    if (type == "progress") {
+      progress.tell(data.value("stage", ""), data.value("done", std::uint64_t{0}),
+                    data.value("total", std::uint64_t{0}));
+    } else if (type == "state") {
+      const std::string to = data.value("to", "");
+      const std::string reason = data.value("reason", "");
+      progress.say(reason == "interrupted" ? to + " again: the daemon was stopped while it ran" : to);
+      ended = is_final(to);
+    }
+  }
+  progress.clear();
+  return client.call("job.get", {{"job", job}});
+}
+
+Json wait_job(Client& client, const std::string& job) {
+  constexpr int longest_wait_s = 3600;
+  while (client.call("job.wait", {{"job", job}, {"timeout_s", longest_wait_s}}).value("timed_out", false)) {
+  }
+  return client.call("job.get", {{"job", job}});
+}
+
+int end_exit_code(const Json& job) {
+  const std::string state = job.value("state", "");
+  const std::string id = job.value("job", "");
+  if (state == "succeeded") return exit_fine;
+  const Json error = job.value("error", Json::object());
+  if (state == "cancelled")
+    std::cerr << "sculpt: cancelled: job " << id << " was cancelled\n";
+  else
+    std::cerr << "sculpt: " << error.value("code", state) << ": job " << id << " " << state << ": "
+              << error.value("message", "see the log of the server") << "\n";
+  return exit_failed;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,148 @@
+#include "clients/cli/job_options.hpp"
+
+#include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+
+namespace sculpt {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Where shipped cells may lie: the folder that SCULPT_CELLS names, else config/cells here or in any folder above this
+/// program.
+std::vector<fs::path> cell_folders() {
+  if (const char* named = std::getenv("SCULPT_CELLS")) return {named};
+  std::vector<fs::path> folders{"config/cells"};
+  std::error_code failed;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", failed); at.has_relative_path();) {
+    at = at.parent_path();
+    if (fs::is_directory(at / "config/cells", failed)) folders.push_back(at / "config/cells");
+  }
+  return folders;
+}
+
+Vec3 vec3(const std::vector<double>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+}  // namespace
+
+void add_placement_options(CLI::App& command, PlacementOptions& options) {
+  const char* group = "Placement and stock";
+  command
+      .add_option("--scale", options.scale_m,
+                  "Metres per unit of the mesh file; without it the mesh is made to fit the stock")
+      ->type_name("METRES")
+      ->group(group);
+  command.add_option("--rotate", options.rotate_deg, "Turn about the fixed x, y, z axes, in degrees, before scaling")
+      ->type_name("R,P,Y")
+      ->delimiter(',')
+      ->expected(3)
+      ->group(group);
+  command.add_option("--offset", options.offset_m, "Shift in metres, after centring and standing on the floor")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->group(group);
+  command
+      .add_option("--margin", options.margin_m, "Left free at each side and at the top when the mesh is made to fit")
+      ->type_name("METRES")
+      ->group(group);
+  command
+      .add_option("--stock-box", options.stock_box_m,
+                  "The stock is this box (metres from the grid's corner), not the whole grid")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1")
+      ->delimiter(',')
+      ->expected(6)
+      ->group(group);
+  command
+      .add_option("--stock", options.stock_file,
+                  "The stock is this mesh (metres from the grid's corner) or .binvox, not the whole grid")
+      ->type_name("FILE")
+      ->excludes("--stock-box")
+      ->group(group);
+  command
+      .add_option("--memory-cap", options.memory_cap_bytes, "Refuse what is predicted to need more, e.g. 512M or 8G")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("BYTES")
+      ->default_str("2G")
+      ->group(group);
+}
+
+void add_job_options(CLI::App& command, JobOptions& options) {
+  command.add_option("mesh", options.mesh, "The sculpture: .stl .obj .ply .gltf .glb, or a .binvox")
+      ->type_name("MESH")
+      ->required();
+  command
+      .add_option("--resolution", options.resolution, "Voxels along each edge of the grid: a power of two, 8 to 1024")
+      ->type_name("N")
+      ->required();
+  command.add_option("--robot", options.robot, "The cell: a name under config/cells, or the path of a cell file")
+      ->type_name("CELL")
+      ->required();
+  command.add_option("--search", options.search, "The planner, e.g. octree; without it the default")->type_name("NAME");
+  command.add_option("--seed", options.seed, "Same job and same seed: same plan, byte for byte")
+      ->type_name("K")
+      ->capture_default_str();
+  add_placement_options(command, options.placement);
+}
+
+Placement to_placement(const PlacementOptions& options) {
+  Placement placement;
+  placement.scale_m = options.scale_m;
+  placement.rotation_rad = vec3(options.rotate_deg) * (std::numbers::pi / 180);
+  placement.offset_m = vec3(options.offset_m);
+  placement.margin_m = options.margin_m;
+  return placement;
+}
+
+MeshFile read_mesh_file(const std::string& path, const std::string& what) {
+  return {read_input(path, what), extension_of(path), fs::path(path).filename().string()};
+}
+
+Stock read_stock(const PlacementOptions& options) {
+  Stock stock;
+  if (const auto& box = options.stock_box_m; !box.empty())
+    stock.box = Stock::Box{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
+  if (!options.stock_file.empty()) stock.mesh = read_mesh_file(options.stock_file, "stock");
+  return stock;
+}
+
+bool is_cell_path(const std::string& robot) {
+  return robot.find('/') != std::string::npos || robot.ends_with(".json");
+}
+
+CellFiles read_cell(const std::string& robot) {
+  if (is_cell_path(robot)) {
+    read_input(robot, "cell");
+    return read_cell_files(robot);
+  }
+  return read_cell_files(find_cell(robot, cell_folders()));
+}
+
+void check_resolution(int n) {
+  if (n < 8 || n > 1024 || !std::has_single_bit(static_cast<unsigned>(n)))
+    throw InputError("resolution_invalid",
+                     "resolution " + std::to_string(n) + " cannot be used: give a power of two from 8 to 1024");
+}
+
+Job read_job(const JobOptions& options) {
+  Job job;
+  job.mesh = read_mesh_file(options.mesh, "mesh");
+  job.stock = read_stock(options.placement);
+  job.cell = read_cell(options.robot);
+  job.resolution = options.resolution;
+  if (!options.search.empty()) job.search = options.search;
+  job.seed = options.seed;
+  job.placement = to_placement(options.placement);
+  job.memory_cap_bytes = options.placement.memory_cap_bytes;
+  return job;
+}
+
+}  // namespace sculpt

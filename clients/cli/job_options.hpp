@@ -1,0 +1,55 @@
+// The options that describe a job, shared by submit, plan, voxelize and verify FILE.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/plan/plan.hpp"
+
+namespace sculpt {
+
+/// As given on the command line: lengths in metres, angles in degrees.
+struct PlacementOptions {
+  std::optional<double> scale_m;
+  std::vector<double> rotate_deg{0, 0, 0};
+  std::vector<double> offset_m{0, 0, 0};
+  double margin_m = 0;
+  std::vector<double> stock_box_m;  ///< empty or x0,y0,z0,x1,y1,z1
+  std::string stock_file;
+  std::uint64_t memory_cap_bytes = 2ull << 30;
+};
+
+struct JobOptions {
+  std::string mesh, robot;
+  int resolution = 0;
+  std::string search;  ///< empty: the default of whoever plans
+  std::uint64_t seed = 0;
+  PlacementOptions placement;
+};
+
+void add_placement_options(CLI::App& command, PlacementOptions& options);
+/// MESH, --resolution, --robot, --search, --seed and the placement.
+void add_job_options(CLI::App& command, JobOptions& options);
+
+Placement to_placement(const PlacementOptions& options);
+
+/// A file's bytes with its kind. Throws Failure (usage) where it cannot be read.
+MeshFile read_mesh_file(const std::string& path, const std::string& what);
+/// Reads the stock file, if one is named.
+Stock read_stock(const PlacementOptions& options);
+
+/// True for what is looked for on this disk: anything with a '/' or ending in .json.
+bool is_cell_path(const std::string& robot);
+/// The cell's files: a path, or a name under the shipped cells. Throws Failure or InputError.
+CellFiles read_cell(const std::string& robot);
+
+/// Throws InputError `resolution_invalid` unless n is a power of two from 8 to 1024.
+void check_resolution(int n);
+
+/// Everything read from disk, ready for the planner.
+Job read_job(const JobOptions& options);
+
+}  // namespace sculpt

@@ -1,0 +1,83 @@
+// sculpt plan: the same planner in this process, without a server.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/job_options.hpp"
+#include "clients/cli/progress_line.hpp"
+#include "clients/cli/report_table.hpp"
+#include "core/trajectory/export.hpp"
+
+namespace sculpt {
+
+namespace {
+
+struct PlanOptions {
+  JobOptions job;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool json = false;
+  std::string output;
+};
+
+/// The finished ndjson at `lines` in the form that the extension of the output asks for.
+void convert(const std::filesystem::path& lines, const std::string& path, const std::string& extension) {
+  std::ifstream in(lines, std::ios::binary);
+  PartFile output(path);
+  if (extension == "csv")
+    export_csv(in, output.stream());
+  else
+    export_binary(in, output.stream());
+  output.finish();
+}
+
+int run_plan(const PlanOptions& options) {
+  const std::string extension = extension_of(options.output);
+  if (extension != "ndjson" && extension != "csv" && extension != "sct")
+    throw Failure(exit_usage, "format_unknown",
+                  "cannot tell the format of " + options.output + " from its name: end it in .ndjson, .csv or .sct");
+  Job job = read_job(options.job);
+  job.threads = options.threads;
+
+  std::stop_source stop;
+  const Interrupt interrupt([&stop] { stop.request_stop(); });
+  ProgressLine progress(2, false);
+  const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
+  const bool as_lines = extension == "ndjson";
+  PartFile lines(options.output + (as_lines ? "" : ".lines"));
+  const JobResult result = run_job(job, lines.part(), watch);
+  if (as_lines)
+    lines.finish();
+  else
+    convert(lines.part(), options.output, extension);
+  progress.clear();
+
+  const std::string report = report_json(result.report);
+  std::cout << (options.json ? report + "\n" : report_table(parse_json(report)));
+  for (const std::string& finding : result.report.findings) std::cerr << "sculpt: verify: " << finding << "\n";
+  return result.report.verify.clean ? exit_fine : exit_failed;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App& command = add_command(app, invocation, "plan", "Plan in this process, without a server",
+                                  [options] { return run_plan(*options); });
+  add_job_options(command, options->job);
+  command.add_option("--threads", options->threads, "Worker threads; the plan is the same at any number")
+      ->type_name("T")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "Print the report as one JSON document");
+  command.add_option("-o,--output", options->output, "The trajectory: .ndjson, .csv or .sct by extension")
+      ->type_name("FILE")
+      ->required();
+}
+
+}  // namespace sculpt

@@ -1,0 +1,94 @@
+#include "clients/cli/report_table.hpp"
+
+#include <cstdio>
+
+namespace sculpt {
+
+namespace {
+
+std::string fixed(double value, int digits, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f%s", digits, value, unit);
+  return text;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return fixed(value.get<double>(), 3, "");
+  return value.dump();
+}
+
+void row(std::string& table, const std::string& label, const std::string& value) {
+  char head[32];
+  std::snprintf(head, sizeof head, "%-22s", label.c_str());
+  table += head + value + "\n";
+}
+
+/// A row per field of `object` that is there: `fields` are pairs of field and label.
+void rows(std::string& table, const Json& object, std::initializer_list<std::pair<const char*, const char*>> fields) {
+  for (const auto& [field, label] : fields)
+    if (object.contains(field)) row(table, label, text_of(object[field]));
+}
+
+std::string percent(const Json& part, const Json& whole) {
+  const double all = whole.get<double>();
+  return part.dump() + (all > 0 ? "  (" + fixed(100 * part.get<double>() / all, 2, " %)") : "");
+}
+
+void voxel_rows(std::string& table, const Json& report) {
+  if (!report.contains("voxels")) return;
+  const Json& voxels = report["voxels"];
+  rows(table, voxels, {{"total", "voxels"}, {"air", "  air"}, {"keep", "  keep"}, {"remove", "  remove"}});
+  if (!voxels.contains("removed") || !voxels.contains("residue") || !voxels.contains("remove")) return;
+  row(table, "  removed", percent(voxels["removed"], voxels["remove"]));
+  row(table, "  residue", percent(voxels["residue"], voxels["remove"]));
+  for (const Json& part : report.value("residue", Json::array()))
+    row(table, "    " + part.value("reason", ""), part.value("voxels", Json()).dump());
+}
+
+void path_rows(std::string& table, const Json& report) {
+  if (report.contains("octree"))
+    rows(table, report["octree"], {{"leaves", "octree leaves"}, {"remove_leaves", "  to remove"}});
+  if (!report.contains("path")) return;
+  const Json& path = report["path"];
+  rows(table, path, {{"keyframes", "keyframes"}, {"rows", "rows"}, {"transits", "transits"}});
+  if (path.contains("cut_m")) row(table, "cut", fixed(path["cut_m"].get<double>(), 3, " m"));
+  if (path.contains("travel_m")) row(table, "travel", fixed(path["travel_m"].get<double>(), 3, " m"));
+  if (path.contains("joint_travel_rad"))
+    row(table, "joint travel", fixed(path["joint_travel_rad"].get<double>(), 1, " rad"));
+}
+
+void run_rows(std::string& table, const Json& report) {
+  const Json seconds = report.value("seconds", Json::object());
+  for (const auto& [stage, value] : seconds.items()) row(table, "seconds " + stage, fixed(value.get<double>(), 3, ""));
+  if (report.contains("peak_memory_bytes"))
+    row(table, "peak memory", fixed(report["peak_memory_bytes"].get<double>() / 1048576.0, 1, " MiB"));
+  rows(table, report, {{"threads", "threads"}, {"plan_sha256", "plan sha256"}});
+  if (!report.contains("verify")) return;
+  const Json& verify = report["verify"];
+  const bool clean = verify.value("clean", false);
+  row(table, "verify",
+      std::string(clean ? "clean" : "NOT CLEAN") + ", " + verify.value("collisions", Json(0)).dump() + " findings, " +
+          verify.value("voxels_checked", Json(0)).dump() + " voxels checked");
+}
+
+}  // namespace
+
+std::string report_table(const Json& report) {
+  std::string table;
+  rows(table, report,
+       {{"job", "job"},
+        {"state", "state"},
+        {"mesh", "mesh"},
+        {"robot", "robot"},
+        {"search", "search"},
+        {"seed", "seed"},
+        {"resolution", "resolution"}});
+  voxel_rows(table, report);
+  path_rows(table, report);
+  run_rows(table, report);
+  return table;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,125 @@
+// sculpt verify: a job by its server, or a file by the replay in this process.
+#include "core/verify/verify.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/job_options.hpp"
+#include "clients/cli/progress_line.hpp"
+#include "clients/cpp/client.hpp"
+#include "core/trajectory/export.hpp"
+#include "core/trajectory/trajectory.hpp"
+
+namespace sculpt {
+
+namespace {
+
+struct VerifyOptions {
+  std::string subject;  ///< a job or a file
+  std::string mesh, robot;
+  std::optional<int> resolution;
+  bool json = false;
+  PlacementOptions placement;
+};
+
+int print_verdict(const VerifyOptions& options, const Json& verdict) {
+  if (options.json) {
+    std::cout << write_json(verdict) << "\n";
+  } else {
+    const bool clean = verdict.at("clean");
+    std::cout << options.subject << ": " << (clean ? "clean" : "NOT CLEAN") << ", " << verdict.at("voxels_checked")
+              << " voxels checked, " << verdict.at("collisions") << " findings\n";
+    for (const Json& finding : verdict.value("findings", Json::array()))
+      std::cout << "  line " << finding.at("line") << ": " << finding.at("sentence").get<std::string>() << "\n";
+  }
+  return verdict.at("clean").get<bool>() ? exit_fine : exit_failed;
+}
+
+Json to_json(const VerifyOptions& options, const Verdict& verdict) {
+  Json findings = Json::array();
+  for (const Finding& finding : verdict.findings)
+    findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});
+  return {{"file", options.subject},
+          {"clean", verdict.clean},
+          {"collisions", verdict.collisions},
+          {"voxels_checked", verdict.voxels_checked},
+          {"findings", findings}};
+}
+
+/// The trajectory as ndjson text, from either form.
+std::string read_trajectory(const std::string& path) {
+  std::string bytes = read_input(path, "trajectory");
+  if (extension_of(path) != "sct") return bytes;
+  std::istringstream sct(std::move(bytes));
+  std::ostringstream ndjson;
+  import_binary(sct, ndjson);
+  return std::move(ndjson).str();
+}
+
+int verify_file(const VerifyOptions& options) {
+  if (options.mesh.empty() || options.robot.empty())
+    throw Failure(exit_usage, "usage", options.subject + " is a file: say --mesh and --robot too, to replay it here");
+  const std::string trajectory = read_trajectory(options.subject);
+  Job job;
+  job.mesh = read_mesh_file(options.mesh, "mesh");
+  job.stock = read_stock(options.placement);
+  job.placement = to_placement(options.placement);
+  job.memory_cap_bytes = options.placement.memory_cap_bytes;
+  const Cell cell = parse_cell(read_cell(options.robot));
+  {
+    std::istringstream lines(trajectory);
+    job.resolution = options.resolution.value_or(TrajectoryReader(lines).header().grid.n);
+  }
+
+  std::stop_source stop;
+  const Interrupt interrupt([&stop] { stop.request_stop(); });
+  ProgressLine progress(2, false);
+  const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
+  check_resolution(job.resolution);
+  const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
+  std::istringstream lines(trajectory);
+  const Verdict verdict = verify_trajectory(lines, cell, voxels, watch);
+  progress.clear();
+  return print_verdict(options, to_json(options, verdict));
+}
+
+int verify_job(const std::string& server, const VerifyOptions& options) {
+  Client client(server, client_name);
+  return print_verdict(options, client.call("job.verify", {{"job", options.subject}}));
+}
+
+int run_verify(const std::string& server, const VerifyOptions& options) {
+  const std::string extension = extension_of(options.subject);
+  const bool is_file = !options.mesh.empty() || !options.robot.empty() || extension == "ndjson" || extension == "sct" ||
+                       std::filesystem::exists(options.subject);
+  return is_file ? verify_file(options) : verify_job(server, options);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<VerifyOptions>();
+  CLI::App& command =
+      add_command(app, invocation, "verify",
+                  "Replay a trajectory with FCL and kinematics of its own: a JOB on the server, or a FILE here. "
+                  "Exit 0 only if it is clean",
+                  [&invocation, options] { return run_verify(invocation.server, *options); });
+  command.add_option("subject", options->subject, "The id of a job, or a trajectory (.ndjson or .sct)")
+      ->type_name("JOB|FILE")
+      ->required();
+  command.add_option("--mesh", options->mesh, "FILE only: the sculpture that was planned")->type_name("MESH");
+  command.add_option("--robot", options->robot, "FILE only: the cell that it was planned for")->type_name("CELL");
+  command.add_option("--resolution", options->resolution, "FILE only: default is what the file's header says")
+      ->type_name("N");
+  command.add_flag("--json", options->json, "Print the verdict as one JSON document");
+  add_placement_options(command, options->placement);
+}
+
+}  // namespace sculpt

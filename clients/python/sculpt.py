@@ -1,0 +1,488 @@
+#!/usr/bin/env python3
+"""sculpt.py: a client of sculptd in one file, standard library only (Python 3.9 or newer).
+
+As a program it has the verbs, options and exit codes of `sculpt` for everything that needs a server:
+    sculpt.py submit head.stl --resolution 16 --robot panda-turntable --wait
+As a module it is a connection that is used one call at a time:
+    with sculpt.Client("127.0.0.1:7878") as client:
+        job = client.submit({"mesh": client.upload_file("head.stl"), "robot": "gantry", "resolution": 16})["job"]
+        client.wait(job)
+        print(client.call("job.report", job=job)["voxels"])
+The protocol is described in proto/PROTOCOL.md.
+"""
+
+import argparse
+import collections
+import hashlib
+import json
+import math
+import os
+import pathlib
+import re
+import socket
+import sys
+import xml.etree.ElementTree
+import zlib
+
+VERSION = "sculpt.py/0.1.0"
+FINE, FAILED, USAGE, UNREACHABLE, REFUSED = range(5)
+CHUNK = 1 << 20
+FINAL = ("succeeded", "failed", "cancelled")
+
+
+class Failure(Exception):
+    """Ends a command with an exit code and one line `sculpt: CODE: sentence`."""
+
+    def __init__(self, exit_code, code, sentence):
+        super().__init__(sentence)
+        self.exit_code, self.code = exit_code, code
+
+
+class Client:
+    """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED)."""
+
+    def __init__(self, server="127.0.0.1:7878", name=VERSION):
+        host, colon, port = server.rpartition(":")
+        if not colon or not port.isdigit():
+            raise Failure(USAGE, "usage", f"--server {server} is no address: write HOST:PORT")
+        self.server, self.next_id, self.events = server, 1, collections.deque()
+        try:
+            self.socket = socket.create_connection((host.strip("[]"), int(port)), timeout=10)
+            self.socket.settimeout(None)
+        except (OSError, OverflowError) as error:
+            raise Failure(UNREACHABLE, "unreachable",
+                          f"no server answers at {server} ({error}): start sculptd, or say --server HOST:PORT") from error
+        self.stream = self.socket.makefile("rwb")
+        self.hello = self.call("hello", protocol=[1, 0], client=name)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
+
+    def close(self):
+        self.socket.close()
+
+    def call(self, method, chunk=None, **params):
+        """The result of a request; of artifact.read the pair (result, bytes). Events that come meanwhile are kept."""
+        request_id, self.next_id = self.next_id, self.next_id + 1
+        line = json.dumps({"jsonrpc": "2.0", "id": request_id, "method": method, "params": params})
+        try:
+            self.stream.write(line.encode() + b"\n" + (b"" if chunk is None else chunk + b"\n"))
+            self.stream.flush()
+        except OSError as error:
+            raise self._broken() from error
+        while True:
+            message = self._read_line()
+            if message.get("id") == request_id:
+                break
+            if message.get("method") == "event":
+                self.events.append(message["params"])
+            elif message.get("id") is None and "error" in message:
+                break
+        if "error" in message:
+            error = message["error"]
+            raise Failure(REFUSED, error.get("data", {}).get("code", "refused"), error["message"])
+        result = message["result"]
+        return (result, self._read_chunk(result)) if method == "artifact.read" else result
+
+    def next_event(self):
+        """The params of the next event of a subscription; waits for it."""
+        while not self.events:
+            message = self._read_line()
+            if message.get("method") == "event":
+                self.events.append(message["params"])
+        return self.events.popleft()
+
+    def upload(self, content):
+        """Sends the bytes unless the server has them; gives their hash."""
+        digest = hashlib.sha256(content).hexdigest()
+        state = self.call("blob.has", sha256=digest)
+        while not state["complete"]:
+            part = content[state["have"]:state["have"] + CHUNK]
+            state = self.call("blob.put", chunk=part, sha256=digest, size=len(content), offset=state["have"], bytes=len(part))
+        return digest
+
+    def upload_file(self, path):
+        """A mesh as a job's spec wants it."""
+        return {"blob": self.upload(read_input(path, "mesh")), "name": os.path.basename(path)}
+
+    def upload_cell(self, path):
+        """A cell file with its URDF and meshes, as `robot` of a spec: the server needs nothing of this disk."""
+        name, text, files = read_cell_files(path)
+        bundle = {"name": name, "cell": text, "files": {ref: {"blob": self.upload(data)} for ref, data in sorted(files.items())}}
+        return {"cell": {"blob": self.upload(json.dumps(bundle).encode())}}
+
+    def submit(self, spec, **params):
+        return self.call("job.submit", spec=spec, **params)
+
+    def wait(self, job):
+        """Returns the job as job.get gives it, once it has ended."""
+        while self.call("job.wait", job=job, timeout_s=3600)["timed_out"]:
+            pass
+        return self.call("job.get", job=job)
+
+    def read_artifact(self, job, artifact="trajectory", **form):
+        """Yields the bytes of an artifact; of a trajectory that still grows until the job has ended."""
+        offset = 0
+        while True:
+            result, chunk = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=CHUNK, **form)
+            yield chunk
+            offset += len(chunk)
+            if result["eof"]:
+                return
+            if not chunk and self.call("job.wait", job=job, timeout_s=1)["state"] in FINAL and not result["final"]:
+                result, _ = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=1, **form)
+                if not result["final"]:
+                    return
+
+    def _read_line(self):
+        try:
+            line = self.stream.readline()
+        except OSError as error:
+            raise self._broken() from error
+        if not line.endswith(b"\n"):
+            raise self._broken()
+        return json.loads(line)
+
+    def _read_chunk(self, result):
+        try:
+            chunk = self.stream.read(result["bytes"] + 1)
+        except OSError as error:
+            raise self._broken() from error
+        if len(chunk) != result["bytes"] + 1:
+            raise self._broken()
+        if f"{zlib.crc32(chunk[:-1]):08x}" != result["crc32"]:
+            raise Failure(UNREACHABLE, "chunk_damaged", "a chunk arrived with a wrong checksum: fetch again")
+        return chunk[:-1]
+
+    def _broken(self):
+        return Failure(UNREACHABLE, "unreachable",
+                       f"the connection to {self.server} broke; jobs go on when sculptd runs again: try again then")
+
+
+# Files of this disk
+
+def read_input(path, what):
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        raise Failure(USAGE, "file_missing", f"no {what} file {path}: check the path") from None
+    except IsADirectoryError:
+        raise Failure(USAGE, "file_unreadable", f"{path} is a folder: name the {what} file in it") from None
+    except OSError as error:
+        raise Failure(USAGE, "file_unreadable", f"cannot read the {what} file {path} ({error.strerror})") from None
+
+
+def read_cell_files(path):
+    """Name, text and files of a cell: what read_cell_files of core/cell/cell.hpp gives."""
+    path = pathlib.Path(path)
+    text = read_input(path, "cell").decode("utf-8", "replace")
+    try:
+        cell = json.loads(text)
+        urdf_name, packages = cell["urdf"], cell.get("packages", {})
+        urdf_path = path.parent / urdf_name
+        urdf = urdf_path.read_bytes()
+        files = {urdf_name: urdf}
+        references = {mesh.get("filename") for mesh in xml.etree.ElementTree.fromstring(urdf).findall(".//collision//mesh")}
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise Failure(REFUSED, "cell_invalid", f"{path} is no cell file: {error!r}") from None
+    except xml.etree.ElementTree.ParseError as error:
+        raise Failure(REFUSED, "urdf_invalid", f"{urdf_path} is not valid XML: {error}") from None
+    except OSError as error:
+        raise Failure(REFUSED, "file_missing", f"cannot read the URDF {urdf_path} of cell {path}: {error.strerror}") from None
+    for reference in sorted(filter(None, references)):
+        files[reference] = find_mesh(reference, path.parent, urdf_path, packages)
+    return path.stem, text, files
+
+
+def find_mesh(reference, cell_folder, urdf_path, packages):
+    if not reference.startswith("package://"):
+        return read_input(urdf_path.parent / re.sub("^file://", "", reference), "mesh")
+    package, _, rest = reference[len("package://"):].partition("/")
+    folders = [cell_folder / packages[package]] if package in packages else []
+    for above in urdf_path.absolute().parents:
+        folders += ([above] if above.name == package else []) + [above / package]
+    for root in filter(None, os.environ.get("ROS_PACKAGE_PATH", "").split(":")):
+        folders += ([pathlib.Path(root)] if pathlib.Path(root).name == package else []) + [pathlib.Path(root) / package]
+    for folder in folders:
+        if (folder / rest).is_file():
+            return (folder / rest).read_bytes()
+    raise Failure(REFUSED, "file_missing", f"mesh {reference} was not found: add \"packages\": {{\"{package}\": \"folder\"}} "
+                  "to the cell file, or put the package's folder into ROS_PACKAGE_PATH")
+
+
+# Commands: each gets the parsed options and gives the exit code
+
+def run_submit(options):
+    read_input(options.mesh, "mesh")
+    is_path = "/" in options.robot or options.robot.endswith(".json")
+    if is_path:
+        read_cell_files(options.robot)
+    with Client(options.server) as client:
+        spec = {"mesh": client.upload_file(options.mesh), "resolution": options.resolution, "seed": options.seed,
+                "robot": client.upload_cell(options.robot) if is_path else options.robot}
+        if options.search:
+            spec["search"] = options.search
+        spec["placement"] = {"rotation_rad": [math.radians(degrees) for degrees in options.rotate],
+                             "offset_m": options.offset, "margin_m": options.margin}
+        if options.scale is not None:
+            spec["placement"]["scale_m"] = options.scale
+        if options.stock_box:
+            spec["stock"] = {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}
+        elif options.stock:
+            spec["stock"] = {"mesh": client.upload_file(options.stock)}
+        named = {field: getattr(options, field) for field in ("key", "priority") if getattr(options, field) is not None}
+        reply, exit_code = client.submit(spec, **named), FINE
+        if not options.json:
+            print(reply["job"], flush=True)
+        if options.wait:
+            end = follow(client, reply["job"], sys.stderr, True)
+            reply["state"], exit_code = end["state"], end_exit_code(end)
+        if options.json:
+            print(json.dumps(reply))
+        return exit_code
+
+
+def run_list(options):
+    jobs, more = [], True
+    with Client(options.server) as client:
+        while more:
+            page = client.call("job.list", limit=1000, **({"after": jobs[-1]["job"]} if jobs else {}))
+            jobs, more = jobs + page["jobs"], page["more"] and bool(page["jobs"])
+    if options.json:
+        print(json.dumps({"jobs": jobs}))
+        return FINE
+    print(f"{'JOB':26}  {'STATE':10}  {'MESH':24}  {'N':>5}  {'ROBOT':16}  SUBMITTED")
+    for job in jobs:
+        print(f"{job['job']:26}  {job['state']:10}  {job.get('mesh', '-'):24}  {job.get('resolution', '-'):>5}  "
+              f"{job.get('robot', '-'):16}  {job.get('submitted_at', '-')}")
+    return FINE
+
+
+def run_status(options):
+    with Client(options.server) as client:
+        print_fields(client.call("job.get", job=options.job), options.json)
+    return FINE
+
+
+def run_cancel(options):
+    with Client(options.server) as client:
+        reply = client.call("job.cancel", job=options.job)
+    print(json.dumps(reply) if options.json else reply["state"])
+    return FINE
+
+
+def run_watch(options):
+    try:
+        with Client(options.server) as client:
+            end = follow(client, options.job, sys.stderr if options.json else sys.stdout, not options.json)
+    except KeyboardInterrupt:
+        raise Failure(FAILED, "interrupted", f"job {options.job} goes on; see it again with: watch {options.job}") from None
+    if options.json:
+        print(json.dumps(end))
+    return end_exit_code(end)
+
+
+def run_wait(options):
+    with Client(options.server) as client:
+        end = client.wait(options.job)
+    if options.json:
+        print(json.dumps(end))
+    return end_exit_code(end)
+
+
+def run_report(options):
+    with Client(options.server) as client:
+        print_fields(client.call("job.report", job=options.job), options.json)
+    return FINE
+
+
+def run_fetch(options):
+    form = {"format": options.format} if options.format else {}
+    grows = options.artifact == "trajectory" and options.format in (None, "ndjson")
+    with Client(options.server) as client:
+        end = client.call("job.get", job=options.job) if grows else client.wait(options.job)
+        if end["state"] in FINAL and not is_whole(end):
+            return end_exit_code(end)
+        chunks = client.read_artifact(options.job, options.artifact, **form)
+        if options.output == "-":
+            for chunk in chunks:
+                sys.stdout.buffer.write(chunk)
+                sys.stdout.buffer.flush()
+            return end_exit_code(client.wait(options.job))
+        part = options.output + ".part"
+        try:
+            with open(part, "wb") as file:
+                for chunk in chunks:
+                    file.write(chunk)
+            end = client.wait(options.job)
+            if is_whole(end):
+                os.replace(part, options.output)
+        except OSError as error:
+            raise Failure(USAGE, "file_unwritable", f"cannot write {options.output}: {error.strerror}") from None
+        finally:
+            if os.path.exists(part):
+                os.remove(part)
+        return end_exit_code(end)
+
+
+def run_verify(options):
+    with Client(options.server) as client:
+        verdict = client.call("job.verify", job=options.job)
+    if options.json:
+        print(json.dumps(verdict))
+    else:
+        print(f"{options.job}: {'clean' if verdict['clean'] else 'NOT CLEAN'}, {verdict['voxels_checked']} voxels checked, "
+              f"{verdict['collisions']} findings")
+        for finding in verdict["findings"]:
+            print(f"  line {finding['line']}: {finding['sentence']}")
+    return FINE if verdict["clean"] else FAILED
+
+
+# What commands share
+
+def follow(client, job, out, plain):
+    """Shows a job live until it has ended: a bar on a terminal, else (if `plain`) lines; gives the job."""
+    bar, shown = out.isatty(), None
+    client.call("events.subscribe", job=job)
+    while True:
+        event = client.next_event()
+        data = event.get("data", {})
+        if event["type"] == "state":
+            if bar or plain:
+                print(("\r\x1b[K" if bar else "") + data["to"], file=out, flush=True)
+            if data["to"] in FINAL:
+                return client.call("job.get", job=job)
+        elif event["type"] == "progress":
+            share = data["done"] / data["total"] if data["total"] else 0
+            counts = f"{data['stage']:9} {data['done']}/{data['total']}"
+            if bar:
+                cells = int(30 * share)
+                print(f"\r\x1b[K{counts} [{'#' * cells}{'.' * (30 - cells)}] {share:4.0%}", end="", file=out, flush=True)
+            elif plain and shown != (data["stage"], int(10 * share)):
+                print(counts, file=out, flush=True)
+            shown = (data["stage"], int(10 * share))
+
+
+def is_whole(end):
+    """A trajectory that failed its replay may be looked at; of other jobs that did not succeed there is nothing whole."""
+    return end["state"] == "succeeded" or end.get("error", {}).get("code") == "verify_failed"
+
+
+def end_exit_code(end):
+    if end["state"] == "succeeded":
+        return FINE
+    error = end.get("error", {"code": end["state"], "message": "it was " + end["state"]})
+    print(f"sculpt: {error['code']}: job {end['job']} {end['state']}: {error['message']}", file=sys.stderr)
+    return FAILED
+
+
+def print_fields(values, as_json, indent=""):
+    if as_json:
+        print(json.dumps(values))
+        return
+    for name, value in values.items():
+        if isinstance(value, dict):
+            print(indent + name)
+            print_fields(value, False, indent + "  ")
+        elif isinstance(value, list):
+            print(indent + name)
+            for item in value:
+                print(f"{indent}  " + (" ".join(f"{v}" for v in item.values()) if isinstance(item, dict) else f"{item}"))
+        else:
+            print(f"{indent}{name:<{22 - len(indent)}}{value}")
+
+
+def numbers(count):
+    def parse(text):
+        values = [float(part) for part in text.split(",")]
+        if len(values) != count:
+            raise ValueError(text)
+        return values
+    parse.__name__ = f"list of {count} numbers"
+    return parse
+
+
+def joined_lists(arguments):
+    """argparse takes `--offset -1,0,0` for two options: such values are joined to their option by `=`."""
+    joined = []
+    for argument in arguments:
+        lists = joined and joined[-1] in ("--rotate", "--offset", "--stock-box")
+        joined[-1:] = [joined[-1] + "=" + argument] if lists else joined[-1:] + [argument]
+    return joined
+
+
+def parse_command_line(arguments):
+    common = argparse.ArgumentParser(add_help=False)
+    default = os.environ.get("SCULPT_SERVER") or "127.0.0.1:7878"
+    common.add_argument("--server", metavar="HOST:PORT", default=argparse.SUPPRESS,
+                        help=f"where sculptd listens (env SCULPT_SERVER; now {default})")
+    common.add_argument("--version", action="version", version=VERSION)
+    parser = argparse.ArgumentParser(prog="sculpt.py", parents=[common], description="Talks to sculptd, the plan server for robot carving.",
+                                     epilog="Exit codes: 0 fine, 1 the job failed or the check found something, 2 usage, "
+                                            "3 server unreachable, 4 refused.")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+
+    def command(name, run, summary, job=True, as_json=True):
+        sub = commands.add_parser(name, parents=[common], help=summary, description=summary)
+        sub.set_defaults(run=run)
+        if job:
+            sub.add_argument("job", metavar="JOB", help="the id that submit printed")
+        if as_json:
+            sub.add_argument("--json", action="store_true", help="one JSON document on stdout")
+        return sub
+
+    add_submit_options(command("submit", run_submit, "send a mesh and queue a job; prints the job's id", job=False))
+    command("list", run_list, "all jobs of the server, in the order of submission", job=False)
+    command("status", run_status, "what a job is and how far it has come")
+    command("watch", run_watch, "show a job live until it ends; Ctrl-C leaves the job running")
+    command("wait", run_wait, "return when a job has ended; exit 0 only if it succeeded")
+    command("cancel", run_cancel, "stop a job, queued or running")
+    command("report", run_report, "the figures of a finished job")
+    fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
+    fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
+    fetch.add_argument("--format", choices=["ndjson", "binary", "csv"], help="form of the trajectory, default ndjson")
+    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "residue", "report"], default="trajectory")
+    command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
+    options = parser.parse_args(joined_lists(sys.argv[1:] if arguments is None else arguments))
+    options.server = getattr(options, "server", default)
+    return options
+
+
+def add_submit_options(submit):
+    submit.add_argument("mesh", metavar="MESH", help=".stl .obj .ply .gltf .glb or .binvox")
+    submit.add_argument("--resolution", type=int, required=True, metavar="N", help="power of two, 8 to 1024")
+    submit.add_argument("--robot", required=True, metavar="CELL", help="name of a cell on the server, or a cell file here")
+    submit.add_argument("--search", metavar="NAME", help="the planner; default is the server's")
+    submit.add_argument("--seed", type=int, default=0, metavar="K")
+    submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
+    submit.add_argument("--key", metavar="KEY", help="your own name for this job: submitting it twice makes one job")
+    submit.add_argument("--wait", action="store_true", help="wait for the end, with progress on stderr")
+    submit.add_argument("--scale", type=float, metavar="METRES", help="metres per unit of the mesh file")
+    submit.add_argument("--rotate", type=numbers(3), default=[0, 0, 0], metavar="R,P,Y", help="degrees about x, y, z")
+    submit.add_argument("--offset", type=numbers(3), default=[0, 0, 0], metavar="X,Y,Z", help="metres")
+    submit.add_argument("--margin", type=float, default=0, metavar="METRES")
+    stock = submit.add_mutually_exclusive_group()
+    stock.add_argument("--stock-box", type=numbers(6), metavar="X0,Y0,Z0,X1,Y1,Z1", help="metres from the grid's corner")
+    stock.add_argument("--stock", metavar="FILE", help="mesh or .binvox of the stock")
+
+
+def main(arguments=None):
+    try:
+        options = parse_command_line(arguments)
+        return options.run(options)
+    except Failure as failure:
+        print(f"sculpt: {failure.code}: {failure}", file=sys.stderr)
+        return failure.exit_code
+    except KeyboardInterrupt:
+        return FAILED
+    except BrokenPipeError:
+        sys.stderr.close()
+        return FAILED
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,122 @@
+"""What the tests of the real programs share: a daemon of one's own, and running a client to its end.
+
+Environment: SCULPTD and SCULPT (the programs), SCULPT_SOURCE (the source tree).
+"""
+
+import os
+import pathlib
+import re
+import select
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SCULPT_SOURCE"])
+SCULPT = [os.environ["SCULPT"]]
+SCULPT_PY = [sys.executable, str(SOURCE / "clients/python/sculpt.py")]
+sys.path.insert(0, str(SOURCE / "clients/python"))
+
+PATIENCE_S = 300  # a hang becomes a failure; nothing is measured by it
+
+
+class Daemon:
+    """sculptd on a free port. Its data folder may be handed on to the next one."""
+
+    def __init__(self, data, *options):
+        self.data = str(data)
+        self.process = subprocess.Popen(
+            [os.environ["SCULPTD"], "--listen", "127.0.0.1:0", "--data", self.data, *options],
+            cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.log = b""
+        self.address = self._read_address()
+
+    def _read_address(self):
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            found = re.search(rb"listening on (\S+:\d+)", self.log)
+            if found:
+                return found.group(1).decode()
+            ready, _, _ = select.select([self.process.stdout], [], [], 1)
+            chunk = os.read(self.process.stdout.fileno(), 65536) if ready else None
+            if chunk == b"":
+                break
+            self.log += chunk or b""
+        self.kill()
+        raise AssertionError("sculptd did not say where it listens:\n" + self.log.decode("utf-8", "replace"))
+
+    def kill(self):
+        """As a power cut would: no chance to tidy up."""
+        self.process.kill()
+        self._reap()
+
+    def stop(self):
+        """As an operator would. Gives the exit code."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        return self._reap()
+
+    def _reap(self):
+        output, _ = self.process.communicate(timeout=PATIENCE_S)
+        self.log += output or b""
+        return self.process.returncode
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.stop()
+
+
+def environment(server=None):
+    """The caller's, with only this server."""
+    env = {name: value for name, value in os.environ.items() if name != "SCULPT_SERVER"}
+    return {**env, "SCULPT_SERVER": server} if server else env
+
+
+class ClientTest(unittest.TestCase):
+    """Runs a client; each test has a scratch folder."""
+
+    client = SCULPT
+    server = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
+        self.addCleanup(folder.cleanup)
+        self.scratch = pathlib.Path(folder.name)
+
+    def run_client(self, *arguments, server=None):
+        return subprocess.run([*self.client, *map(str, arguments)], env=environment(server or self.server), cwd=self.scratch,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE_S)
+
+    def fine(self, *arguments, **options):
+        """Its stdout; the client must exit with 0."""
+        result = self.run_client(*arguments, **options)
+        self.assertEqual(result.returncode, 0, f"{arguments}\n{result.stdout}\n{result.stderr}")
+        return result.stdout
+
+    def refused(self, exit_code, code, *arguments, **options):
+        """Its one line of stderr; the client must exit so, print nothing, and name `code`."""
+        result = self.run_client(*arguments, **options)
+        shown = f"{arguments}\nexit {result.returncode}\n{result.stdout}\n{result.stderr}"
+        self.assertEqual(result.returncode, exit_code, shown)
+        self.assertEqual(result.stdout, "", shown)
+        self.assertRegex(result.stderr, rf"^sculpt: {code}: \S.*\n\Z", shown)
+        return result.stderr
+
+
+class DaemonTest(ClientTest):
+    """The same with one daemon for all tests of the class."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
+        cls.addClassCleanup(folder.cleanup)
+        daemon = Daemon(folder.name)
+        cls.addClassCleanup(daemon.stop)
+        cls.daemon, cls.server = daemon, daemon.address
+
+    def tearDown(self):
+        self.assertIsNone(self.daemon.process.poll(), "the daemon died: " + self.daemon.log.decode("utf-8", "replace"))

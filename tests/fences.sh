@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# The include rules: who may see whom, and which one file is the door to each heavy library. Prints every breach; exit 0 only without one.
+#   tests/fences.sh [FOLDER]      the source tree; default: the one this script is in
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
+breaches=0
+
+# forbid WHY PATTERN [EXCEPT-REGEX] -- PATHS...: no line of any C++ file under PATHS may match PATTERN, except in files whose name matches.
+forbid() {
+  local why=$1 pattern=$2 except='^$' found
+  shift 2
+  [ "$1" = -- ] || { except=$1; shift; }
+  shift
+  found=$(find "$@" \( -name '*.hpp' -o -name '*.cpp' \) 2>/dev/null | sort | grep -vE "$except" | xargs -r grep -nE "$pattern" -- /dev/null || true)
+  [ -z "$found" ] || { printf 'fence: %s\n%s\n' "$why" "$found"; breaches=$((breaches + 1)); }
+}
+
+include() { printf '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](%s)' "$1"; }
+door() { printf '^core/%s$' "$1"; }
+
+# Layers.
+forbid "core knows no server, wire or client" "$(include '(server|proto|clients)/')" -- core
+forbid "core knows no socket, log or database" "$(include 'boost/(asio|beast)|spdlog|fmt/|sqlite3|sys/socket|netinet/')" -- core
+forbid "proto knows no planner, server or client" "$(include '(core|server|clients)/')" -- proto
+forbid "proto knows no socket, log or database" "$(include 'boost/|spdlog|sqlite3|sys/socket')" -- proto
+forbid "the client library knows only proto" "$(include '(core|server|clients/cli)/')" -- clients/cpp
+forbid "clients never include the server" "$(include 'server/')" -- clients
+forbid "the server never includes a client" "$(include 'clients/')" -- server
+
+# The data flow inside core: a folder sees only what stands before it.
+forbid "base is the first" "$(include 'core/(material|cell|collision|search|motion|trajectory|verify|plan)/')" -- core/base
+forbid "material comes before cells" "$(include 'core/(cell|collision|search|motion|trajectory|verify|plan)/')" -- core/material
+forbid "cells come before collision" "$(include 'core/(collision|search|motion|trajectory|verify|plan)/')" -- core/cell
+forbid "collision comes before planning" "$(include 'core/(search|motion|trajectory|verify|plan)/')" -- core/collision
+forbid "search knows no arm" "$(include 'core/(cell|collision|motion|trajectory|verify|plan)/')" -- core/search
+forbid "verify shares nothing with the planners" "$(include 'core/(search|motion|plan)/')" -- core/verify
+forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify
+
+# One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
+fcl_headers='collision/fcl_shape|verify/solid_body|verify/standing_voxels|verify/tool_replay'
+forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
+forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
+forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
+forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/fcl_shape')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
+forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_]+\.[ch]pp')" -- core server clients
+forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
+forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
+  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/report\.cpp)')" -- core
+
+# No other header of core names a type of theirs.
+forbid "no header of core names fcl::, ompl::, octomap:: or ai..." '\b(fcl|ompl|octomap|urdf)::|\bai(Scene|Mesh|Node|Vector3D)\b' "\.cpp$|$(door "($fcl_headers)\.hpp")" -- core
+
+[ "$breaches" -eq 0 ] || { echo "fences: $breaches rules broken"; exit 1; }
+echo "fences: all kept"

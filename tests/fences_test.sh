@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# A fence that lets everything through is no fence: one breach of each kind must be found.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+
+expect_breach() {
+  local file=$1 line=$2
+  mkdir -p "$tree/$(dirname "$file")"
+  printf '%s\n' "$line" >"$tree/$file"
+  if "$here/fences.sh" "$tree" >/dev/null; then
+    echo "not found: '$line' in $file"
+    exit 1
+  fi
+  rm "$tree/$file"
+}
+
+expect_breach core/plan/plan.cpp '#include "server/jobs.hpp"'
+expect_breach core/base/watch.hpp '#include <boost/asio.hpp>'
+expect_breach proto/json.hpp '#include "core/base/error.hpp"'
+expect_breach clients/cpp/client.cpp '#include "core/base/sha256.hpp"'
+expect_breach clients/cli/main.cpp '#include "server/config.hpp"'
+expect_breach server/main.cpp '#include "clients/cpp/client.hpp"'
+expect_breach core/material/octree.cpp '#include "core/search/heuristic.hpp"'
+expect_breach core/verify/replay.cpp '  #  include "core/motion/transit.hpp"'
+expect_breach core/material/voxelize.cpp '#include <assimp/scene.h>'
+expect_breach core/cell/chain.cpp '#include <urdf_parser/urdf_parser.h>'
+expect_breach core/motion/transit.cpp '#include <fcl/fcl.h>'
+expect_breach core/collision/scene.cpp '#include <ompl/base/SpaceInformation.h>'
+expect_breach core/plan/plan.cpp '#include <nlohmann/json.hpp>'
+expect_breach core/trajectory/trajectory.hpp '#include <nlohmann/json.hpp>'
+expect_breach core/collision/scene.hpp 'std::unique_ptr<fcl::CollisionObjectd> object_;'
+expect_breach core/motion/transit.cpp '#include "core/collision/fcl_shape.hpp"'
+expect_breach server/jobs.cpp '#include "core/verify/solid_body.hpp"'
+printf '#include "core/base/error.hpp"\n' >"$tree/core/plan/plan.cpp"
+"$here/fences.sh" "$tree"
