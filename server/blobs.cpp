@@ -1,0 +1,132 @@
+#include "server/blobs.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "core/base/sha256.hpp"
+#include "proto/error_codes.hpp"
+#include "server/data_folder.hpp"
+#include "server/job_store.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t read_bytes = 1 << 20;
+
+void write_at(const fs::path& path, std::uint64_t offset, std::string_view bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  bool fine = file >= 0;
+  while (fine && !bytes.empty()) {
+    const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    fine = written > 0;
+    if (fine) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+      offset += static_cast<std::uint64_t>(written);
+    }
+  }
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (!fine) throw StorageError("cannot write '" + path.string() + "': " + std::strerror(error));
+}
+
+std::string file_hash(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  Sha256 hash;
+  std::vector<char> buffer(read_bytes);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+    hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+  }
+  return hash.hex();
+}
+
+void rename_durably(const fs::path& from, const fs::path& to) {
+  sync_to_disk(from);
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::rename(from, to, error);
+  if (error) throw StorageError("cannot store the blob '" + to.string() + "': " + error.message());
+  sync_to_disk(to.parent_path());
+  sync_to_disk(to.parent_path().parent_path());
+}
+
+}  // namespace
+
+fs::path Blobs::place(const std::string& sha256) const {
+  return folder_ / sha256.substr(0, 2) / sha256;
+}
+
+BlobState Blobs::state(const std::string& sha256) const {
+  std::error_code error;
+  if (const std::uintmax_t size = fs::file_size(place(sha256), error); !error) return {size, true};
+  const std::uintmax_t size = fs::file_size(part(sha256), error);
+  return {error ? 0 : size, false};
+}
+
+BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes) {
+  const BlobState before = state(sha256);
+  if (before.complete) return before;
+  if (size > max_bytes_) {
+    throw ProtocolError("too_large",
+                        "a blob of " + std::to_string(size) + " bytes is over this server's limit of " +
+                            std::to_string(max_bytes_) + ": send a smaller mesh or raise blob_limit_bytes",
+                        "/params/size");
+  }
+  if (offset > before.have) {
+    throw ProtocolError("offset_mismatch",
+                        "the server has " + std::to_string(before.have) + " bytes of this blob: go on there, not at " +
+                            std::to_string(offset),
+                        "/params/offset");
+  }
+  write_at(part(sha256), offset, bytes);
+  const std::uint64_t have = std::max(before.have, offset + bytes.size());
+  if (have >= size) {
+    complete(sha256, size);
+    return {size, true};
+  }
+  return {have, false};
+}
+
+void Blobs::complete(const std::string& sha256, std::uint64_t size) {
+  const fs::path file = part(sha256);
+  std::error_code error;
+  if (fs::file_size(file, error) != size || file_hash(file) != sha256) {
+    fs::remove(file, error);
+    throw ProtocolError("blob_mismatch",
+                        "the uploaded bytes do not have the hash " + sha256 + "; they were dropped: upload them again",
+                        "/params/sha256");
+  }
+  rename_durably(file, place(sha256));
+}
+
+std::string Blobs::add(std::string_view bytes) {
+  static std::atomic<std::uint64_t> drafts = 0;
+  std::string sha256 = sha256_hex(bytes);
+  if (state(sha256).complete) return sha256;
+  const fs::path draft = folder_ / (sha256 + "." + std::to_string(drafts++) + ".draft");
+  write_at(draft, 0, bytes);
+  rename_durably(draft, place(sha256));
+  return sha256;
+}
+
+std::string Blobs::read(const std::string& sha256, const std::string& pointer) const {
+  std::ifstream in(place(sha256), std::ios::binary);
+  if (!in) {
+    throw ProtocolError("blob_missing",
+                        "the blob " + sha256 + " is not (completely) uploaded: send it with blob.put first", pointer);
+  }
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) throw StorageError("cannot read the blob " + sha256);
+  return bytes;
+}
+
+}  // namespace sculpt

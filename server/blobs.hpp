@@ -1,0 +1,39 @@
+// Files by content: blobs/ab/abcdef..., uploaded in pieces into blobs/HASH.part.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sculpt {
+
+struct BlobState {
+  std::uint64_t have = 0;  ///< bytes from the start
+  bool complete = false;
+};
+
+/// `put` belongs to one thread; everything else may be called from any. Throws StorageError where the disk fails.
+class Blobs {
+ public:
+  Blobs(std::filesystem::path folder, std::uint64_t max_bytes) : folder_(std::move(folder)), max_bytes_(max_bytes) {}
+
+  BlobState state(const std::string& sha256) const;
+  /// Adds a piece; when the last byte is there the hash is checked and the blob becomes durable. Throws ProtocolError
+  /// `too_large`, `offset_mismatch`, `blob_mismatch` (what was uploaded is dropped).
+  BlobState put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes);
+  /// Stores content made here and returns its hash.
+  std::string add(std::string_view bytes);
+  /// Throws ProtocolError `blob_missing` with `pointer`.
+  std::string read(const std::string& sha256, const std::string& pointer) const;
+
+ private:
+  std::filesystem::path place(const std::string& sha256) const;
+  std::filesystem::path part(const std::string& sha256) const { return folder_ / (sha256 + ".part"); }
+  void complete(const std::string& sha256, std::uint64_t size);
+
+  std::filesystem::path folder_;
+  std::uint64_t max_bytes_;
+};
+
+}  // namespace sculpt

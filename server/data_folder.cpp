@@ -1,0 +1,64 @@
+#include "server/data_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "server/job_store.hpp"
+
+namespace sculpt {
+
+namespace fs = std::filesystem;
+
+DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
+  std::error_code error;
+  for (const fs::path& needed : {folder_, blobs(), jobs()}) {
+    fs::create_directories(needed, error);
+    if (error) {
+      throw DataFolderError("cannot create the folder '" + needed.string() + "': " + error.message() +
+                            "; name another with --data");
+    }
+  }
+  const std::string lock_file = folder_ / "lock";
+  lock_ = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (lock_ < 0) {
+    throw DataFolderError("cannot write to the data folder '" + folder_.string() + "': " + std::strerror(errno) +
+                          "; change its rights or name another with --data");
+  }
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(lock_);
+    throw DataFolderError("another sculptd uses the data folder '" + folder_.string() +
+                          "': stop it or name another with --data");
+  }
+}
+
+DataFolder::~DataFolder() {
+  ::close(lock_);
+}
+
+void sync_to_disk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = file >= 0 && ::fsync(file) == 0;
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (!done) throw StorageError("cannot make '" + path.string() + "' durable: " + std::strerror(error));
+}
+
+void write_durably(const fs::path& file, std::string_view bytes) {
+  const fs::path draft = file.string() + ".draft";
+  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) throw StorageError("cannot write '" + draft.string() + "': check the free space");
+  sync_to_disk(draft);
+  std::error_code error;
+  fs::rename(draft, file, error);
+  if (error) throw StorageError("cannot rename to '" + file.string() + "': " + error.message());
+  sync_to_disk(file.parent_path());
+}
+
+}  // namespace sculpt

@@ -1,0 +1,40 @@
+// The folder that belongs to one daemon: sculptd.db, blobs/, jobs/ID/. Locked while the daemon lives.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace sculpt {
+
+/// The folder cannot be used; what() names it, the reason and the cure.
+class DataFolderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class DataFolder {
+ public:
+  /// Creates what is missing and takes the lock. Throws DataFolderError (no rights, or another daemon has it).
+  explicit DataFolder(const std::filesystem::path& folder);
+  ~DataFolder();
+  DataFolder(const DataFolder&) = delete;
+  DataFolder& operator=(const DataFolder&) = delete;
+
+  std::filesystem::path database() const { return folder_ / "sculptd.db"; }
+  std::filesystem::path blobs() const { return folder_ / "blobs"; }
+  std::filesystem::path jobs() const { return folder_ / "jobs"; }
+
+ private:
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+// Both throw StorageError.
+/// Makes a file's content durable, and a folder's entries.
+void sync_to_disk(const std::filesystem::path& file_or_folder);
+/// Writes a whole file so that it is there completely or not at all, also after a power cut.
+void write_durably(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace sculpt

@@ -1,0 +1,44 @@
+// What the server wants from the planner, as functions: tests give it another one.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/plan/plan.hpp"
+#include "core/verify/verify.hpp"
+
+namespace sculpt {
+
+/// A finished plan, besides the trajectory file: the content of its other artifacts, and whether the replay was clean.
+struct PlanFiles {
+  std::string report_json, residue_ndjson, voxels_binvox;
+  bool clean = false;
+  std::uint64_t collisions = 0;
+  std::string first_finding;
+};
+
+struct Replay {
+  bool clean = false;
+  std::uint64_t collisions = 0, voxels_checked = 0;
+  std::vector<Finding> findings;
+};
+
+/// All throw InputError, and Cancelled where they take a watch; all are called from several threads at once.
+struct Planner {
+  /// Names of the cells that `read_cell` knows.
+  std::function<std::vector<std::string>()> cells;
+  std::function<CellFiles(const std::string& name)> read_cell;
+  std::function<void(const Job&, const Watch&)> check;
+  std::function<PlanFiles(const Job&, const std::filesystem::path& trajectory, const Watch&)> run;
+  std::function<Replay(const Job&, const std::filesystem::path& trajectory, const Watch&)> verify;
+  /// ndjson in, other format out.
+  std::function<void(std::istream&, std::ostream&)> to_csv, to_binary;
+};
+
+/// The real one. `cell_folders` are searched in order.
+Planner make_planner(std::vector<std::filesystem::path> cell_folders);
+
+}  // namespace sculpt

@@ -1,0 +1,59 @@
+// Worker threads: claim a queued job, run it, store how it ended.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "server/job_store.hpp"
+
+namespace sculpt {
+
+/// Runs on a worker. May throw anything: InputError, bad_alloc and others become a failed job, Cancelled lets the job
+/// go.
+using RunJob = std::function<Ending(const JobRecord&, const Watch&)>;
+
+/// All methods are safe from any thread. Between them and a worker stands one mutex, which is never held while a job
+/// runs.
+class Scheduler {
+ public:
+  /// `changed` is called on the worker after each change of a job's state, and must not throw.
+  Scheduler(JobStore& store, RunJob run, std::function<void(const std::string& job)> changed);
+  ~Scheduler() { stop(); }
+
+  void start(int workers);
+  /// Asks every running job to end and waits for the workers; the jobs go back to the queue. Idempotent.
+  void stop();
+  /// There may be a queued job.
+  void wake();
+  /// Call after the store says `cancelling`.
+  void cancel(const std::string& job);
+  /// Nothing if the job does not run.
+  std::optional<Progress> progress(const std::string& job) const;
+
+ private:
+  struct Run;
+  void work(std::stop_token stop);
+  std::optional<JobRecord> claim(const std::shared_ptr<Run>& run);
+  void run_one(const JobRecord& job, Run& run);
+  void store_ending(const JobRecord& job, const std::optional<Ending>& ending);
+
+  JobStore& store_;
+  RunJob run_;
+  std::function<void(const std::string&)> changed_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool work_ = true;  // a claim may find something
+  bool stopping_ = false;
+  std::map<std::string, std::shared_ptr<Run>> running_;
+  std::vector<std::jthread> workers_;
+};
+
+}  // namespace sculpt

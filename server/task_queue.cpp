@@ -1,0 +1,35 @@
+#include "server/task_queue.hpp"
+
+namespace sculpt {
+
+TaskQueue::TaskQueue() : thread_([this](std::stop_token stop) { work(std::move(stop)); }) {}
+
+void TaskQueue::add(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  wake_.notify_one();
+}
+
+void TaskQueue::stop() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+  const std::lock_guard lock(mutex_);
+  tasks_.clear();
+}
+
+void TaskQueue::work(std::stop_token stop) {
+  while (true) {
+    Task task;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait(lock, stop, [this] { return !tasks_.empty(); }) || stop.stop_requested()) return;
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task(stop);
+  }
+}
+
+}  // namespace sculpt
