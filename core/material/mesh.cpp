@@ -11,6 +11,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/material/gltf_guard.hpp"
 #include "core/material/vertex_join.hpp"
 
 namespace sculpt {
@@ -78,42 +79,6 @@ class OneFile final : public Assimp::IOSystem {
   std::string_view bytes_;
   std::string& missing_;
 };
-
-/// assimp's JSON reader recurses once a nesting level, and once a node of a chain of nodes: neither may exhaust the
-/// stack.
-void refuse_deep_json(std::string_view bytes) {
-  constexpr int depth_limit = 64, node_limit = 2000;
-  int depth = 0, parents = 0;
-  bool in_string = false;
-  for (size_t at = 0; at < bytes.size(); ++at) {
-    const char c = bytes[at];
-    if (in_string) {
-      if (c == '\\') ++at;
-      if (c == '"') in_string = false;
-      continue;
-    }
-    if (c == '"') {
-      in_string = true;
-      if (bytes.substr(at, 10) == "\"children\"") ++parents;
-    }
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > depth_limit)
-      throw InputError("mesh_unreadable", "the glTF file nests its JSON deeper than 64 levels: export the mesh again");
-    if (parents > node_limit)
-      throw InputError("mesh_unreadable",
-                       "the glTF file has more than 2000 nodes with children: join its parts and export again");
-  }
-}
-
-void check_json(std::string_view bytes, const std::string& extension) {
-  constexpr size_t header = 20;  // of a .glb: magic, version, length, then length and kind of the JSON chunk
-  if (extension == "gltf") return refuse_deep_json(bytes);
-  if (extension != "glb" || bytes.size() < header) return;
-  std::uint32_t json_bytes = 0;
-  std::memcpy(&json_bytes, bytes.data() + 12, sizeof json_bytes);
-  refuse_deep_json(bytes.substr(header, json_bytes));
-}
 
 void check_memory(std::uint64_t needed, std::uint64_t cap, const std::string& what) {
   if (needed > cap)
@@ -194,7 +159,7 @@ Mesh load_mesh(std::string_view bytes, const std::string& extension, std::uint64
   watch.step(Stage::load, 0, bytes.size());
   check_memory(predict_mesh_memory(bytes.size(), extension), memory_cap_bytes,
                "a ." + extension + " file of " + std::to_string(bytes.size()) + " bytes");
-  check_json(bytes, extension);
+  check_gltf(bytes, extension);
   Assimp::Importer importer;
   const aiScene& scene = import_scene(importer, bytes, extension);
   watch.step(Stage::load, bytes.size() / 2, bytes.size());
