@@ -1,4 +1,5 @@
-// Trajectory -> verdict: replays what was emitted with its own kinematics, FCL and octomap. Includes nothing of search/ or motion/.
+// Trajectory -> verdict: replays what was emitted with its own kinematics, FCL and octomap. Includes nothing of search/
+// or motion/.
 #pragma once
 
 #include <iosfwd>
@@ -24,10 +25,11 @@ struct Verdict {
   std::vector<Finding> findings;     ///< the first 100
 };
 
-/// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell and grid, start and end at home,
-/// joint limits kept, every removed voxel a remove voxel removed once with the ball within tolerance of its centre, no contact of
-/// tool or link with material, room or itself at any time (the tool may touch the voxel being cut, nothing else may), nothing of keep removed.
-/// Throws InputError `trajectory_invalid` for text that is no trajectory; Cancelled.
+/// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell
+/// and grid, start and end at home, joint limits kept, every removed voxel a remove voxel removed once with the ball
+/// within tolerance of its centre, no contact of tool or link with material, room or itself at any time (the tool may
+/// touch the voxel being cut, nothing else may), nothing of keep removed. Throws InputError `trajectory_invalid` for
+/// text that is no trajectory; Cancelled.
 Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch);
 
 }  // namespace sculpt

@@ -1,0 +1,60 @@
+// The replay's own kinematics: where every link is, and how far things move meanwhile. Millimetres, stock frame.
+#pragma once
+
+#include <vector>
+
+#include "core/cell/cell.hpp"
+
+namespace sculpt {
+
+/// A joint that moves with a coordinate of the trajectory.
+struct MovingJoint {
+  int coordinate = 0;
+  double rate = 1;    ///< joint value per unit of the coordinate; mm for prismatic joints. Not 1 for mimic joints
+  bool turns = true;  ///< revolute
+  int link = 0;       ///< child link: its origin is on the axis
+  Vec3 axis = Vec3::UnitZ();
+};
+
+/// Immutable after construction.
+class LinkMotion {
+ public:
+  /// `joints`: robot joint of each coordinate; all others stand at `rest`, mimic joints follow.
+  LinkMotion(const Robot& robot, const std::vector<int>& joints, const std::vector<double>& rest, int stock_link);
+
+  /// Pose of every link; `poses` is resized.
+  void place_links(const Configuration& q, std::vector<Frame>& poses) const;
+
+  /// The moving joints on the tree path from one link to another, nearest to `from` first.
+  std::vector<MovingJoint> joints_between(int from, int to) const;
+
+  /// The robot joints on that path, moving or not, nearest to `from` first.
+  static std::vector<int> path(const Robot& robot, int from, int to);
+
+ private:
+  struct Step {
+    Frame origin;  // of the joint, in the parent link
+    JointKind kind;
+    Vec3 axis;
+    int parent, child;
+    int coordinate;         // -1: stands still
+    double rate, constant;  // value = rate * coordinate + constant, in mm for prismatic joints
+  };
+
+  const Robot* robot_;
+  int stock_link_;
+  std::vector<Step> steps_;
+};
+
+/// Bound on how far a point within `radius` of `centre` (fixed to the far end of `joints`) moves, seen from their near
+/// end, while each coordinate moves by no more than `steps` from where `poses` are.
+double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
+                    const Vec3& centre, double radius);
+
+/// Bound on how far the point `centre` strays from the straight line between its two end positions while the
+/// coordinates move linearly by 2 * steps, with `poses` half-way: half the largest second derivative. 0 where all
+/// joints are prismatic.
+double bend_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
+                  const Vec3& centre);
+
+}  // namespace sculpt

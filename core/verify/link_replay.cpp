@@ -1,0 +1,153 @@
+#include "core/verify/link_replay.hpp"
+
+#include <algorithm>
+
+#include "core/collision/link_pairs.hpp"
+
+namespace sculpt {
+namespace {
+
+// Two things that can come closer than this while they move this little are reported: nobody could prove that they do
+// not touch.
+constexpr double too_close_mm = 0.01;
+// Added to every geometry whose absence of contact is taken as proof, over libccd's own error.
+constexpr double slack_mm = 0.001;
+
+Vec3 centre_of(const SolidBody& body, const std::vector<Frame>& poses) {
+  return poses[static_cast<std::size_t>(body.link)] * body.pose.translation();
+}
+
+bool joined_rigidly(const Robot& robot, int a, int b) {
+  for (int joint : LinkMotion::path(robot, a, b))
+    if (robot.joints[static_cast<std::size_t>(joint)].kind != JointKind::fixed) return false;
+  return true;
+}
+
+}  // namespace
+
+LinkReplay::LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
+                       const StandingVoxels& material, double voxel_mm)
+    : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(voxel_mm) {
+  for (const SolidBody& body : bodies)
+    if (!joined_rigidly(cell.robot, cell.stock_link, body.link)) add_pair(body, nullptr);
+  for (const auto& [a, b] : find_link_pairs(cell.robot))
+    for (const SolidBody& first : bodies)
+      for (const SolidBody& second : bodies)
+        if (first.link == a && second.link == b) add_pair(first, &second);
+}
+
+void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
+  const bool first_is_mesh = first.kind == ShapeKind::mesh,
+             second_is_mesh = second != nullptr && second->kind == ShapeKind::mesh;
+  if (first_is_mesh && second != nullptr && !second_is_mesh)
+    return add_pair(*second, &first);  // the first one is grown, a mesh cannot
+  Pair pair{&first, second, {}, {}, first_is_mesh};
+  const int from = second == nullptr ? cell_.stock_link : second->link;
+  pair.joints = motion_.joints_between(from, first.link);
+  pair.back = motion_.joints_between(first.link, from);
+  if (second != nullptr && pair.joints.empty())
+    return;  // they never move against each other: the cell's matter, not the plan's
+  pairs_.push_back(std::move(pair));
+}
+
+double LinkReplay::approach_limit(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps) const {
+  const double limit = motion_limit(pair.joints, poses, steps, centre_of(*pair.first, poses), pair.first->radius);
+  if (pair.second == nullptr) return limit;
+  return std::min(limit, motion_limit(pair.back, poses, steps, centre_of(*pair.second, poses), pair.second->radius));
+}
+
+double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
+  const Vec3 centre = centre_of(*pair.first, poses);
+  if (pair.second != nullptr)
+    return (centre - centre_of(*pair.second, poses)).norm() - pair.first->radius - pair.second->radius;
+  const Vec3 local = centre - origin_;
+  return (local - local.cwiseMax(0).cwiseMin(material_.side_mm())).norm() - pair.first->radius;
+}
+
+bool LinkReplay::near_material(const SolidBody& body, const Frame& link_pose, double grow) const {
+  Frame pose = link_pose * body.pose;
+  pose.translation() -= origin_;
+  const Vec3 half = pose.linear().cwiseAbs() * body.half + Vec3::Constant(grow);
+  const Vec3 low = pose.translation() - half, high = pose.translation() + half;
+  return any_part(body, grow, [&](const fcl::CollisionGeometryd& part, const Frame& at) {
+    return material_.touches(part, pose * at, low, high);
+  });
+}
+
+bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double grow) const {
+  if (sphere_gap(pair, poses) > grow) return false;
+  const Frame& link_pose = poses[static_cast<std::size_t>(pair.first->link)];
+  if (pair.second == nullptr) return near_material(*pair.first, link_pose, grow);
+  const Frame pose = link_pose * pair.first->pose;
+  const Frame other = poses[static_cast<std::size_t>(pair.second->link)] * pair.second->pose;
+  return any_part(*pair.first, grow, [&](const fcl::CollisionGeometryd& part, const Frame& at) {
+    return any_part(*pair.second, 0, [&](const fcl::CollisionGeometryd& second, const Frame&) {
+      return solids_touch(part, pose * at, second, other);
+    });
+  });
+}
+
+bool LinkReplay::unsettled(Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,
+                           const OnContact& on_contact) {
+  const double travel = approach_limit(pair, poses, steps);
+  if (!near(pair, poses, travel + slack_mm)) return false;
+  const auto& links = cell_.robot.links;
+  const std::string names =
+      "link " + links[static_cast<std::size_t>(pair.first->link)].name + " and " +
+      (pair.second == nullptr ? "the material" : "link " + links[static_cast<std::size_t>(pair.second->link)].name);
+  if (near(pair, poses, 0)) {
+    on_contact(names + " touch", t);
+    return false;
+  }
+  if (pair.sampled) return 2 * travel > voxel_ / 4;
+  if (travel >= too_close_mm) return true;
+  on_contact(names + " are too close to prove that they do not touch", t);
+  return false;
+}
+
+void LinkReplay::certify(const JointMotion& motion, double middle, double half, const std::vector<Pair*>& open,
+                         const OnContact& on_contact) {
+  std::vector<Frame> poses;
+  motion_.place_links(motion.at(middle), poses);
+  std::vector<Pair*> left;
+  for (Pair* pair : open)
+    if (unsettled(*pair, poses, half * motion.step, middle, on_contact)) left.push_back(pair);
+  if (left.empty()) return;
+  certify(motion, middle - half / 2, half / 2, left, on_contact);
+  certify(motion, middle + half / 2, half / 2, left, on_contact);
+}
+
+void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, double travel) {
+  pair.clearance = std::max(0.0, sphere_gap(pair, poses));
+  for (double times : {64, 16, 4}) {
+    if (pair.clearance >= times * travel) return;
+    if (near(pair, poses, times * travel + slack_mm)) continue;
+    pair.clearance = times * travel;
+    return;
+  }
+}
+
+void LinkReplay::forget() {
+  for (Pair& pair : pairs_) pair.clearance = 0;
+}
+
+void LinkReplay::replay(const JointMotion& motion, const OnContact& on_contact) {
+  if (motion.step.isZero(0)) return;
+  std::vector<Frame> poses;
+  motion_.place_links(motion.from, poses);
+  std::vector<std::pair<Pair*, double>> uncovered;  // with the travel over the whole motion
+  std::vector<Pair*> open;
+  for (Pair& pair : pairs_) {
+    const double travel = approach_limit(pair, poses, motion.step);
+    pair.clearance -= travel;
+    if (pair.clearance >= 0) continue;
+    uncovered.emplace_back(&pair, travel);
+    open.push_back(&pair);
+  }
+  if (open.empty()) return;
+  certify(motion, 0.5, 0.5, open, on_contact);
+  motion_.place_links(motion.at(1), poses);
+  for (const auto& [pair, travel] : uncovered) renew_clearance(*pair, poses, travel);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,170 @@
+#include "core/verify/tool_replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+constexpr double mm = 1000;
+// A tool that can touch while it moves less than this (in voxels) is reported.
+constexpr double too_close_voxels = 0.002;
+// Added to every geometry whose absence of contact is taken as proof, over libccd's own error.
+constexpr double slack_mm = 0.001;
+
+// Middle of a..b, z along it.
+Frame along(const Vec3& a, const Vec3& b) {
+  Frame pose = Frame::Identity();
+  pose.translation() = (a + b) / 2;
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a).toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
+
+ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& motion,
+                       const std::vector<SolidBody>& bodies, const StandingVoxels& material, double voxel_mm)
+    : cell_(cell),
+      motion_(motion),
+      material_(material),
+      voxel_(voxel_mm),
+      ball_(mm * tool.ball_radius_m),
+      shank_(mm * tool.shank_radius_m),
+      stickout_(mm * tool.stickout_m) {
+  const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
+  targets_.push_back({nullptr, grid, cell.stock_link, motion.joints_between(cell.stock_link, cell.tool_link),
+                      Vec3::Zero(), Vec3::Constant(material.side_mm())});
+  for (const SolidBody& body : bodies) {
+    Target target{&body, body.pose, body.link, motion.joints_between(body.link, cell.tool_link), -body.half, body.half};
+    if (!target.joints.empty()) targets_.push_back(std::move(target));  // else it moves with the tool
+  }
+  for (const Target& target : targets_) {
+    tasks_.push_back({&target, false});
+    if (shank_ > 0 && stickout_ > 0) tasks_.push_back({&target, true});
+  }
+}
+
+Vec3 ToolReplay::ball_at(const Configuration& q) const {
+  std::vector<Frame> poses;
+  motion_.place_links(q, poses);
+  return poses[static_cast<std::size_t>(cell_.tool_link)] * Vec3(0, 0, stickout_);
+}
+
+ToolReplay::Line ToolReplay::line_in(const Target& target, const std::vector<Frame>& poses) const {
+  const Frame tool = (poses[static_cast<std::size_t>(target.link)] * target.pose).inverse() *
+                     poses[static_cast<std::size_t>(cell_.tool_link)];
+  return {tool * Vec3(0, 0, stickout_), tool.translation()};
+}
+
+bool ToolReplay::touches(const Target& target, const fcl::CollisionGeometryd& part, const Frame& pose, const Vec3& low,
+                         const Vec3& high) const {
+  if (target.body == nullptr) return material_.touches(part, pose, low, high);
+  return any_part(*target.body, 0, [&](const fcl::CollisionGeometryd& solid, const Frame& at) {
+    return solids_touch(part, pose, solid, at);
+  });
+}
+
+// The ball grown by `grow`, all the way between two places.
+bool ToolReplay::ball_meets(const Target& target, const Vec3& from, const Vec3& to, double grow) const {
+  const double radius = ball_ + grow;
+  const Vec3 low = from.cwiseMin(to).array() - radius, high = from.cwiseMax(to).array() + radius;
+  if ((low.array() > target.high.array()).any() || (high.array() < target.low.array()).any()) return false;
+  const double way = (to - from).norm();
+  if (way < 1e-6) return touches(target, fcl::Sphered(radius + way), Frame(Eigen::Translation3d(from)), low, high);
+  return touches(target, fcl::Capsuled(radius, way), along(from, to), low, high);
+}
+
+bool ToolReplay::shank_meets(const Target& target, const Line& line, double grow, double longer) const {
+  const double radius = shank_ + grow;
+  const Vec3 low = line.ball.cwiseMin(line.top).array() - radius - longer,
+             high = line.ball.cwiseMax(line.top).array() + radius + longer;
+  if ((low.array() > target.high.array()).any() || (high.array() < target.low.array()).any()) return false;
+  const fcl::Cylinderd part(radius, (line.top - line.ball).norm() + 2 * longer);
+  return touches(target, part, along(line.ball, line.top), low, high);
+}
+
+// Two covers of everything that the shank passes: a box along it, tight when it moves sideways or endwise without
+// turning, and a thicker cylinder in the middle, tight when it hardly moves. It meets nothing if either does not.
+bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) const {
+  const Line &start = sweep.start, &end = sweep.end;
+  const double radius = shank_ + sweep.bend + slack_mm;
+  const Vec3 low = start.ball.cwiseMin(end.ball).cwiseMin(start.top).cwiseMin(end.top).array() - radius;
+  const Vec3 high = start.ball.cwiseMax(end.ball).cwiseMax(start.top).cwiseMax(end.top).array() + radius;
+  if ((low.array() > target.high.array()).any() || (high.array() < target.low.array()).any()) return false;
+
+  const Line middle{(start.ball + end.ball) / 2, (start.top + end.top) / 2};
+  const Vec3 axis = (middle.top - middle.ball).normalized();
+  Vec3 aside = end.ball - start.ball + end.top - start.top;
+  aside -= axis * axis.dot(aside);
+  aside = aside.norm() > 1e-6 * voxel_ ? Vec3(aside.normalized()) : axis.unitOrthogonal();
+  Frame turn = Frame::Identity();
+  turn.linear() << aside, axis.cross(aside), axis;
+  fcl::AABBd box;
+  for (const Vec3& corner : {start.ball, end.ball, start.top, end.top}) box += Vec3(turn.linear().transpose() * corner);
+  const Frame pose = turn * Eigen::Translation3d(box.center());
+  const Vec3 sides = box.max_ - box.min_ + Vec3::Constant(2 * radius);
+  if (!touches(target, fcl::Boxd(sides), pose, low, high)) return false;
+
+  const double ball_way = (end.ball - start.ball).norm() / 2 + sweep.bend,
+               top_way = (end.top - start.top).norm() / 2 + sweep.bend;
+  const double length = (middle.top - middle.ball).norm();
+  const double way = std::max(ball_way, top_way), tilt = (ball_way + top_way) / length;
+  if (way > voxel_ || tilt > 0.5) return true;
+  // Points off the axis move along it when the shank tilts: asin(tilt) < 1.1 tilt up to 0.5.
+  return shank_meets(target, middle, way + slack_mm, way + 1.1 * tilt * shank_ + slack_mm);
+}
+
+ToolReplay::Finding ToolReplay::settle(const Task& task, const std::vector<Frame>& start,
+                                       const std::vector<Frame>& middle, const std::vector<Frame>& end,
+                                       const Configuration& steps) const {
+  const Target& target = *task.target;
+  Sweep sweep{line_in(target, start), line_in(target, end), line_in(target, middle), 0};
+  const Frame& tool = middle[static_cast<std::size_t>(cell_.tool_link)];
+  sweep.bend = bend_limit(target.joints, middle, steps, tool * Vec3(0, 0, stickout_));
+  double way = (sweep.end.ball - sweep.start.ball).norm() / 2;
+  if (task.shank) {
+    sweep.bend = std::max(sweep.bend, bend_limit(target.joints, middle, steps, tool.translation()));
+    way = std::max(way, (sweep.end.top - sweep.start.top).norm() / 2);
+    if (!swept_shank_meets(target, sweep)) return Finding::free;
+    if (shank_meets(target, sweep.middle, 0, 0)) return Finding::touches;
+  } else {
+    if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.bend + slack_mm)) return Finding::free;
+    if (ball_meets(target, sweep.middle.ball, sweep.middle.ball, 0)) return Finding::touches;
+  }
+  return way + sweep.bend < too_close_voxels * voxel_ ? Finding::too_close : Finding::unknown;
+}
+
+void ToolReplay::certify(const JointMotion& motion, double from, double to, const std::vector<Frame>& start,
+                         const std::vector<Frame>& end, const std::vector<Task>& open,
+                         const OnContact& on_contact) const {
+  const double t = (from + to) / 2;
+  std::vector<Frame> middle;
+  motion_.place_links(motion.at(t), middle);
+  std::vector<Task> left;
+  for (const Task& task : open) {
+    const Finding finding = settle(task, start, middle, end, (to - from) / 2 * motion.step);
+    if (finding == Finding::free) continue;
+    if (finding == Finding::unknown) {
+      left.push_back(task);
+      continue;
+    }
+    const SolidBody* body = task.target->body;
+    const std::string names =
+        std::string("the tool's ") + (task.shank ? "shank" : "ball") + " and " +
+        (body == nullptr ? "the material" : "link " + cell_.robot.links[static_cast<std::size_t>(body->link)].name);
+    on_contact(names + (finding == Finding::touches ? " touch" : " are too close to prove that they do not touch"), t);
+  }
+  if (left.empty()) return;
+  certify(motion, from, t, start, middle, left, on_contact);
+  certify(motion, t, to, middle, end, left, on_contact);
+}
+
+void ToolReplay::replay(const JointMotion& motion, const OnContact& on_contact) const {
+  if (motion.step.isZero(0)) return;
+  std::vector<Frame> start, end;
+  motion_.place_links(motion.from, start);
+  motion_.place_links(motion.at(1), end);
+  certify(motion, 0, 1, start, end, tasks_, on_contact);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,65 @@
+// Ball and shank against material and links along a motion. Internal to verify/.
+#pragma once
+
+#include "core/verify/link_motion.hpp"
+#include "core/verify/replay_finding.hpp"
+#include "core/verify/solid_body.hpp"
+#include "core/verify/standing_voxels.hpp"
+
+namespace sculpt {
+
+/// Millimetres. Where a link could be grown by its motion, the tool is swept instead: it may pass a wall at a twentieth
+/// of a voxel.
+class ToolReplay {
+ public:
+  /// All arguments must outlive the replay.
+  ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
+             const StandingVoxels& material, double voxel_mm);
+
+  /// Tells at most one contact for each part of the tool and each thing it can touch.
+  void replay(const JointMotion& motion, const OnContact& on_contact) const;
+
+  /// The ball's centre in the stock frame.
+  Vec3 ball_at(const Configuration& q) const;
+
+ private:
+  struct Target {
+    const SolidBody* body;  // null: the material
+    Frame pose;             // of the target's frame in its link
+    int link;
+    std::vector<MovingJoint> joints;  // from the target to the tool
+    Vec3 low, high;                   // box around it in its own frame
+  };
+  struct Task {
+    const Target* target;
+    bool shank;
+  };
+  struct Line {
+    Vec3 ball, top;
+  };
+  struct Sweep {
+    Line start, end, middle;  // in the target's frame
+    double bend;              // how far any point of the line strays from the straight way between start and end
+  };
+  enum class Finding { free, touches, too_close, unknown };
+
+  Line line_in(const Target& target, const std::vector<Frame>& poses) const;
+  bool touches(const Target& target, const fcl::CollisionGeometryd& part, const Frame& pose, const Vec3& low,
+               const Vec3& high) const;
+  bool ball_meets(const Target& target, const Vec3& from, const Vec3& to, double grow) const;
+  bool shank_meets(const Target& target, const Line& line, double grow, double longer) const;
+  bool swept_shank_meets(const Target& target, const Sweep& sweep) const;
+  Finding settle(const Task& task, const std::vector<Frame>& start, const std::vector<Frame>& middle,
+                 const std::vector<Frame>& end, const Configuration& steps) const;
+  void certify(const JointMotion& motion, double from, double to, const std::vector<Frame>& start,
+               const std::vector<Frame>& end, const std::vector<Task>& open, const OnContact& on_contact) const;
+
+  const Cell& cell_;
+  const LinkMotion& motion_;
+  const StandingVoxels& material_;
+  double voxel_, ball_, shank_, stickout_;
+  std::vector<Target> targets_;
+  std::vector<Task> tasks_;
+};
+
+}  // namespace sculpt
