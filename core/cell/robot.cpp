@@ -85,7 +85,9 @@ urdf::ModelInterfaceSharedPtr parse_model(const std::string& xml) {
     thrown = error.what();
   }
   console_bridge::restorePreviousOutputHandler();
-  if (model) return model;
+  // A link of which urdfdom cannot read one visual or collision element stays in the model without any shape: never go
+  // on with it.
+  if (model && messages.text().empty()) return model;
   const std::string why = !messages.text().empty() ? messages.text() : !thrown.empty() ? thrown : "not XML";
   refuse("the URDF cannot be parsed: " + why);
 }
