@@ -6,6 +6,9 @@
 namespace sculpt {
 namespace {
 
+/// Below this the few voxels along the capsule are looked at one by one, above it cubes of them are.
+constexpr double thin_radius = 1;
+
 /// The part of the segment with low <= coordinate[axis] <= high, as parameters; false if there is none.
 bool clip(const Segment& segment, int axis, double low, double high, double& from, double& to) {
   const double start = segment.a[axis], step = segment.b[axis] - start;
@@ -32,9 +35,8 @@ Material::Material(const VoxelSet& standing) : solid_(standing) {
       for (int j = 0; j < 2 * m; ++j)
         for (int i = 0; i < 2 * m; ++i)
           sums[static_cast<std::size_t>(i / 2) +
-               static_cast<std::size_t>(m) *
-                   (static_cast<std::size_t>(j / 2) + static_cast<std::size_t>(m) * (k / 2))] +=
-              level == 1 ? (solid_.contains({i, j, k}) ? 1 : 0) : count(level - 1, {i, j, k});
+               static_cast<std::size_t>(m) * (static_cast<std::size_t>(j / 2) +
+                                              static_cast<std::size_t>(m) * (k / 2))] += count(level - 1, {i, j, k});
     counts_.push_back(std::move(sums));
   }
 }
@@ -50,6 +52,30 @@ void Material::remove(Voxel v) {
 }
 
 bool Material::meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const {
+  if (radius < thin_radius) return meets_thin_capsule(segment, radius, exempt);
+  return cube_meets_capsule(static_cast<int>(counts_.size()), {0, 0, 0}, segment, radius, exempt);
+}
+
+bool Material::cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,
+                                  std::optional<Voxel> exempt) const {
+  const std::uint32_t standing = count(level, at);
+  if (standing == 0) return false;
+  const int size = 1 << level;
+  const Voxel corner = at * size;
+  const Vec3 low(corner.i, corner.j, corner.k);
+  if (distance_to_box(segment, low, low + Vec3::Constant(size)) >= radius) return false;
+  const bool holds_exempt =
+      exempt && exempt->i >> level == at.i && exempt->j >> level == at.j && exempt->k >> level == at.k;
+  if (level == 0) return !holds_exempt;
+  if (standing == volume(level) && !holds_exempt) return true;
+  for (int child = 0; child < 8; ++child) {
+    const Voxel below{2 * at.i + (child & 1), 2 * at.j + (child >> 1 & 1), 2 * at.k + (child >> 2)};
+    if (cube_meets_capsule(level - 1, below, segment, radius, exempt)) return true;
+  }
+  return false;
+}
+
+bool Material::meets_thin_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const {
   const Vec3 d = segment.b - segment.a;
   int main = 0;
   d.cwiseAbs().maxCoeff(&main);

@@ -35,24 +35,29 @@ class Material {
   }
 
  private:
+  bool meets_thin_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
+  bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,
+                          std::optional<Voxel> exempt) const;
+
   template <typename Visit>
   bool any_block_below(int level, Voxel at, const Vec3& low, const Vec3& high, Visit&& visit) const {
     const int size = 1 << level;
-    const std::uint32_t full =
-        static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size);
-    const std::uint32_t standing = level == 0 ? (solid_.contains(at) ? 1 : 0) : count(level, at);
+    const std::uint32_t standing = count(level, at);
     if (standing == 0) return false;
     const Voxel corner = at * size;
     if (corner.i >= high.x() || corner.j >= high.y() || corner.k >= high.z()) return false;
     if (corner.i + size <= low.x() || corner.j + size <= low.y() || corner.k + size <= low.z()) return false;
-    if (standing == full) return visit(corner, size);
+    if (standing == volume(level)) return visit(corner, size);
     for (int child = 0; child < 8; ++child) {
       const Voxel below{2 * at.i + (child & 1), 2 * at.j + (child >> 1 & 1), 2 * at.k + (child >> 2)};
       if (any_block_below(level - 1, below, low, high, visit)) return true;
     }
     return false;
   }
+  static std::uint32_t volume(int level) { return std::uint32_t{1} << (3 * level); }
+  /// Standing voxels in the cube of edge 2^level at position `at` among cubes of that size.
   std::uint32_t count(int level, Voxel at) const {
+    if (level == 0) return solid_.contains(at) ? 1 : 0;
     const std::size_t m = static_cast<std::size_t>(n() >> level);
     return counts_[static_cast<std::size_t>(level) - 1]
                   [static_cast<std::size_t>(at.i) +

@@ -105,24 +105,23 @@ struct Scene::Impl {
     return radii.shank > 0 && material.meets_capsule({line.ball, line.top}, radii.shank + tool_margin_voxels, exempt);
   }
 
+  /// Is a standing voxel within `reach_m` of the body? The bounding capsule rules most of them out, FCL decides on the
+  /// blocks that are left.
   bool near_material(const Body& body, const Frame& link_pose, double reach_m) const {
-    const Segment core = moved(link_pose, body.core);
-    const double side = grid.n * grid.voxel_m;
-    const Vec3 high = grid.origin_m + Vec3::Constant(side);
-    if (distance_to_box(core, grid.origin_m, high) > body.core_radius_m + reach_m) return false;
+    const double h = grid.voxel_m, radius = (body.core_radius_m + reach_m) / h;
+    const Segment core{(link_pose * body.core.a - grid.origin_m) / h, (link_pose * body.core.b - grid.origin_m) / h};
+    if (!material.meets_capsule(core, radius, {})) return false;
     const Frame pose = link_pose * body.shape.pose;
     const Vec3 half = half_extents(body.shape, pose.linear()) + Vec3::Constant(reach_m);
     const Vec3 middle = pose.translation() - grid.origin_m;
-    const double h = grid.voxel_m;
-    std::shared_ptr<fcl::CollisionGeometryd> grown;
-    Frame fcl_pose = to_fcl(pose);
+    const auto grown = make_fcl_geometry(body.shape, reach_m);
     return material.any_block((middle - half) / h, (middle + half) / h, [&](Voxel corner, int size) {
-      if (!grown) grown = make_fcl_geometry(body.shape, reach_m);
-      const fcl::Boxd block(Vec3::Constant(fcl_mm * h * size));
+      const Vec3 low(corner.i, corner.j, corner.k), side = Vec3::Constant(size);
+      if (distance_to_box(core, low, low + side) > radius) return false;
+      const fcl::Boxd block(fcl_mm * h * side);
       Frame at = Frame::Identity();
-      at.translation() =
-          fcl_mm * (grid.origin_m + h * (Vec3(corner.i, corner.j, corner.k) + Vec3::Constant(size / 2.0)));
-      return fcl_touch(*grown, fcl_pose, block, at);
+      at.translation() = fcl_mm * (grid.origin_m + h * (low + side / 2));
+      return fcl_touch(*grown, to_fcl(pose), block, at);
     });
   }
 

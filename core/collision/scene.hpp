@@ -27,8 +27,8 @@ class Scene {
   /// `v` stands no longer.
   void remove(Voxel v);
 
-  /// Could the tool alone come down its own axis to `pose` (stock frame)? True if a cylinder of the larger of ball's and shank's radius, from the
-  /// ball's centre along the shank, is clear of all material but `exempt`. Exact.
+  /// Could the tool alone come down its own axis to `pose` (stock frame)? True if a cylinder of the larger of ball's
+  /// and shank's radius, from the ball's centre along the shank, is clear of all material but `exempt`. Exact.
   bool tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const;
 
   /// Contacts at q. The tool (not the links) may touch `exempt`.

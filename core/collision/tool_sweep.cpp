@@ -7,6 +7,8 @@ namespace {
 
 /// Intervals whose tool moves less than this (voxel edges) and still is not certified count as touching.
 constexpr double finest_motion = 0.004;
+/// Edges longer than this (voxel edges) are probed before they are certified.
+constexpr double long_motion = 3;
 
 struct Sweep {
   const Material& material;
@@ -39,13 +41,29 @@ struct Sweep {
   }
 };
 
+/// Most edges that are not free touch over a good part of their length: a few poses find that out before the fine work
+/// starts.
+bool touches_at_a_glance(const Sweep& sweep) {
+  for (int step = 8; step >= 1; step /= 2)
+    for (int at = step; at < 16; at += 2 * step) {
+      const ToolLine line = sweep.line_at(at / 16.0);
+      if (sweep.material.meets_capsule({line.ball, line.ball}, sweep.radii.ball, sweep.exempt)) return true;
+      if (sweep.radii.shank > 0 && sweep.material.meets_capsule({line.ball, line.top}, sweep.radii.shank, sweep.exempt))
+        return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double bend,
                         const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
   const bool has_shank = radii.shank > 0;
-  const Sweep sweep{material, line_at, bend, {radii.ball + margin, radii.shank + margin}, exempt};
-  return sweep.is_free(0, line_at(0), 1, line_at(1), true, has_shank);
+  const Sweep sweep{material, line_at, bend, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};
+  const ToolLine start = line_at(0), end = line_at(1);
+  if ((start.ball - end.ball).norm() + (start.top - end.top).norm() > long_motion && touches_at_a_glance(sweep))
+    return false;
+  return sweep.is_free(0, start, 1, end, true, has_shank);
 }
 
 }  // namespace sculpt

@@ -34,8 +34,13 @@ std::uint64_t peak_memory_bytes() {
 /// The trajectory file as it grows, and the figures of what was written.
 class Output {
  public:
-  Output(const std::filesystem::path& path, const TrajectoryHeader& header, const Chain& chain)
-      : file_(path, std::ios::binary | std::ios::trunc), writer_(file_, header), figures_(chain, header.home) {
+  Output(const std::filesystem::path& path, const TrajectoryHeader& header, const Chain& chain, std::uint64_t remove,
+         const Watch& watch)
+      : file_(path, std::ios::binary | std::ios::trunc),
+        writer_(file_, header),
+        figures_(chain, header.home),
+        remove_(remove),
+        watch_(watch) {
     check(path);
     file_.flush();
   }
@@ -43,6 +48,7 @@ class Output {
   void add(const Keyframe& keyframe) {
     writer_.add(keyframe);
     figures_.add(keyframe);
+    watch_.step(Stage::plan, figures_.removed, remove_);
   }
   void flush() { file_.flush(); }
   TrajectoryEnd finish(const std::filesystem::path& path) {
@@ -63,6 +69,8 @@ class Output {
   std::ofstream file_;
   TrajectoryWriter writer_;
   PathFigures figures_;
+  std::uint64_t remove_;
+  const Watch& watch_;
 };
 
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
@@ -171,7 +179,7 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
         "cell_invalid",
         "cell '" + cell.name +
             "': home touches the stock, the room or the robot itself: choose a home clear of the full stock");
-  Output output(trajectory, header, chain);
+  Output output(trajectory, header, chain, report.voxels.remove, watch);
   if (chain.translating())
     carve_with_gantry(scene, result.voxels, octree, graph, header.home, output, watch);
   else
