@@ -27,12 +27,10 @@ constexpr std::array catalogue{
     ErrorCode{"urdf_invalid", 5012, false},      ErrorCode{"chain_empty", 5013, false},
     ErrorCode{"tool_too_large", 5014, false},    ErrorCode{"binvox_invalid", 5015, false},
     ErrorCode{"file_missing", 5016, false},      ErrorCode{"trajectory_invalid", 5017, false},
-    ErrorCode{"stock_empty", 5018, false},
-    ErrorCode{"stock_out_of_reach", 5019, false},
-    ErrorCode{"threads_invalid", 5020, false},
-    ErrorCode{"no_transit", 5021, false},
-    ErrorCode{"file_unwritable", 5022, false},
-    ErrorCode{"verify_failed", 5090, false},     ErrorCode{"out_of_memory", 5091, false},
+    ErrorCode{"stock_empty", 5018, false},       ErrorCode{"stock_out_of_reach", 5019, false},
+    ErrorCode{"threads_invalid", 5020, false},   ErrorCode{"no_transit", 5021, false},
+    ErrorCode{"file_unwritable", 5022, false},   ErrorCode{"verify_failed", 5090, false},
+    ErrorCode{"out_of_memory", 5091, false},
 };
 
 }  // namespace

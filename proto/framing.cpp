@@ -8,10 +8,10 @@ void FrameReader::feed(std::string_view bytes) {
   if (!broken_) buffer_.append(bytes);
 }
 
-std::optional<Frame> FrameReader::next() {
+std::optional<WireFrame> FrameReader::next() {
   if (broken_) return std::nullopt;
-  std::optional<Frame> frame = chunk_bytes_ ? next_chunk() : next_line();
-  if (frame && (frame->kind == Frame::Kind::too_long || frame->kind == Frame::Kind::bad_chunk)) {
+  std::optional<WireFrame> frame = chunk_bytes_ ? next_chunk() : next_line();
+  if (frame && (frame->kind == WireFrame::Kind::too_long || frame->kind == WireFrame::Kind::bad_chunk)) {
     broken_ = true;
     buffer_.clear();
     at_ = 0;
@@ -20,25 +20,25 @@ std::optional<Frame> FrameReader::next() {
   return frame;
 }
 
-std::optional<Frame> FrameReader::next_line() {
+std::optional<WireFrame> FrameReader::next_line() {
   while (true) {
     const std::size_t end = buffer_.find('\n', std::max(at_, searched_));
     searched_ = end == std::string::npos ? buffer_.size() : end;
     // One byte more than the limit may be a CR.
-    if (searched_ - at_ > line_limit_ + 1) return Frame{Frame::Kind::too_long, {}};
+    if (searched_ - at_ > line_limit_ + 1) return WireFrame{WireFrame::Kind::too_long, {}};
     if (end == std::string::npos) return std::nullopt;
     std::string line = buffer_.substr(at_, end - at_);
     at_ = searched_ = end + 1;
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.size() > line_limit_) return Frame{Frame::Kind::too_long, {}};
-    if (!line.empty()) return Frame{Frame::Kind::line, std::move(line)};
+    if (line.size() > line_limit_) return WireFrame{WireFrame::Kind::too_long, {}};
+    if (!line.empty()) return WireFrame{WireFrame::Kind::line, std::move(line)};
   }
 }
 
-std::optional<Frame> FrameReader::next_chunk() {
+std::optional<WireFrame> FrameReader::next_chunk() {
   if (pending() < *chunk_bytes_ + 1) return std::nullopt;
-  if (buffer_[at_ + *chunk_bytes_] != '\n') return Frame{Frame::Kind::bad_chunk, {}};
-  Frame frame{Frame::Kind::chunk, buffer_.substr(at_, *chunk_bytes_)};
+  if (buffer_[at_ + *chunk_bytes_] != '\n') return WireFrame{WireFrame::Kind::bad_chunk, {}};
+  WireFrame frame{WireFrame::Kind::chunk, buffer_.substr(at_, *chunk_bytes_)};
   at_ += *chunk_bytes_ + 1;
   searched_ = at_;
   chunk_bytes_.reset();

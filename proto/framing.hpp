@@ -11,7 +11,7 @@ namespace sculpt {
 inline constexpr std::size_t max_line_bytes = 1 << 20;  ///< without its end
 inline constexpr std::size_t max_chunk_bytes = 4 << 20;
 
-struct Frame {
+struct WireFrame {
   enum class Kind {
     line,      ///< `bytes` = the line without LF and CR; empty lines are skipped
     chunk,     ///< `bytes` = the announced raw bytes
@@ -30,14 +30,14 @@ class FrameReader {
 
   void feed(std::string_view bytes);
   /// The next whole frame, or nothing until more bytes are fed. After too_long and bad_chunk there is never another.
-  std::optional<Frame> next();
+  std::optional<WireFrame> next();
   void expect_chunk(std::size_t bytes) { chunk_bytes_ = bytes; }
   /// Bytes fed and not yet taken: at most what was fed since the last `next` beyond one frame.
   std::size_t pending() const { return buffer_.size() - at_; }
 
  private:
-  std::optional<Frame> next_line();
-  std::optional<Frame> next_chunk();
+  std::optional<WireFrame> next_line();
+  std::optional<WireFrame> next_chunk();
   void drop_taken();
 
   std::size_t line_limit_;

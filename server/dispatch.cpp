@@ -1,0 +1,113 @@
+#include "server/dispatch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string_view>
+#include <variant>
+
+#include "server/handlers.hpp"
+#include "server/services.hpp"
+#include "server/session.hpp"
+
+namespace sculpt {
+namespace {
+
+struct Entry {
+  std::string_view method;
+  Handler handler;
+};
+
+constexpr std::array table{
+    Entry{"hello", on_hello},
+    Entry{"ping", on_ping},
+    Entry{"server.info", on_server_info},
+    Entry{"blob.has", on_blob_has},
+    Entry{"blob.put", on_blob_put},
+    Entry{"job.submit", on_submit},
+    Entry{"job.get", on_get},
+    Entry{"job.list", on_list},
+    Entry{"job.cancel", on_cancel},
+    Entry{"job.wait", on_wait},
+    Entry{"job.report", on_report},
+    Entry{"job.verify", on_verify},
+    Entry{"events.subscribe", on_subscribe},
+    Entry{"events.unsubscribe", on_unsubscribe},
+    Entry{"artifact.list", on_artifact_list},
+    Entry{"artifact.read", on_artifact_read},
+};
+
+Handler find_handler(const std::string& method) {
+  const auto* found = std::ranges::find(table, method, &Entry::method);
+  if (found != table.end()) return found->handler;
+  std::string names;
+  for (const Entry& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.method);
+  throw ProtocolError("unknown_method", "there is no method '" + method + "': there are " + names, "/method");
+}
+
+// Call inside a catch block.
+Json current_error() {
+  try {
+    throw;
+  } catch (const ProtocolError& error) {
+    return error_object(error.code(), error.what(), error.pointer());
+  } catch (const InputError& error) {
+    return error_object(error.code(), error.what());
+  } catch (const Cancelled&) {
+    return error_object("stopping", "the daemon is stopping: try again when it is back");
+  } catch (const StorageError& error) {
+    spdlog::error("{}", error.what());
+    return error_object("storage_error", error.what());
+  } catch (const std::bad_alloc&) {
+    return error_object("out_of_memory", "the server has not enough memory for this: use a smaller resolution or mesh");
+  } catch (const std::exception& error) {
+    spdlog::error("internal error: {}", error.what());
+    return error_object("internal_error", std::string("the server failed: ") + error.what());
+  }
+}
+
+}  // namespace
+
+void dispatch(Services& services, Call call, const std::string& method) {
+  const std::shared_ptr<Session> session = call.session;
+  const Json id = call.id;
+  try {
+    const Handler handler = find_handler(method);
+    if (!session->greeted() && handler != on_hello) {
+      throw ProtocolError(
+          "hello_required",
+          "say hello first: {\"id\":1,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"NAME\"}}");
+    }
+    handler(services, std::move(call));
+  } catch (...) {
+    session->refuse(id, current_error());
+  }
+}
+
+void answer(const Call& call, Json result) {
+  call.session->answer(call.id, {std::move(result), std::nullopt});
+}
+
+void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work) {
+  auto shared = std::make_shared<Call>(std::move(call));
+  queue.add([&services, shared = std::move(shared), work = std::move(work)](std::stop_token stop) mutable {
+    std::variant<Answer, Json> outcome;
+    try {
+      outcome = work(std::move(stop));
+    } catch (...) {
+      outcome = current_error();
+    }
+    // Moved, so that the last owner of a session is always the I/O thread.
+    boost::asio::post(services.io, [waiting = std::move(shared), outcome = std::move(outcome)] {
+      if (const Answer* answer = std::get_if<Answer>(&outcome)) {
+        waiting->session->answer(waiting->id, *answer);
+      } else {
+        waiting->session->refuse(waiting->id, std::get<Json>(outcome));
+      }
+    });
+  });
+}
+
+}  // namespace sculpt

@@ -1,0 +1,37 @@
+// Method names -> handlers, and exceptions -> error replies: the one place on the I/O side where errors are caught.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "proto/json.hpp"
+
+namespace sculpt {
+
+class Session;
+class TaskQueue;
+struct Answer;
+struct Services;
+
+/// A request on its way to its answer.
+struct Call {
+  std::shared_ptr<Session> session;
+  Json id;
+  Json params;
+  std::string chunk;
+};
+
+/// Runs on the I/O thread and must not block. Answers the call, now or later, or throws.
+using Handler = void (*)(Services&, Call);
+
+void dispatch(Services& services, Call call, const std::string& method);
+
+/// Answers at once.
+void answer(const Call& call, Json result);
+
+/// Does `work` on the queue's thread and answers with what it returns or throws.
+void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work);
+
+}  // namespace sculpt

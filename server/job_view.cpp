@@ -1,0 +1,39 @@
+#include "server/job_view.hpp"
+
+#include "server/job_run.hpp"
+
+namespace sculpt {
+
+JobRecord find_job(JobStore& store, const std::string& job) {
+  std::optional<JobRecord> record = store.find(job);
+  if (!record) throw ProtocolError("not_found", "there is no job '" + job + "'", "/params/job");
+  return std::move(*record);
+}
+
+Json error_view(const JobRecord& job) {
+  return {{"code", job.error_code}, {"message", job.error_sentence}};
+}
+
+Json job_view(const Services& services, const JobRecord& job) {
+  const JobSpec spec = read_stored_spec(job);
+  Json view{{"job", job.id}, {"state", name(job.state)}};
+  if (!job.key.empty()) view["key"] = job.key;
+  view["priority"] = job.priority;
+  view["mesh"] = spec.mesh.name;
+  view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);
+  view["search"] = spec.search.value_or(Job{}.search);
+  view["seed"] = spec.seed;
+  view["resolution"] = spec.resolution;
+  view["attempt"] = job.attempt;
+  view["submitted_at"] = job.submitted_at;
+  if (!job.started_at.empty()) view["started_at"] = job.started_at;
+  if (!job.finished_at.empty()) view["finished_at"] = job.finished_at;
+  if (job.state == JobState::queued) view["position"] = services.store.position(job);
+  if (const std::optional<Progress> progress = services.scheduler.progress(job.id)) {
+    view["progress"] = {{"stage", name(progress->stage)}, {"done", progress->done}, {"total", progress->total}};
+  }
+  if (job.state == JobState::failed) view["error"] = error_view(job);
+  return view;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,15 @@
+// A job as clients see it (proto/PROTOCOL.md, job.get).
+#pragma once
+
+#include "server/services.hpp"
+
+namespace sculpt {
+
+/// With progress while it runs and its position while it is queued.
+Json job_view(const Services& services, const JobRecord& job);
+/// `{code, message}` of a failed job.
+Json error_view(const JobRecord& job);
+/// Throws ProtocolError `not_found`.
+JobRecord find_job(JobStore& store, const std::string& job);
+
+}  // namespace sculpt

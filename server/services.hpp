@@ -1,0 +1,43 @@
+// What the handlers work with. Owned by Server, which outlives every session.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+#include <utility>  // before Asio 1.74, which forgets it
+
+#include "server/artifacts.hpp"
+#include "server/blobs.hpp"
+#include "server/config.hpp"
+#include "server/job_store.hpp"
+#include "server/planner.hpp"
+#include "server/scheduler.hpp"
+#include "server/streams.hpp"
+#include "server/task_queue.hpp"
+#include "server/translate.hpp"
+#include "server/waits.hpp"
+
+namespace sculpt {
+
+struct Services {
+  boost::asio::io_context& io;
+  const Config& config;
+  const Planner& planner;
+  JobDefaults defaults;
+  int workers;
+  JobStore& store;
+  Blobs& blobs;
+  Artifacts& artifacts;
+  Scheduler& scheduler;
+  Streams& streams;      // I/O thread only
+  Waits& waits;          // I/O thread only
+  TaskQueue& disk;       ///< chunks in and out
+  TaskQueue& admission;  ///< checks of submitted jobs
+  TaskQueue& replays;    ///< job.verify
+  TaskQueue& exports;    ///< csv and binary trajectories
+  std::chrono::steady_clock::time_point started;
+
+  /// A job changed its state: tells everybody who waits for that. Any thread.
+  void changed(const std::string& job);
+};
+
+}  // namespace sculpt

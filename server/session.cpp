@@ -1,0 +1,250 @@
+#include "server/session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/buffer.hpp>
+
+#include "server/dispatch.hpp"
+#include "server/services.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace net = boost::asio;
+
+constexpr std::size_t read_bytes = 64 << 10;
+constexpr std::size_t low_water_bytes = 64 << 10;  // below it events are fetched for the peer
+constexpr std::size_t high_water_bytes = 1 << 20;  // above it no more of its requests are taken
+constexpr int max_pending = 64;
+constexpr std::chrono::seconds linger_time{5};
+
+}  // namespace
+
+Session::Session(net::ip::tcp::socket socket, std::uint64_t number, Services& services)
+    : socket_(std::move(socket)), number_(number), services_(services), buffer_(read_bytes, '\0') {}
+
+void Session::start() {
+  spdlog::debug("conn={} open", number_);
+  boost::system::error_code ignored;
+  socket_.set_option(net::ip::tcp::no_delay(true), ignored);
+  read();
+}
+
+void Session::greet(const HelloParams& hello) {
+  greeted_ = true;
+  max_line_ = hello.max_line;
+  spdlog::debug("conn={} client={}", number_, hello.client);
+}
+
+bool Session::writable() const {
+  return !closed_ && !finishing_ && queued_bytes_ < low_water_bytes;
+}
+
+// --- in
+
+void Session::read() {
+  if (reading_ || closed_ || input_ended_) return;
+  reading_ = true;
+  socket_.async_read_some(net::buffer(buffer_), [self = shared_from_this()](const auto& error, std::size_t bytes) {
+    self->on_read(error, bytes);
+  });
+}
+
+void Session::on_read(const boost::system::error_code& error, std::size_t bytes) {
+  reading_ = false;
+  if (closed_) return;
+  if (error == net::error::eof) {
+    input_ended_ = true;
+    if (lingering_) return close("lingered");
+    pump_input();
+    return close_if_done();
+  }
+  if (error) return close("read failed");
+  if (lingering_ || finishing_) return read();
+  reader_.feed({buffer_.data(), bytes});
+  pump_input();
+}
+
+bool Session::may_take_requests() const {
+  return !closed_ && !finishing_ && !held_ && pending_ < max_pending && queued_bytes_ < high_water_bytes;
+}
+
+void Session::pump_input() {
+  while (may_take_requests()) {
+    std::optional<WireFrame> frame = reader_.next();
+    if (!frame) return read();
+    on_frame(std::move(*frame));
+  }
+  if (finishing_) read();
+}
+
+void Session::on_frame(WireFrame frame) {
+  switch (frame.kind) {
+    case WireFrame::Kind::line:
+      return on_line(std::move(frame.bytes));
+    case WireFrame::Kind::chunk:
+      return handle(std::exchange(waiting_, {}), std::move(frame.bytes));
+    case WireFrame::Kind::too_long:
+      return fail_connection(nullptr, "line_too_long",
+                             "a line is over the limit of " + std::to_string(max_line_bytes) +
+                                 " bytes: send bulk with blob.put; the connection is closed");
+    case WireFrame::Kind::bad_chunk:
+      return fail_connection(waiting_.request.id, "bad_request",
+                             "the chunk is not followed by LF, so \"bytes\" was wrong; the connection is closed",
+                             "/params/bytes");
+  }
+}
+
+void Session::on_line(std::string line) {
+  const bool first = std::exchange(first_line_, false);
+  if (!is_text(line) || (first && line.front() != '{')) {
+    return fail_connection(nullptr, "not_text",
+                           "this is no line of JSON (control bytes, not UTF-8, or another protocol); sculptd speaks "
+                           "newline-delimited JSON-RPC, see PROTOCOL.md; the connection is closed");
+  }
+  ParsedLine parsed = parse_request(line);
+  try {
+    if (const std::optional<std::size_t> bytes = announced_chunk(parsed.request)) {
+      waiting_ = std::move(parsed);
+      reader_.expect_chunk(*bytes);
+      return;
+    }
+  } catch (const ProtocolError& error) {
+    return fail_connection(parsed.request.id, error.code().c_str(), error.what(), error.pointer());
+  }
+  handle(std::move(parsed), {});
+}
+
+void Session::handle(ParsedLine parsed, std::string chunk) {
+  ++pending_;
+  if (parsed.error) {
+    const ProtocolError& error = *parsed.error;
+    return refuse(parsed.request.id, error_object(error.code(), error.what(), error.pointer()));
+  }
+  dispatch(services_,
+           {shared_from_this(), std::move(parsed.request.id), std::move(parsed.request.params), std::move(chunk)},
+           parsed.request.method);
+}
+
+void Session::fail_connection(const Json& id, const char* code, const std::string& sentence,
+                              const std::string& pointer) {
+  spdlog::info("conn={} {}", number_, code);
+  send(error_line(id, error_object(code, sentence, pointer)) + "\n");
+  finish();
+}
+
+// --- out
+
+void Session::answer(const Json& id, const Answer& answer) {
+  std::string line = reply_line(id, answer.result);
+  if (line.size() > max_line_) {
+    return refuse(id, error_object("reply_too_long", "the reply has " + std::to_string(line.size()) +
+                                                         " bytes, over this connection's max_line of " +
+                                                         std::to_string(max_line_) +
+                                                         ": ask for less or say hello with a greater max_line"));
+  }
+  line += '\n';
+  if (answer.chunk) line += *answer.chunk + "\n";
+  send(std::move(line));
+  answered();
+}
+
+void Session::refuse(const Json& id, const Json& error) {
+  send(error_line(id, error) + "\n");
+  answered();
+}
+
+void Session::answered() {
+  --pending_;
+  held_ = false;
+  // Not from within the caller's loop over frames: a pipelined burst must not become a recursion.
+  net::post(socket_.get_executor(), [self = shared_from_this()] {
+    self->pump_input();
+    self->close_if_done();
+  });
+}
+
+void Session::send_event(const EventMessage& event) {
+  std::string line = event_line(to_json(event));
+  if (line.size() > max_line_) {
+    EventMessage brief = event;
+    brief.data = nullptr;
+    Json params = to_json(brief);
+    params["more"] = true;
+    line = event_line(params);
+  }
+  send(line + "\n");
+}
+
+void Session::send(std::string bytes) {
+  if (closed_ || finishing_) return;
+  if (queue_.empty()) last_step_ = Clock::now();
+  queued_bytes_ += bytes.size();
+  queue_.push_back(std::move(bytes));
+  if (queued_bytes_ > services_.config.reply_limit_bytes) return close("slow_reader: too many unsent bytes");
+  if (queue_.size() == 1) write();
+}
+
+void Session::write() {
+  const std::string& first = queue_.front();
+  socket_.async_write_some(
+      net::buffer(first.data() + sent_, first.size() - sent_),
+      [self = shared_from_this()](const auto& error, std::size_t bytes) { self->on_write(error, bytes); });
+}
+
+void Session::on_write(const boost::system::error_code& error, std::size_t bytes) {
+  if (closed_) return;
+  if (error) return close("write failed");
+  last_step_ = Clock::now();
+  sent_ += bytes;
+  queued_bytes_ -= bytes;
+  if (sent_ == queue_.front().size()) {
+    queue_.pop_front();
+    sent_ = 0;
+  }
+  if (!queue_.empty()) {
+    write();
+  } else if (finishing_) {
+    boost::system::error_code ignored;
+    socket_.shutdown(net::ip::tcp::socket::shutdown_send, ignored);
+    lingering_ = true;
+    if (input_ended_) return close("finished");
+    return read();
+  }
+  if (writable()) services_.streams.on_writable(*this);
+  pump_input();
+  close_if_done();
+}
+
+// --- end
+
+void Session::finish() {
+  finishing_ = true;
+  if (queue_.empty()) close("finished");
+}
+
+void Session::close_if_done() {
+  const bool done = input_ended_ && pending_ == 0 && queue_.empty() && subscriptions_.empty();
+  if (done && !closed_) close("done");
+}
+
+void Session::close(const char* reason) {
+  if (closed_) return;
+  closed_ = true;
+  spdlog::debug("conn={} closed: {}", number_, reason);
+  boost::system::error_code ignored;
+  socket_.close(ignored);
+  services_.streams.drop(*this);
+  services_.waits.drop(*this);
+}
+
+void Session::check_stalled(Clock::time_point now, Clock::duration patience) {
+  if (closed_) return;
+  if (lingering_ && now - last_step_ > linger_time) return close("lingered too long");
+  if (!queue_.empty() && now - last_step_ > patience) {
+    spdlog::info("conn={} slow_reader: took no bytes", number_);
+    close("slow_reader");
+  }
+}
+
+}  // namespace sculpt

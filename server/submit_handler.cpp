@@ -1,0 +1,37 @@
+#include <spdlog/spdlog.h>
+
+#include "server/handlers.hpp"
+#include "server/services.hpp"
+#include "server/session.hpp"
+
+namespace sculpt {
+namespace {
+
+Answer submit_answer(const Submitted& submitted) {
+  return {{{"job", submitted.job.id}, {"state", name(submitted.job.state)}, {"duplicate", submitted.duplicate}},
+          std::nullopt};
+}
+
+// Runs on the admission thread. A repeated submit is answered from the store: it must work even when its cell is gone
+// since.
+Answer admit(Services& services, const SubmitParams& submit, const std::stop_token& stop) {
+  NewJob job{submit.key, submit.priority, write_json(to_json(submit.spec)), submit.spec.cell_bundle};
+  if (!submit.key.empty() && services.store.find_key(submit.key)) return submit_answer(services.store.submit(job));
+  if (job.cell_bundle.empty())
+    job.cell_bundle = store_cell(services.planner.read_cell(submit.spec.robot), services.blobs);
+  services.planner.check(to_job(submit.spec, job.cell_bundle, services.blobs, services.defaults), Watch{stop, {}});
+  const Submitted submitted = services.store.submit(job);
+  spdlog::info("job={} queued mesh={} resolution={}", submitted.job.id, submit.spec.mesh.name, submit.spec.resolution);
+  services.scheduler.wake();
+  return submit_answer(submitted);
+}
+
+}  // namespace
+
+void on_submit(Services& services, Call call) {
+  const auto submit = std::make_shared<const SubmitParams>(read_submit(call.params));
+  answer_from(services.admission, services, std::move(call),
+              [&services, submit](const std::stop_token& stop) { return admit(services, *submit, stop); });
+}
+
+}  // namespace sculpt
