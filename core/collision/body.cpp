@@ -6,40 +6,39 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_boxes_a_mesh = 24;
+constexpr std::size_t most_boxes_a_mesh = 12;
 
-void set_core(Body& body) {
-  const Shape& shape = body.shape;
+Piece make_piece(const Shape& shape) {
   Vec3 half = Vec3::Zero();
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      body.core_radius_m = shape.radius_m;
-      break;
-    case ShapeKind::cylinder:
-      half.z() = shape.length_m / 2;
-      body.core_radius_m = shape.radius_m;
-      break;
-    case ShapeKind::box: {
-      int longest = 0;
-      shape.sides_m.maxCoeff(&longest);
-      Vec3 rest = shape.sides_m / 2;
-      half[longest] = rest[longest];
-      rest[longest] = 0;
-      body.core_radius_m = rest.norm();
-      break;
-    }
-    case ShapeKind::mesh:
-      break;
+  double radius = shape.radius_m;
+  if (shape.kind == ShapeKind::cylinder) half.z() = shape.length_m / 2;
+  if (shape.kind == ShapeKind::box) {
+    int longest = 0;
+    shape.sides_m.maxCoeff(&longest);
+    Vec3 rest = shape.sides_m / 2;
+    half[longest] = rest[longest];
+    rest[longest] = 0;
+    radius = rest.norm();
   }
-  body.core = {shape.pose * Vec3(-half), shape.pose * half};
+  return {shape, {{shape.pose * Vec3(-half), shape.pose * half}, radius}};
 }
 
-Body make_body(int link, const Shape& shape) {
-  Body body;
-  body.link = link;
-  body.shape = shape;
-  set_core(body);
-  return body;
+/// A capsule around all pieces: along the line between the two of their ends that are farthest apart.
+Capsule make_hull(const std::vector<Piece>& pieces) {
+  if (pieces.size() == 1) return pieces.front().hull;
+  std::vector<Vec3> ends;
+  for (const Piece& piece : pieces) {
+    ends.push_back(piece.hull.core.a);
+    ends.push_back(piece.hull.core.b);
+  }
+  Capsule hull{{ends[0], ends[0]}, 0};
+  for (const Vec3& a : ends)
+    for (const Vec3& b : ends)
+      if ((a - b).norm() > (hull.core.a - hull.core.b).norm()) hull.core = {a, b};
+  for (const Piece& piece : pieces)
+    for (const Vec3& end : {piece.hull.core.a, piece.hull.core.b})
+      hull.radius_m = std::max(hull.radius_m, distance(hull.core, {end, end}) + piece.hull.radius_m);
+  return hull;
 }
 
 /// A run of triangle indices and the box around them.
@@ -96,37 +95,45 @@ Shape box_shape(const Frame& frame, const Eigen::AlignedBox3d& box) {
   return shape;
 }
 
-void add_tool(std::vector<Body>& bodies, int tool_link, const Tool& tool) {
+std::vector<Piece> make_pieces(const Link& link) {
+  std::vector<Piece> pieces;
+  for (const Shape& shape : link.shapes) {
+    if (shape.kind != ShapeKind::mesh) {
+      pieces.push_back(make_piece(shape));
+      continue;
+    }
+    for (const Eigen::AlignedBox3d& box : cover_mesh(*shape.mesh))
+      pieces.push_back(make_piece(box_shape(shape.pose, box)));
+  }
+  return pieces;
+}
+
+std::vector<Piece> make_pieces(const Tool& tool) {
   Shape ball;
   ball.kind = ShapeKind::sphere;
   ball.radius_m = tool.ball_radius_m;
   ball.pose.translation().z() = tool.stickout_m;
-  bodies.push_back(make_body(tool_link, ball));
-  bodies.back().tool = true;
-  if (tool.shank_radius_m <= 0) return;
+  if (tool.shank_radius_m <= 0) return {make_piece(ball)};
   Shape shank;
   shank.kind = ShapeKind::cylinder;
   shank.radius_m = tool.shank_radius_m;
   shank.length_m = tool.stickout_m;
   shank.pose.translation().z() = tool.stickout_m / 2;
-  bodies.push_back(make_body(tool_link, shank));
-  bodies.back().tool = true;
+  return {make_piece(ball), make_piece(shank)};
 }
 
 }  // namespace
 
 std::vector<Body> make_bodies(const Cell& cell, const Tool& tool) {
   std::vector<Body> bodies;
+  const auto add = [&](int link, bool is_tool, std::vector<Piece> pieces) {
+    if (pieces.empty()) return;
+    const Capsule hull = make_hull(pieces);
+    bodies.push_back({link, is_tool, std::move(pieces), hull});
+  };
   for (int link = 0; link < static_cast<int>(cell.robot.links.size()); ++link)
-    for (const Shape& shape : cell.robot.links[static_cast<std::size_t>(link)].shapes) {
-      if (shape.kind != ShapeKind::mesh) {
-        bodies.push_back(make_body(link, shape));
-        continue;
-      }
-      for (const Eigen::AlignedBox3d& box : cover_mesh(*shape.mesh))
-        bodies.push_back(make_body(link, box_shape(shape.pose, box)));
-    }
-  add_tool(bodies, cell.tool_link, tool);
+    add(link, false, make_pieces(cell.robot.links[static_cast<std::size_t>(link)]));
+  add(cell.tool_link, true, make_pieces(tool));
   return bodies;
 }
 

@@ -1,6 +1,8 @@
-// Robot + tool -> bodies: convex shapes fixed to a link, each inside a bounding capsule. Metres, in the link's frame.
+// Robot + tool -> bodies: what is rigidly fixed to one link, as convex pieces inside bounding capsules. Metres, in the
+// link's frame.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -8,17 +10,30 @@
 
 namespace sculpt {
 
-/// A sphere, box or cylinder. `core` and `core_radius_m` are a capsule that holds all of it.
-struct Body {
-  int link = -1;
-  Shape shape;
+/// All points within `radius_m` of a segment.
+struct Capsule {
   Segment core;
-  double core_radius_m = 0;
-  bool tool = false;  ///< ball or shank
+  double radius_m = 0;
+
+  /// Farthest point from the origin of the frame.
+  double extent() const { return std::max(core.a.norm(), core.b.norm()) + radius_m; }
 };
 
-/// The shapes of all links, meshes replaced by boxes that cover their triangles, then the tool's ball and shank on the
-/// tool link.
+/// A sphere, box or cylinder, and a capsule that holds all of it.
+struct Piece {
+  Shape shape;
+  Capsule hull;
+};
+
+struct Body {
+  int link = -1;
+  bool tool = false;  ///< ball and shank
+  std::vector<Piece> pieces;
+  Capsule hull;  ///< holds all pieces
+};
+
+/// A body for each link with shapes, meshes replaced by boxes that cover their triangles, then the tool on the tool
+/// link.
 std::vector<Body> make_bodies(const Cell& cell, const Tool& tool);
 
 }  // namespace sculpt

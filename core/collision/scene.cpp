@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/body.hpp"
-#include "core/collision/fcl_shape.hpp"
+#include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/motion_bound.hpp"
 #include "core/collision/tool_sweep.hpp"
@@ -27,30 +26,6 @@ struct Pair {
     return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
   }
 };
-
-/// Farthest point of a body from its link's origin.
-double extent(const Body& body) {
-  return std::max(body.core.a.norm(), body.core.b.norm()) + body.core_radius_m;
-}
-
-Segment moved(const Frame& pose, const Segment& segment) {
-  return {pose * segment.a, pose * segment.b};
-}
-
-/// Half sides of the axis-aligned box around a placed sphere, box or cylinder.
-Vec3 half_extents(const Shape& shape, const Eigen::Matrix3d& turn) {
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return Vec3::Constant(shape.radius_m);
-    case ShapeKind::cylinder: {
-      const Vec3 axis = turn.col(2);
-      const Vec3 across = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
-      return axis.cwiseAbs() * shape.length_m / 2 + across * shape.radius_m;
-    }
-    default:
-      return turn.cwiseAbs() * shape.sides_m / 2;
-  }
-}
 
 }  // namespace
 
@@ -81,13 +56,14 @@ struct Scene::Impl {
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
       const Body& first = bodies[static_cast<std::size_t>(a)];
       if (!first.tool && group_of(first) != stock_group)
-        pairs.push_back({a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, extent(first)), {}});
+        pairs.push_back(
+            {a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, first.hull.extent()), {}});
       for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
         const Body& second = bodies[static_cast<std::size_t>(b)];
         if (!apart(first, second)) continue;
         const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
-        Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, extent(first)),
-                  motion_bound(chain, first.link, second.link, extent(second))};
+        Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, first.hull.extent()),
+                  motion_bound(chain, first.link, second.link, second.hull.extent())};
         if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
         pairs.push_back(std::move(pair));
       }
@@ -105,43 +81,10 @@ struct Scene::Impl {
     return radii.shank > 0 && material.meets_capsule({line.ball, line.top}, radii.shank + tool_margin_voxels, exempt);
   }
 
-  /// Is a standing voxel within `reach_m` of the body? The bounding capsule rules most of them out, FCL decides on the
-  /// blocks that are left.
-  bool near_material(const Body& body, const Frame& link_pose, double reach_m) const {
-    const double h = grid.voxel_m, radius = (body.core_radius_m + reach_m) / h;
-    const Segment core{(link_pose * body.core.a - grid.origin_m) / h, (link_pose * body.core.b - grid.origin_m) / h};
-    if (!material.meets_capsule(core, radius, {})) return false;
-    const Frame pose = link_pose * body.shape.pose;
-    const Vec3 half = half_extents(body.shape, pose.linear()) + Vec3::Constant(reach_m);
-    const Vec3 middle = pose.translation() - grid.origin_m;
-    const auto grown = make_fcl_geometry(body.shape, reach_m);
-    return material.any_block((middle - half) / h, (middle + half) / h, [&](Voxel corner, int size) {
-      const Vec3 low(corner.i, corner.j, corner.k), side = Vec3::Constant(size);
-      if (distance_to_box(core, low, low + side) > radius) return false;
-      const fcl::Boxd block(fcl_mm * h * side);
-      Frame at = Frame::Identity();
-      at.translation() = fcl_mm * (grid.origin_m + h * (low + side / 2));
-      return fcl_touch(*grown, to_fcl(pose), block, at);
-    });
-  }
-
-  bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double reach_m) const {
-    const Segment core_a = moved(pose_a, a.core), core_b = moved(pose_b, b.core);
-    if (distance(core_a, core_b) > a.core_radius_m + b.core_radius_m + reach_m) return false;
-    for (const auto& [box, box_pose, other, core] : {std::tie(a, pose_a, b, core_b), std::tie(b, pose_b, a, core_a)}) {
-      if (box.shape.kind != ShapeKind::box) continue;
-      const Segment local = moved((box_pose * box.shape.pose).inverse(), core);
-      if (distance_to_box(local, -box.shape.sides_m / 2, box.shape.sides_m / 2) > other.core_radius_m + reach_m)
-        return false;
-    }
-    return fcl_touch(*make_fcl_geometry(a.shape, reach_m), to_fcl(pose_a * a.shape.pose),
-                     *make_fcl_geometry(b.shape, 0), to_fcl(pose_b * b.shape.pose));
-  }
-
   bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const {
     const Body& a = bodies[static_cast<std::size_t>(pair.first)];
     const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
-    if (pair.second < 0) return near_material(a, pose_a, reach_m);
+    if (pair.second < 0) return near_material(a, pose_a, material, grid, reach_m);
     const Body& b = bodies[static_cast<std::size_t>(pair.second)];
     return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
   }

@@ -1,0 +1,90 @@
+#include "core/collision/clearance.hpp"
+
+#include "core/collision/fcl_shape.hpp"
+
+namespace sculpt {
+namespace {
+
+Capsule placed(const Frame& pose, const Capsule& capsule) {
+  return {{pose * capsule.core.a, pose * capsule.core.b}, capsule.radius_m};
+}
+
+bool near(const Capsule& a, const Capsule& b, double reach_m) {
+  return distance(a.core, b.core) <= a.radius_m + b.radius_m + reach_m;
+}
+
+/// `hull` against a piece's own shape where that is a box, which a capsule may hold badly.
+bool near_box(const Piece& piece, const Frame& pose, const Capsule& hull, double reach_m) {
+  if (piece.shape.kind != ShapeKind::box) return true;
+  const Capsule local = placed((pose * piece.shape.pose).inverse(), hull);
+  return distance_to_box(local.core, -piece.shape.sides_m / 2, piece.shape.sides_m / 2) <= hull.radius_m + reach_m;
+}
+
+bool near_piece(const Piece& a, const Frame& pose_a, const Piece& b, const Frame& pose_b, double reach_m) {
+  const Capsule hull_a = placed(pose_a, a.hull), hull_b = placed(pose_b, b.hull);
+  if (!near(hull_a, hull_b, reach_m)) return false;
+  if (!near_box(a, pose_a, hull_b, reach_m) || !near_box(b, pose_b, hull_a, reach_m)) return false;
+  return fcl_touch(*make_fcl_geometry(a.shape, reach_m), to_fcl(pose_a * a.shape.pose), *make_fcl_geometry(b.shape, 0),
+                   to_fcl(pose_b * b.shape.pose));
+}
+
+/// Half sides of the axis-aligned box around a placed sphere, box or cylinder.
+Vec3 half_extents(const Shape& shape, const Eigen::Matrix3d& turn) {
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return Vec3::Constant(shape.radius_m);
+    case ShapeKind::cylinder: {
+      const Vec3 axis = turn.col(2);
+      const Vec3 across = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+      return axis.cwiseAbs() * shape.length_m / 2 + across * shape.radius_m;
+    }
+    default:
+      return turn.cwiseAbs() * shape.sides_m / 2;
+  }
+}
+
+/// `hull` in voxel edges from the corner of voxel (0,0,0).
+Capsule in_voxels(const Capsule& hull, const Grid& grid) {
+  const double h = grid.voxel_m;
+  return {{(hull.core.a - grid.origin_m) / h, (hull.core.b - grid.origin_m) / h}, hull.radius_m / h};
+}
+
+bool piece_near_material(const Piece& piece, const Frame& link_pose, const Material& material, const Grid& grid,
+                         double reach_m) {
+  const double h = grid.voxel_m;
+  const Capsule hull = in_voxels(placed(link_pose, piece.hull), grid);
+  const double radius = hull.radius_m + reach_m / h;
+  if (!material.meets_capsule(hull.core, radius, {})) return false;
+  const Frame pose = link_pose * piece.shape.pose;
+  const Vec3 half = half_extents(piece.shape, pose.linear()) + Vec3::Constant(reach_m);
+  const Vec3 middle = pose.translation() - grid.origin_m;
+  const auto grown = make_fcl_geometry(piece.shape, reach_m);
+  return material.any_block((middle - half) / h, (middle + half) / h, [&](Voxel corner, int size) {
+    const Vec3 low(corner.i, corner.j, corner.k), side = Vec3::Constant(size);
+    if (distance_to_box(hull.core, low, low + side) > radius) return false;
+    const fcl::Boxd block(fcl_mm * h * side);
+    Frame at = Frame::Identity();
+    at.translation() = fcl_mm * (grid.origin_m + h * (low + side / 2));
+    return fcl_touch(*grown, to_fcl(pose), block, at);
+  });
+}
+
+}  // namespace
+
+bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double reach_m) {
+  if (!near(placed(pose_a, a.hull), placed(pose_b, b.hull), reach_m)) return false;
+  for (const Piece& of_a : a.pieces)
+    for (const Piece& of_b : b.pieces)
+      if (near_piece(of_a, pose_a, of_b, pose_b, reach_m)) return true;
+  return false;
+}
+
+bool near_material(const Body& body, const Frame& pose, const Material& material, const Grid& grid, double reach_m) {
+  const Capsule hull = in_voxels(placed(pose, body.hull), grid);
+  if (!material.meets_capsule(hull.core, hull.radius_m + reach_m / grid.voxel_m, {})) return false;
+  for (const Piece& piece : body.pieces)
+    if (piece_near_material(piece, pose, material, grid, reach_m)) return true;
+  return false;
+}
+
+}  // namespace sculpt
