@@ -17,15 +17,10 @@
 #include <string>
 #include <string_view>
 
+#include "clients/cpp/connection.hpp"
 #include "proto/json.hpp"
 
 namespace sculpt {
-
-/// Nobody answers at the address, or the connection broke. The sentence names the address.
-class ServerUnreachable : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The server answered with an error of the catalogue (proto/PROTOCOL.md section 6); what() is its sentence.
 class ServerError : public std::runtime_error {
@@ -91,16 +86,16 @@ class Client {
   std::optional<Json> next_event(std::optional<double> timeout_s = {});
 
  private:
-  struct Line;
-  Line read_line(std::optional<double> timeout_s);
-  Json read_reply(std::int64_t id, std::string* chunk);
-  std::int64_t send(const std::string& method, const Json& params, std::string_view chunk, bool with_chunk);
+  struct Exchange;
+  Json exchange(const Exchange& exchange);
+  /// The next reply or event; nothing when none came in time.
+  std::optional<Json> receive(std::optional<double> timeout_s, std::string* chunk);
+  void put_chunk(const std::string& sha256, std::uint64_t size, std::uint64_t& offset, std::string_view chunk);
 
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Connection> connection_;
   Json hello_;
   std::deque<Json> events_;
-  std::int64_t next_id_ = 1;
+  std::int64_t last_id_ = 0;
 };
 
 }  // namespace sculpt

@@ -1,0 +1,162 @@
+#include "clients/cpp/client.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <ostream>
+#include <thread>
+#include <vector>
+
+#include "clients/cpp/content_hash.hpp"
+#include "proto/crc32.hpp"
+#include "proto/messages.hpp"
+#include "proto/request.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t upload_bytes = 1 << 20;
+constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an artifact that has not grown
+
+[[noreturn]] void raise(const Json& error) {
+  const Json data = error.value("data", Json::object());
+  throw ServerError(data.value("code", std::string("internal_error")), error.value("code", 0),
+                    data.value("retryable", false), data.value("pointer", std::string()),
+                    error.value("message", std::string("the server gave an error without a message")));
+}
+
+}  // namespace
+
+/// A request with its chunk, and where the chunk of its reply goes.
+struct Client::Exchange {
+  const std::string& method;
+  const Json& params;
+  std::optional<std::string_view> chunk;
+  std::string* reply_chunk = nullptr;
+};
+
+Client::Client(const std::string& server, const std::string& name) : connection_(std::make_unique<Connection>(server)) {
+  hello_ = call("hello", {{"protocol", {protocol_major, protocol_minor}}, {"client", name}});
+}
+
+Client::~Client() = default;
+
+Json Client::call(const std::string& method, const Json& params) {
+  return exchange({method, params, {}, nullptr});
+}
+
+Json Client::exchange(const Exchange& exchange) {
+  const std::int64_t id = ++last_id_;
+  std::string bytes = request_line(id, exchange.method, exchange.params) + "\n";
+  if (exchange.chunk) bytes.append(*exchange.chunk).append("\n");
+  connection_->send(bytes);
+  while (true) {
+    Json message = *receive(std::nullopt, exchange.reply_chunk);
+    if (message.contains("method")) {
+      events_.push_back(std::move(message["params"]));
+    } else if (message.contains("error")) {
+      raise(message["error"]);
+    } else if (message.value("id", Json()) == id) {
+      return std::move(message["result"]);
+    }
+  }
+}
+
+std::optional<Json> Client::receive(std::optional<double> timeout_s, std::string* chunk) {
+  const std::optional<std::string> line = connection_->read_line(timeout_s);
+  if (!line) return std::nullopt;
+  Json message;
+  try {
+    message = parse_json(*line);
+  } catch (const JsonError& error) {
+    throw ServerUnreachable(std::string("the server does not speak the protocol: ") + error.what());
+  }
+  if (!message.is_object()) throw ServerUnreachable("the server does not speak the protocol: a line is no object");
+  if (chunk != nullptr && message.contains("result")) {
+    *chunk = connection_->read_chunk(message["result"].value("bytes", std::size_t{0}));
+  }
+  return message;
+}
+
+void Client::put_chunk(const std::string& sha256, std::uint64_t size, std::uint64_t& offset, std::string_view chunk) {
+  const std::string method = "blob.put";
+  const Json params{{"sha256", sha256}, {"size", size}, {"offset", offset}, {"bytes", chunk.size()}};
+  offset = exchange({method, params, chunk, nullptr}).at("have").get<std::uint64_t>();
+}
+
+std::string Client::upload(std::string_view bytes) {
+  std::string sha256 = content_hash(bytes);
+  const Json state = call("blob.has", {{"sha256", sha256}});
+  if (state.at("complete").get<bool>()) return sha256;
+  auto offset = std::min<std::uint64_t>(state.at("have").get<std::uint64_t>(), bytes.size());
+  do {
+    put_chunk(sha256, bytes.size(), offset, bytes.substr(offset, upload_bytes));
+  } while (offset < bytes.size());
+  return sha256;
+}
+
+std::string Client::upload_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read the file '" + path.string() + "'");
+  const StreamHash hash = content_hash(in);
+  const Json state = call("blob.has", {{"sha256", hash.sha256}});
+  if (state.at("complete").get<bool>()) return hash.sha256;
+  auto offset = std::min<std::uint64_t>(state.at("have").get<std::uint64_t>(), hash.size);
+  std::string chunk;
+  do {
+    chunk.resize(std::min<std::uint64_t>(upload_bytes, hash.size - offset));
+    in.clear();
+    in.seekg(static_cast<std::streamoff>(offset));
+    if (!in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()))) {
+      throw std::runtime_error("cannot read the file '" + path.string() + "': it changed while it was sent");
+    }
+    put_chunk(hash.sha256, hash.size, offset, chunk);
+  } while (offset < hash.size);
+  return hash.sha256;
+}
+
+std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream& out,
+                                    const std::function<bool()>& waiting) {
+  const std::string method = "artifact.read";
+  Json params{{"job", request.job}, {"artifact", request.artifact}};
+  if (!request.format.empty()) params["format"] = request.format;
+  std::uint64_t offset = request.offset;
+  std::string chunk;
+  while (true) {
+    params["offset"] = offset;
+    params["bytes"] = request.chunk_bytes;
+    const Json result = exchange({method, params, {}, &chunk});
+    if (crc32_hex(chunk) != result.at("crc32").get<std::string>()) {
+      throw ServerUnreachable("a chunk of the artifact was damaged on its way: fetch again");
+    }
+    out.write(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    if (!out) throw std::runtime_error("cannot write the artifact: check the free space");
+    offset += chunk.size();
+    if (result.at("eof").get<bool>()) return offset;
+    if (!chunk.empty()) continue;
+    if (waiting && !waiting()) return offset;
+    std::this_thread::sleep_for(growth_pause);
+  }
+}
+
+void Client::subscribe(const std::string& job, std::uint64_t after) {
+  call("events.subscribe", {{"job", job}, {"after", after}});
+}
+
+void Client::unsubscribe(const std::string& job) {
+  call("events.unsubscribe", {{"job", job}});
+  std::erase_if(events_, [&](const Json& event) { return event.value("job", std::string()) == job; });
+}
+
+std::optional<Json> Client::next_event(std::optional<double> timeout_s) {
+  while (events_.empty()) {
+    std::optional<Json> message = receive(timeout_s, nullptr);
+    if (!message) return std::nullopt;
+    if (message->contains("method")) events_.push_back(std::move((*message)["params"]));
+  }
+  Json event = std::move(events_.front());
+  events_.pop_front();
+  return event;
+}
+
+}  // namespace sculpt

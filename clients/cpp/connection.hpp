@@ -1,0 +1,45 @@
+// A TCP connection that gives frames of the wire (proto/framing.hpp) instead of bytes.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "proto/framing.hpp"
+
+namespace sculpt {
+
+/// Nobody answers at the address, or the connection broke. The sentence names the address.
+class ServerUnreachable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Blocking; not shared between threads. Every method throws ServerUnreachable.
+class Connection {
+ public:
+  /// "HOST:PORT" or "[V6]:PORT".
+  explicit Connection(const std::string& server);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  void send(std::string_view bytes);
+  /// The next line. With a timeout: nothing when it did not come in time.
+  std::optional<std::string> read_line(std::optional<double> timeout_s = {});
+  /// The chunk behind the line that was read last.
+  std::string read_chunk(std::size_t bytes);
+  /// Tells the server that nothing more will be sent.
+  void end_sending();
+
+ private:
+  std::optional<WireFrame> read_frame(std::optional<double> timeout_s);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string server_;
+  int socket_ = -1;
+  FrameReader frames_;
+};
+
+}  // namespace sculpt
