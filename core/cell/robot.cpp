@@ -297,6 +297,21 @@ std::vector<const urdf::Joint*> joints_below(const urdf::Link& link) {
   return joints;
 }
 
+/// urdfdom's links own their children: a circle of them would never be freed, and a long chain of them is freed
+/// recursively.
+class LinksLetGo {
+ public:
+  explicit LinksLetGo(const urdf::ModelInterface& model) : model_(model) {}
+  ~LinksLetGo() {
+    for (const auto& [name, link] : model_.links_) link->child_links.clear();
+  }
+  LinksLetGo(const LinksLetGo&) = delete;
+  LinksLetGo& operator=(const LinksLetGo&) = delete;
+
+ private:
+  const urdf::ModelInterface& model_;
+};
+
 /// Links and joints level by level from the root, so that parents come first.
 void add_tree(Robot& robot, const urdf::ModelInterface& model, MeshShelf& meshes) {
   std::vector<const urdf::Link*> sources{model.getRoot().get()};
@@ -336,6 +351,7 @@ int Robot::find_joint(const std::string& joint) const {
 
 Robot parse_urdf(const std::string& xml, const std::function<std::string(const std::string& reference)>& read_file) {
   const urdf::ModelInterfaceSharedPtr model = parse_model(xml);
+  const LinksLetGo links_let_go(*model);
   if (!model->getRoot()) refuse("the URDF has no links: give it at least one <link>");
   Robot robot;
   robot.name = model->getName();

@@ -54,7 +54,7 @@ TEST(Ik, EveryGoalIsReachedFromANearbySeed) {
     };
     for (bool with_axis : {false, true}) {
       SCOPED_TRACE(with_axis);
-      EXPECT_EQ(count_reached(chain, 2000, with_axis, nearby), 2000);
+      EXPECT_EQ(count_reached(chain, 1000, with_axis, nearby), 1000);
     }
   }
 }
