@@ -14,17 +14,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where shipped cells may lie: the folder that SCULPT_CELLS names, else config/cells here or in any folder above this
-/// program.
+/// Where shipped cells lie: the folder that SCULPT_CELLS names, else the first one found above this program or above
+/// the working folder, as sculptd looks for them.
 std::vector<fs::path> cell_folders() {
   if (const char* named = std::getenv("SCULPT_CELLS")) return {named};
-  std::vector<fs::path> folders{"config/cells"};
   std::error_code failed;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", failed); at.has_relative_path();) {
-    at = at.parent_path();
-    if (fs::is_directory(at / "config/cells", failed)) folders.push_back(at / "config/cells");
-  }
-  return folders;
+  for (const fs::path& start : {fs::read_symlink("/proc/self/exe", failed).parent_path(), fs::current_path(failed)})
+    for (fs::path at = start; at.has_relative_path(); at = at.parent_path())
+      for (const char* place : {"config/cells", "share/sculptd/cells"})
+        if (fs::is_directory(at / place, failed)) return {at / place};
+  return {};
 }
 
 Vec3 vec3(const std::vector<double>& values) {

@@ -71,8 +71,9 @@ class Daemon:
 
 
 def environment(server=None):
-    """The caller's, with only this server."""
+    """The caller's, with only this server and the cells of the source tree."""
     env = {name: value for name, value in os.environ.items() if name != "SCULPT_SERVER"}
+    env["SCULPT_CELLS"] = str(SOURCE / "config/cells")
     return {**env, "SCULPT_SERVER": server} if server else env
 
 

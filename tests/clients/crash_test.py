@@ -1,0 +1,139 @@
+"""kill -9, restarts, second daemons, folders and ports that cannot be used; and that nothing is left running."""
+
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import unittest
+
+import shapes
+from harness import SOURCE, ClientTest, Daemon
+
+import sculpt
+
+
+class Crash(ClientTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
+        self.data = self.scratch / "data"
+
+    def submit(self, *options, robot="gantry", resolution=8):
+        return self.fine("submit", self.mesh, "--resolution", resolution, "--robot", robot, *options).strip()
+
+    def sha256(self, job):
+        return json.loads(self.fine("report", job, "--json"))["plan_sha256"]
+
+    def wait_until_running(self, job):
+        with sculpt.Client(self.server) as client:
+            client.call("events.subscribe", job=job)
+            while client.next_event().get("data", {}).get("to") != "running":
+                pass
+
+    def test_killed_while_a_job_runs_and_others_wait_nothing_is_lost(self):
+        daemon = Daemon(self.data, "--workers", "1")
+        self.server = daemon.address
+        finished = self.submit("--wait")
+        before = self.fine("report", finished, "--json"), self.fine("fetch", finished, "-o", "-")
+        reference = self.submit("--wait", robot="panda-turntable", resolution=16)
+        expected = self.sha256(reference)
+        running = self.submit(robot="panda-turntable", resolution=16)
+        queued = [self.submit("--key", f"order {n}") for n in range(3)]
+        self.wait_until_running(running)
+        daemon.kill()
+
+        with Daemon(self.data, "--workers", "1") as daemon:
+            self.server = daemon.address
+            self.assertEqual((self.fine("report", finished, "--json"), self.fine("fetch", finished, "-o", "-")), before)
+            for job in [running, *queued]:
+                self.fine("wait", job)
+            self.assertEqual(self.sha256(running), expected)
+            self.assertEqual(json.loads(self.fine("status", running, "--json"))["attempt"], 2)
+            again = json.loads(self.fine("submit", self.mesh, "--resolution", 8, "--robot", "gantry", "--key", "order 1", "--json"))
+            self.assertEqual((again["job"], again["duplicate"]), (queued[1], True))
+            self.assertEqual(len(json.loads(self.fine("list", "--json"))["jobs"]), 6)
+
+    def test_killed_again_and_again_every_acknowledged_job_is_there(self):
+        acknowledged = []
+        for _ in range(4):
+            daemon = Daemon(self.data, "--workers", "1")
+            self.server = daemon.address
+            acknowledged += [self.submit() for _ in range(3)]
+            daemon.kill()
+        with Daemon(self.data) as daemon:
+            self.server = daemon.address
+            for job in acknowledged:
+                self.fine("wait", job)
+            self.assertEqual([job["job"] for job in json.loads(self.fine("list", "--json"))["jobs"]], acknowledged)
+
+    def test_a_stop_while_a_job_runs_is_orderly_and_the_job_runs_again(self):
+        daemon = Daemon(self.data, "--workers", "1")
+        self.server = daemon.address
+        job = self.submit(robot="panda-turntable", resolution=16)
+        self.wait_until_running(job)
+        self.assertEqual(daemon.stop(), 0)
+        with Daemon(self.data, "--workers", "1") as daemon:
+            self.server = daemon.address
+            self.fine("wait", job)
+            self.assertEqual(daemon.stop(), 0)
+
+
+class Startup(ClientTest):
+    def start(self, *options):
+        return subprocess.run([os.environ["SCULPTD"], *map(str, options)], cwd=SOURCE, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=60)
+
+    def reject(self, *options, hint):
+        result = self.start(*options)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertGreater(result.returncode, 0, "it crashed: " + result.stderr)
+        self.assertRegex(result.stderr, rf"sculptd: .*{hint}")
+
+    def test_a_second_daemon_on_the_same_folder_is_refused_and_the_first_goes_on(self):
+        data = self.scratch / "data"
+        with Daemon(data) as daemon:
+            self.reject("--listen", "127.0.0.1:0", "--data", data, hint="data")
+            self.server = daemon.address
+            self.fine("list")
+
+    def test_a_port_in_use_is_named(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            self.reject("--listen", f"127.0.0.1:{port}", "--data", self.scratch / "data", hint=str(port))
+
+    def test_a_folder_that_cannot_be_written_is_named(self):
+        (self.scratch / "file").write_text("in the way")
+        self.reject("--listen", "127.0.0.1:0", "--data", self.scratch / "file" / "data", hint="file")
+        self.reject("--listen", "127.0.0.1:0", "--data", "/proc/sculptd", hint="/proc/sculptd")
+
+    def test_a_config_that_cannot_be_used_is_named(self):
+        (self.scratch / "server.json").write_text('{"wokers": 2}')
+        self.reject("--config", self.scratch / "server.json", "--data", self.scratch / "data", hint="wokers")
+        self.reject("--config", self.scratch / "nothere.json", "--data", self.scratch / "data", hint="nothere.json")
+        self.reject("--listen", "nowhere", "--data", self.scratch / "data", hint="nowhere")
+
+    def test_nothing_is_left_running(self):
+        marker = str(self.scratch / "data")
+        with Daemon(marker, "--workers", "2") as daemon:
+            self.server = daemon.address
+            mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
+            self.fine("submit", mesh, "--resolution", 8, "--robot", "panda-turntable", "--wait")
+            self.assertTrue(processes_with(marker), "the test must see the daemon while it runs")
+        self.assertEqual(processes_with(marker), [])
+
+
+def processes_with(argument):
+    """Ids of processes that have this argument."""
+    found = []
+    for entry in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if argument.encode() in entry.read_bytes().split(b"\0"):
+                found.append(entry.parent.name)
+        except OSError:
+            pass  # it ended meanwhile
+    return found
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,193 @@
+"""sculpt without a server: plan, voxelize, verify FILE, and the command line itself."""
+
+import contextlib
+import hashlib
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import unittest
+
+import shapes
+from harness import SCULPT, SOURCE, ClientTest, environment
+
+COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan".split()
+
+
+def shared_data():
+    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared" / "data")
+
+
+class CommandLine(ClientTest):
+    def test_every_command_explains_itself(self):
+        overview = self.fine("--help")
+        for command in COMMANDS:
+            self.assertRegex(overview, rf"\n  {command} ")
+            text = self.fine(command, "--help")
+            for option in ("--help", "--server", "--version"):
+                self.assertIn(option, text, command)
+
+    def test_version_stands_before_and_after_the_command(self):
+        self.assertRegex(self.fine("--version"), r"^sculpt/\d+\.\d+\.\d+\n$")
+        self.assertEqual(self.fine("list", "--version"), self.fine("--version"))
+
+    def test_a_wrong_command_line_is_usage(self):
+        for arguments in ([], ["fly"], ["status"], ["status", "x", "--bogus"], ["fetch", "x"], ["fetch", "x", "-o", "y", "--format", "xml"],
+                          ["voxelize", "m.stl", "--resolution", "eight", "-o", "x.binvox"],
+                          ["submit", "m.stl", "--robot", "gantry"], ["plan", "m.stl", "--resolution", "8", "--robot", "gantry"],
+                          ["voxelize", "m.stl", "--resolution", "8", "-o", "v", "--rotate", "1,2"]):
+            self.refused(2, "usage", *arguments)
+
+    def test_no_server_is_unreachable_wherever_the_option_stands(self):
+        for arguments in (["--server", "127.0.0.1:1", "list"], ["list", "--server", "127.0.0.1:1"], ["status", "x", "--server", "127.0.0.1:1"]):
+            self.assertIn("127.0.0.1:1", self.refused(3, "unreachable", *arguments))
+        self.assertIn("127.0.0.1:1", self.refused(3, "unreachable", "list", server="127.0.0.1:1"))
+
+
+class Voxelize(ClientTest):
+    def voxelize(self, triangles, *options):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", triangles)
+        counts = json.loads(self.fine("voxelize", mesh, "--resolution", 16, "-o", "mesh.binvox", "--json", *options))
+        return counts["voxels"], (self.scratch / "mesh.binvox").read_bytes()
+
+    def test_a_box_fills_its_share_of_the_grid(self):
+        voxels, binvox = self.voxelize(shapes.steps())
+        self.assertEqual(voxels, {"total": 4096, "air": 0, "keep": 16 * 16 * 8 + 8 * 8 * 8, "remove": 4096 - 2560})
+        self.assertTrue(binvox.startswith(b"#binvox 1\ndim 16 16 16\n"), binvox[:60])
+
+    def test_a_ball_has_the_volume_of_a_ball(self):
+        voxels, _ = self.voxelize(shapes.ball(24))
+        self.assertAlmostEqual(voxels["keep"] / (math.pi / 6 * 4096), 1, delta=0.05)
+
+    def test_placement_is_metres_and_degrees(self):
+        quarter, _ = self.voxelize(shapes.box((0, 0, 0), (1, 2, 4)), "--scale", "0.25", "--rotate", "0,90,0")
+        self.assertEqual(quarter["keep"], 16 * 8 * 4)
+        shifted, _ = self.voxelize(shapes.box((0, 0, 0), (1, 1, 1)), "--scale", "0.5", "--offset", "-0.25,0.25,0.5")
+        self.assertEqual(shifted["keep"], 8 * 8 * 8)
+        self.refused(4, "target_outside_stock", "voxelize", self.scratch / "mesh.stl", "--resolution", 16, "-o", "x.binvox",
+                     "--scale", "0.5", "--offset", "0.3,0,0")
+
+    def test_stock_may_be_a_box_or_an_earlier_grid(self):
+        half, _ = self.voxelize(shapes.steps(), "--stock-box", "0,0,0,1,1,0.5")
+        self.assertEqual((half["air"], half["keep"], half["remove"]), (2048, 2048, 0))
+        (self.scratch / "mesh.binvox").rename(self.scratch / "half.binvox")
+        again, _ = self.voxelize(shapes.steps(), "--stock", "half.binvox")
+        self.assertEqual(again, half)
+
+    def test_the_memory_cap_is_kept_before_loading(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        self.refused(4, "memory_cap", "voxelize", mesh, "--resolution", 16, "-o", "x.binvox", "--memory-cap", "100k")
+        self.refused(2, "usage", "voxelize", mesh, "--resolution", 16, "-o", "x.binvox", "--memory-cap", "lots")
+
+    def test_an_output_that_cannot_be_written_is_usage(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        self.refused(2, "file_unwritable", "voxelize", mesh, "--resolution", 16, "-o", "no/such/folder.binvox")
+
+
+class Plan(ClientTest):
+    def plan(self, output, *options, robot="panda-turntable", resolution=8):
+        self.mesh = shapes.write_stl(self.scratch / "steps.stl", shapes.steps())
+        return json.loads(self.fine("plan", self.mesh, "--resolution", resolution, "--robot", robot, "--json", "-o", output, *options))
+
+    def verify(self, file, **expected):
+        return self.run_client("verify", file, "--mesh", self.mesh, "--robot", expected.get("robot", "panda-turntable"), "--json")
+
+    def test_both_cells_remove_all_of_a_shape_without_hidden_corners(self):
+        for robot in ("gantry", "panda-turntable"):
+            with self.subTest(robot=robot):
+                report = self.plan("plan.ndjson", robot=robot)
+                voxels = report["voxels"]
+                self.assertEqual((voxels["remove"], voxels["removed"], voxels["residue"]), (192, 192, 0), report)
+                self.assertTrue(report["verify"]["clean"], report)
+                self.assertEqual(report["robot"], robot)
+
+    def test_the_report_has_the_promised_fields(self):
+        report = self.plan("plan.ndjson", "--seed", 7)
+        fields = {"mesh", "robot", "search", "seed", "resolution", "voxels", "residue", "octree", "path", "seconds", "peak_memory_bytes",
+                  "threads", "plan_sha256", "verify"}
+        self.assertLessEqual(fields, set(report))
+        self.assertEqual(set(report["voxels"]), {"total", "air", "keep", "remove", "removed", "residue"})
+        self.assertLessEqual({"keyframes", "rows", "transits", "cut_m", "travel_m", "joint_travel_rad"}, set(report["path"]))
+        self.assertLessEqual({"load", "voxelize", "octree", "plan", "verify", "total"}, set(report["seconds"]))
+        self.assertEqual((report["mesh"], report["seed"], report["resolution"]), ("steps.stl", 7, 8))
+
+    def test_the_same_seed_gives_the_same_bytes_at_any_number_of_threads(self):
+        hashes, texts = set(), set()
+        for threads in (1, 2, 4):
+            hashes.add(self.plan("plan.ndjson", "--threads", threads)["plan_sha256"])
+            texts.add((self.scratch / "plan.ndjson").read_bytes())
+        self.assertEqual((len(hashes), len(texts)), (1, 1))
+        lines = texts.pop().splitlines(keepends=True)
+        end = json.loads(lines[-1])
+        self.assertEqual(end["sha256"], hashlib.sha256(b"".join(lines[:-1])).hexdigest())
+        self.assertEqual(end["sha256"], hashes.pop())
+
+    def test_the_extension_chooses_the_format(self):
+        self.plan("plan.ndjson")
+        self.plan("plan.sct")
+        self.plan("plan.csv")
+        keyframes = len((self.scratch / "plan.ndjson").read_bytes().splitlines()) - 2
+        csv = [line for line in (self.scratch / "plan.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(csv), keyframes + 1)
+        self.assertTrue((self.scratch / "plan.sct").read_bytes().startswith(b"SCULPTRJ"))
+        self.refused(2, "format_unknown", "plan", self.mesh, "--resolution", 8, "--robot", "gantry", "-o", "plan.txt")
+        self.assertEqual(sorted(os.listdir(self.scratch)), ["plan.csv", "plan.ndjson", "plan.sct", "steps.stl"])
+
+    def test_a_file_is_replayed_in_both_forms(self):
+        self.plan("plan.ndjson")
+        self.plan("plan.sct")
+        for file in ("plan.ndjson", "plan.sct"):
+            verdict = self.verify(file)
+            self.assertEqual(verdict.returncode, 0, verdict.stdout + verdict.stderr)
+            self.assertEqual(json.loads(verdict.stdout)["voxels_checked"], 192)
+
+    def test_a_damaged_file_is_refused_and_a_wrong_plan_is_found(self):
+        self.plan("plan.ndjson")
+        lines = (self.scratch / "plan.ndjson").read_text().splitlines(keepends=True)
+        (self.scratch / "damaged.ndjson").write_text("".join(lines[:-2] + lines[-1:]))
+        self.refused(4, "trajectory_invalid", "verify", "damaged.ndjson", "--mesh", self.mesh, "--robot", "panda-turntable")
+        cut = next(n for n, line in enumerate(lines) if '"cut"' in line)
+        keyframe = json.loads(lines[cut])
+        keyframe["q"][1] += 0.02
+        lines[cut] = json.dumps(keyframe, separators=(",", ":")) + "\n"
+        end = json.loads(lines[-1])
+        end["sha256"] = hashlib.sha256("".join(lines[:-1]).encode()).hexdigest()
+        lines[-1] = json.dumps(end, separators=(",", ":")) + "\n"
+        (self.scratch / "wrong.ndjson").write_text("".join(lines))
+        verdict = self.verify("wrong.ndjson")
+        self.assertEqual(verdict.returncode, 1, verdict.stdout + verdict.stderr)
+        self.assertEqual(json.loads(verdict.stdout)["findings"][0]["line"], cut + 1)
+
+    def test_a_file_needs_the_mesh_and_the_cell(self):
+        self.plan("plan.ndjson")
+        self.refused(2, "usage", "verify", "plan.ndjson")
+        self.refused(2, "file_missing", "verify", "nothere.ndjson", "--mesh", self.mesh, "--robot", "gantry")
+
+    def test_interrupt_ends_a_plan_and_leaves_no_file(self):
+        mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
+        process = subprocess.Popen([*SCULPT, "plan", mesh, "--resolution", "256", "--robot", "panda-turntable", "-o", "ball.ndjson"],
+                                   cwd=self.scratch, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not list(self.scratch.glob("*.part")):  # from the moment there is a file on, interrupts are caught
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self.fail(f"it ended with {process.wait(timeout=0.01)} before the interrupt")
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate()
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertRegex(errors, r"sculpt: cancelled: ")
+        self.assertEqual(os.listdir(self.scratch), ["ball.stl"])
+
+    def test_davids_head_on_the_gantry_is_planned_whole(self):
+        david = shared_data() / "meshes" / "david.stl"
+        if not david.exists():
+            self.skipTest(f"no {david}: set SCULPT_SHARED_DATA to the folder that has meshes/david.stl")
+        report = json.loads(self.fine("plan", david, "--resolution", 64, "--robot", "gantry", "--json", "-o", "david.ndjson"))
+        voxels = report["voxels"]
+        self.assertEqual(voxels["removed"] + voxels["residue"], voxels["remove"])
+        self.assertLess(voxels["residue"], 0.01 * voxels["remove"])
+        self.assertTrue(report["verify"]["clean"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,221 @@
+"""A session with a live daemon, once with the C++ client and once with the Python client: the same verbs, the same answers."""
+
+import hashlib
+import json
+import subprocess
+import unittest
+
+import shapes
+from harness import SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest, environment
+
+import sculpt
+
+
+class Verbs:
+    """Every verb that needs a server; run by both clients."""
+
+    def submit(self, *options, triangles=None, robot="gantry", resolution=8):
+        mesh = shapes.write_stl(self.scratch / "steps.stl", triangles or shapes.steps())
+        return self.fine("submit", mesh, "--resolution", resolution, "--robot", robot, *options)
+
+    def finished(self, *options, **shape):
+        job = self.submit(*options, **shape).strip()
+        self.fine("wait", job)
+        return job
+
+    def test_submit_prints_the_job_alone(self):
+        self.assertRegex(self.submit(), r"^[0-9A-Z]{26}\n$")
+        reply = json.loads(self.submit("--json"))
+        self.assertEqual(set(reply), {"job", "state", "duplicate"})
+        self.assertFalse(reply["duplicate"])
+
+    def test_submit_with_wait_ends_with_the_job(self):
+        reply = json.loads(self.submit("--wait", "--json"))
+        self.assertEqual(reply["state"], "succeeded")
+
+    def test_the_same_key_is_the_same_job(self):
+        key = self.id() + " key"
+        first = json.loads(self.submit("--key", key, "--json"))
+        second = json.loads(self.submit("--key", key, "--json"))
+        self.assertEqual((first["job"], first["duplicate"], second["job"], second["duplicate"]), (first["job"], False, first["job"], True))
+        mesh = self.scratch / "steps.stl"
+        self.refused(4, "key_conflict", "submit", mesh, "--resolution", 16, "--robot", "gantry", "--key", key)
+
+    def test_status_and_list_show_the_job(self):
+        job = self.finished("--seed", 5, "--priority", -3)
+        status = json.loads(self.fine("status", job, "--json"))
+        self.assertEqual((status["job"], status["state"], status["seed"], status["priority"]), (job, "succeeded", 5, -3))
+        listed = {entry["job"]: entry for entry in json.loads(self.fine("list", "--json"))["jobs"]}
+        self.assertEqual(listed[job]["state"], "succeeded")
+        self.assertEqual(list(listed), sorted(listed))
+        self.assertIn(job, self.fine("list"))
+        self.assertIn("succeeded", self.fine("status", job))
+
+    def test_watch_tells_the_way_to_the_end(self):
+        job = self.submit().strip()
+        lines = self.fine("watch", job).splitlines()
+        self.assertEqual((lines[0], lines[-1]), ("queued", "succeeded"))
+        self.assertEqual(json.loads(self.fine("watch", job, "--json"))["state"], "succeeded")
+
+    def test_wait_is_silent(self):
+        job = self.submit().strip()
+        result = self.run_client("wait", job)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        self.assertEqual(json.loads(self.fine("wait", job, "--json"))["state"], "succeeded")
+
+    def test_report_has_the_promised_fields(self):
+        job = self.finished(robot="panda-turntable")
+        report = json.loads(self.fine("report", job, "--json"))
+        fields = {"job", "state", "mesh", "robot", "search", "seed", "resolution", "voxels", "residue", "octree", "path", "seconds",
+                  "peak_memory_bytes", "threads", "plan_sha256", "verify"}
+        self.assertLessEqual(fields, set(report))
+        self.assertEqual(report["voxels"]["removed"] + report["voxels"]["residue"], report["voxels"]["remove"])
+        self.assertTrue(report["verify"]["clean"])
+        self.assertIn(report["plan_sha256"], self.fine("report", job))
+
+    def test_fetch_writes_each_artifact_whole(self):
+        job = self.finished()
+        self.fine("fetch", job, "-o", "t.ndjson")
+        lines = (self.scratch / "t.ndjson").read_bytes().splitlines(keepends=True)
+        self.assertEqual(json.loads(lines[0])["type"], "header")
+        self.assertEqual(json.loads(lines[-1])["sha256"], hashlib.sha256(b"".join(lines[:-1])).hexdigest())
+        self.assertEqual(self.fine("fetch", job, "-o", "-"), b"".join(lines).decode())
+        self.fine("fetch", job, "-o", "t.csv", "--format", "csv")
+        self.fine("fetch", job, "-o", "t.sct", "--format", "binary")
+        self.assertTrue((self.scratch / "t.sct").read_bytes().startswith(b"SCULPTRJ"))
+        self.fine("fetch", job, "-o", "v.binvox", "--artifact", "voxels")
+        self.assertTrue((self.scratch / "v.binvox").read_bytes().startswith(b"#binvox 1\n"))
+        self.fine("fetch", job, "-o", "r.ndjson", "--artifact", "residue")
+        self.fine("fetch", job, "-o", "r.json", "--artifact", "report")
+        self.assertEqual(json.loads((self.scratch / "r.json").read_text())["resolution"], 8)
+        self.assertEqual(list(self.scratch.glob("*.part")), [])
+
+    def test_fetch_of_a_new_job_waits_for_its_end(self):
+        job = self.submit(robot="panda-turntable", triangles=shapes.ball(), resolution=16).strip()
+        lines = self.fine("fetch", job, "-o", "-").splitlines()
+        self.assertEqual(json.loads(lines[-1])["type"], "end")
+
+    def test_verify_replays_the_job(self):
+        job = self.finished()
+        verdict = json.loads(self.fine("verify", job, "--json"))
+        self.assertTrue(verdict["clean"])
+        self.assertEqual(verdict["collisions"], 0)
+        self.assertRegex(self.fine("verify", job), r"clean, \d+ voxels checked, 0 findings\n")
+
+    def test_cancel_ends_a_running_job(self):
+        job = self.submit("--priority", 50, robot="panda-turntable", triangles=shapes.ball(24), resolution=64).strip()
+        self.assertIn(json.loads(self.fine("cancel", job, "--json"))["state"], ("cancelling", "cancelled"))
+        self.refused(1, "cancelled", "wait", job)
+        self.assertEqual(json.loads(self.fine("status", job, "--json"))["state"], "cancelled")
+        self.refused(1, "cancelled", "fetch", job, "-o", "t.ndjson")
+        self.assertFalse((self.scratch / "t.ndjson").exists())
+        done = self.finished()
+        self.refused(4, "wrong_state", "cancel", done)
+
+    def test_a_cell_file_is_sent_with_its_urdf(self):
+        cell = json.loads((SOURCE / "config/cells/gantry.json").read_text())
+        urdf = SOURCE / "config/cells" / cell["urdf"]
+        (self.scratch / "my.urdf").write_bytes(urdf.read_bytes())
+        (self.scratch / "my.json").write_text(json.dumps({**cell, "urdf": "my.urdf"}))
+        job = self.finished(robot="my.json")
+        own = json.loads(self.fine("report", job, "--json"))
+        shipped = json.loads(self.fine("report", self.finished(), "--json"))
+        self.assertEqual(own["robot"], "my")
+        self.assertEqual(own["path"], shipped["path"])
+
+    def test_placement_and_stock_reach_the_planner(self):
+        job = self.finished("--scale", "0.025", "--rotate", "0,0,90", "--offset", "0.05,-0.05,0", "--stock-box", "0,0,0,0.2,0.2,0.1")
+        voxels = json.loads(self.fine("report", job, "--json"))["voxels"]
+        low, high = 4 * 4 * 2, 2 * 2 * 2  # 0.1 m wide in a grid of 0.2 m, so half of its 8 voxels: 4 x 4 x 2 below, 2 x 2 x 2 above
+        self.assertEqual(voxels, {**voxels, "air": 256, "keep": low + high, "remove": 256 - low - high})
+
+    def test_an_unknown_job_is_refused_by_every_verb(self):
+        for verb in ("status", "watch", "wait", "cancel", "report", "verify"):
+            self.refused(4, "not_found", verb, "nosuchjob")
+        self.refused(4, "not_found", "fetch", "nosuchjob", "-o", "x")
+
+
+class CommandLineSession(Verbs, DaemonTest):
+    client = SCULPT
+
+
+class PythonSession(Verbs, DaemonTest):
+    client = SCULPT_PY
+
+    def test_no_server_is_unreachable(self):
+        self.refused(3, "unreachable", "list", "--server", "127.0.0.1:1")
+        self.refused(3, "unreachable", "--server", "127.0.0.1:1", "list")
+
+    def test_the_module_is_a_client(self):
+        mesh = shapes.write_stl(self.scratch / "steps.stl", shapes.steps())
+        with sculpt.Client(self.server) as client:
+            job = client.submit({"mesh": client.upload_file(mesh), "robot": "gantry", "resolution": 8})["job"]
+            self.assertEqual(client.wait(job)["state"], "succeeded")
+            text = b"".join(client.read_artifact(job))
+            self.assertEqual(client.call("job.report", job=job)["plan_sha256"], json.loads(text.splitlines()[-1])["sha256"])
+            with self.assertRaises(sculpt.Failure) as caught:
+                client.call("job.get", job="nosuchjob")
+            self.assertEqual((caught.exception.exit_code, caught.exception.code), (sculpt.REFUSED, "not_found"))
+
+
+class SameAnswers(DaemonTest):
+    def test_server_and_plan_give_the_same_bytes(self):
+        mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
+        options = ["--resolution", 16, "--robot", "panda-turntable", "--seed", 3]
+        local = json.loads(self.fine("plan", mesh, *options, "--json", "-o", "local.ndjson"))
+        hashes = {local["plan_sha256"]}
+        for _ in range(2):
+            job = self.fine("submit", mesh, *options, "--wait").strip()
+            hashes.add(json.loads(self.fine("report", job, "--json"))["plan_sha256"])
+        self.assertEqual(len(hashes), 1)
+        self.fine("fetch", job, "-o", "remote.ndjson")
+        self.assertEqual((self.scratch / "local.ndjson").read_bytes(), (self.scratch / "remote.ndjson").read_bytes())
+        self.fine("verify", "remote.ndjson", "--mesh", mesh, "--robot", "panda-turntable")
+
+
+class TwoClients(ClientTest):
+    def test_one_submits_and_watches_while_the_other_lists_cancels_and_fetches(self):
+        with Daemon(self.scratch / "data", "--workers", "1") as daemon:
+            self.server = daemon.address
+            mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
+            first = self.fine("submit", mesh, "--resolution", 8, "--robot", "panda-turntable", "--wait").strip()
+            long_job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable").strip()
+            behind = self.fine("submit", mesh, "--resolution", 8, "--robot", "gantry").strip()
+            watcher = subprocess.Popen([*SCULPT, "watch", long_job], env=environment(self.server), stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            try:
+                while "running" not in watcher.stdout.readline():
+                    pass
+                self.client = SCULPT_PY
+                states = {job["job"]: job["state"] for job in json.loads(self.fine("list", "--json"))["jobs"]}
+                self.assertEqual(states, {first: "succeeded", long_job: "running", behind: "queued"})
+                self.fine("fetch", first, "-o", "first.ndjson")
+                self.fine("cancel", long_job)
+                output, errors = watcher.communicate()
+            finally:
+                watcher.kill()
+                watcher.communicate()
+            self.assertEqual(watcher.returncode, 1, output + errors)
+            self.assertIn("cancelled", output.splitlines()[-1])
+            self.fine("wait", behind)
+
+    def test_interrupting_a_watch_leaves_the_job_running(self):
+        with Daemon(self.scratch / "data", "--workers", "1") as daemon:
+            self.server = daemon.address
+            mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
+            job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable").strip()
+            for client in (SCULPT, SCULPT_PY):
+                watcher = subprocess.Popen([*client, "watch", job], env=environment(self.server), stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                while "running" not in watcher.stdout.readline():
+                    pass
+                watcher.send_signal(2)
+                _, errors = watcher.communicate()
+                self.assertEqual(watcher.returncode, 1, errors)
+                self.assertIn(f"job {job} goes on", errors)
+            self.assertEqual(json.loads(self.fine("status", job, "--json"))["state"], "running")
+            self.fine("cancel", job)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,131 @@
+"""Every `session` of proto/PROTOCOL.md, in order, against a real daemon; and the tables of that file against each other."""
+
+import json
+import pathlib
+import re
+import socket
+import tempfile
+import unittest
+
+from harness import PATIENCE_S, SOURCE, Daemon
+
+PROTOCOL = SOURCE / "proto/PROTOCOL.md"
+
+
+def sessions(text):
+    """(first line's number, lines) of each block marked `session`."""
+    for block in re.finditer(r"^```session\n(.*?)^```$", text, re.M | re.S):
+        yield text.count("\n", 0, block.start()) + 2, block.group(1).splitlines()
+
+
+class Connection:
+    """A socket as a simple client sees it: lines and counted chunks."""
+
+    def __init__(self, address):
+        host, port = address.rsplit(":", 1)
+        self.socket = socket.create_connection((host, int(port)), timeout=PATIENCE_S)
+        self.stream = self.socket.makefile("rb")
+
+    def send(self, content):
+        self.socket.sendall(content + b"\n")
+
+    def read_line(self):
+        return self.stream.readline().decode()
+
+    def read_chunk(self, size):
+        content = self.stream.read(size + 1)
+        assert content[-1:] == b"\n", f"a chunk of {size} bytes must end in a newline: {content[-20:]!r}"
+        return content[:-1]
+
+    def close(self):
+        self.stream.close()
+        self.socket.close()
+
+
+def fill(text, names):
+    """The names in a client's line, replaced by what they were bound to."""
+    return re.sub(r'"\$(\w+)"', lambda name: json.dumps(names[name.group(1)]) if name.group(1) in names else name.group(0), text)
+
+
+def difference(expected, got, names, place=""):
+    """What of `got` is not as expected, or None; binds names that are met first."""
+    if expected == "*":
+        return None
+    if isinstance(expected, str) and expected.startswith("$"):
+        if not isinstance(got, str):
+            return f"{place}: a string was expected, not {got!r}"
+        return None if names.setdefault(expected[1:], got) == got else f"{place}: {expected} is {names[expected[1:]]!r}, not {got!r}"
+    if isinstance(expected, dict) and isinstance(got, dict):
+        if set(expected) != set(got):
+            return f"{place}: fields {sorted(set(expected) ^ set(got))} are on one side only"
+        return next(filter(None, (difference(expected[key], got[key], names, f"{place}/{key}") for key in expected)), None)
+    if isinstance(expected, list) and isinstance(got, list) and len(expected) == len(got):
+        return next(filter(None, (difference(e, g, names, f"{place}/{n}") for n, (e, g) in enumerate(zip(expected, got)))), None)
+    same = type(expected) is type(got) and expected == got
+    return None if same else f"{place}: expected {expected!r}, got {got!r}"
+
+
+def play(lines, first_number, address, names):
+    """Runs one session; raises AssertionError that names the line."""
+    connection = Connection(address)
+    try:
+        announced = 0
+        for number, line in enumerate(lines, first_number):
+            where = f"PROTOCOL.md:{number}: {line}\n"
+            kind, _, content = line.partition(" ")
+            if kind == "C":
+                connection.send(fill(content, names).encode())
+            elif kind == "C+":
+                connection.send(json.loads(content).encode())
+            elif kind == "S":
+                answer = connection.read_line()
+                assert answer, where + "the connection was closed"
+                found = difference(json.loads(content), json.loads(answer), names)
+                assert not found, f"{where}{answer}{found}"
+                result = json.loads(answer).get("result")
+                announced = result.get("bytes", 0) if isinstance(result, dict) else 0
+            elif kind == "S+":
+                chunk = connection.read_chunk(announced)
+                assert chunk == json.loads(content).encode(), f"{where}got {chunk!r}"
+            else:
+                raise AssertionError(where + "a session has only lines C, C+, S and S+")
+    finally:
+        connection.close()
+
+
+class Examples(unittest.TestCase):
+    def test_every_session_goes_as_written(self):
+        text, names, played = PROTOCOL.read_text(), {}, 0
+        with tempfile.TemporaryDirectory(prefix="sculpt-test-") as data, Daemon(data) as daemon:
+            for number, lines in sessions(text):
+                with self.subTest(line=number):
+                    play(lines, number, daemon.address, names)
+                played += 1
+        self.assertGreater(played, 10, "the sessions of PROTOCOL.md were not found")
+
+    def test_every_method_has_an_example(self):
+        text = PROTOCOL.read_text()
+        methods = {word for heading in re.findall(r"^### (.*)$", text, re.M) for word in heading.split(", ")}
+        shown = {method for _, lines in sessions(text) for method in re.findall(r'"method":"([\w.]+)"', "\n".join(lines))}
+        self.assertGreater(len(methods), 10)
+        self.assertEqual(methods - shown, set())
+
+    def test_every_error_of_an_example_is_in_the_catalogue_with_its_number(self):
+        text = PROTOCOL.read_text()
+        catalogue = dict((word, int(number)) for number, word in re.findall(r"^\| (-?\d+) \| `(\w+)` \|", text, re.M))
+        for number, word in re.findall(r'"error":\{"code":(-?\d+),.*?"data":\{"code":"(\w+)"', text):
+            self.assertEqual(catalogue.get(word), int(number), word)
+
+
+class TheComparison(unittest.TestCase):
+    """The examples prove nothing if the comparison lets everything through."""
+
+    def test_it_tells_differences(self):
+        self.assertIsNone(difference({"a": "*", "b": "$x"}, {"b": "id", "a": [1]}, {}))
+        for expected, got in (({"a": 1}, {"a": 2}), ({"a": 1}, {"a": True}), ({"a": 1}, {}), ({}, {"a": 1}), ([1], [1, 2]), (["$x", "$x"], ["a", "b"]),
+                              ("$x", 1), ({"a": 1}, {"a": 1.0})):
+            self.assertIsNotNone(difference(expected, got, {}), (expected, got))
+
+
+if __name__ == "__main__":
+    unittest.main()
