@@ -1,0 +1,99 @@
+// What is refused before any planning, with a code and a cure.
+#include <gtest/gtest.h>
+
+#include "tests/core/plan/jobs.hpp"
+
+namespace sculpt {
+namespace {
+
+Job sound_job() {
+  return make_job(shipped_cell("gantry"), random_target(8, 1));
+}
+
+void expect_refused(const Job& job, const std::string& code, const std::string& word) {
+  try {
+    check_job(job, {});
+    ADD_FAILURE() << "accepted, expected " << code;
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Intake, ASoundJobPasses) {
+  EXPECT_NO_THROW(check_job(sound_job(), {}));
+}
+
+TEST(Intake, RefusesResolutionsThatAreNoPowerOfTwoInRange) {
+  for (int n : {-1, 0, 4, 7, 24, 2048, 4096}) {
+    Job job = sound_job();
+    job.resolution = n;
+    expect_refused(job, "resolution_invalid", std::to_string(n));
+  }
+}
+
+TEST(Intake, RefusesABinvoxOfAnotherResolution) {
+  Job job = sound_job();
+  job.resolution = 16;
+  expect_refused(job, "resolution_invalid", "--resolution 8");
+}
+
+TEST(Intake, RefusesUnknownSearchesAndNoThreads) {
+  Job job = sound_job();
+  job.search = "magic";
+  expect_refused(job, "search_unknown", "octree");
+  job = sound_job();
+  job.threads = 0;
+  expect_refused(job, "threads_invalid", "0");
+}
+
+TEST(Intake, RefusesAMeshThatWouldNotFitInMemoryBeforeReadingIt) {
+  Job job = sound_job();
+  job.mesh = {std::string(84, '\0'), "stl", "huge.stl"};
+  job.memory_cap_bytes = 1000;
+  expect_refused(job, "memory_cap", "cap");
+}
+
+TEST(Intake, RefusesAToolThatDoesNotFitAVoxel) {
+  Job job = make_job(shipped_cell("gantry"), random_target(16, 1));
+  job.cell.cell_json = with(job.cell.cell_json, "\"ball_radius_voxels\": 0.45", "\"ball_radius_m\": 0.0063");
+  expect_refused(job, "tool_too_large", "voxel");
+}
+
+TEST(Intake, RefusesAStockThatTheChainCannotReach) {
+  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
+  job.cell.cell_json = with(job.cell.cell_json, "\"origin_m\": [-0.1, -0.1, 0]", "\"origin_m\": [-0.1, -0.1, 5]");
+  expect_refused(job, "stock_out_of_reach", "move the stock");
+}
+
+TEST(Intake, RefusesAStockBoxThatHoldsNothing) {
+  Job job = sound_job();
+  job.stock.box = Stock::Box{Vec3(1, 1, 1), Vec3(2, 2, 2)};
+  expect_refused(job, "stock_empty", "metres");
+}
+
+TEST(Intake, RefusesLinksAndUrdfsThatAreNotThere) {
+  Job job = sound_job();
+  job.cell.cell_json = with(job.cell.cell_json, "\"link\": \"stock\"", "\"link\": \"stok\"");
+  expect_refused(job, "cell_invalid", "stok");
+  job = sound_job();
+  job.cell.files.begin()->second = "<robot";
+  expect_refused(job, "urdf_invalid", "");
+}
+
+TEST(Intake, KeepOutsideTheStockIsAir) {
+  Job job = make_job(shipped_cell("gantry"), VoxelSet(8, true));
+  job.stock.mesh = binvox_file(random_target(8, 3), job.cell);
+  const VoxelGrid voxels = make_voxels(job, parse_cell(job.cell).grid(8), {});
+  EXPECT_EQ(voxels.keep, voxels.stock);
+  EXPECT_EQ(voxels.stock, random_target(8, 3));
+}
+
+}  // namespace
+}  // namespace sculpt

@@ -1,0 +1,79 @@
+// Jobs for tests: small random targets, the shipped cells, and the folder of shared data where there is one.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/base/random.hpp"
+#include "core/material/binvox.hpp"
+#include "core/plan/plan.hpp"
+
+namespace sculpt {
+
+inline std::filesystem::path shared_data() {
+  const char* folder = std::getenv("SCULPT_SHARED_DATA");
+  return folder != nullptr ? folder : SOURCE_DIR "/../shared/data";
+}
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline CellFiles shipped_cell(const std::string& name) {
+  return read_cell_files(std::filesystem::path(SOURCE_DIR) / "config/cells" / (name + ".json"));
+}
+
+inline MeshFile binvox_file(const VoxelSet& target, const CellFiles& cell) {
+  return {write_binvox(target, parse_cell(cell).grid(target.n())), "binvox", "target.binvox"};
+}
+
+/// A few random boxes, balls and single voxels of keep: overhangs, holes, floating parts and all.
+inline VoxelSet random_target(int n, std::uint64_t seed) {
+  Random random(seed);
+  VoxelSet target(n);
+  const int parts = 1 + static_cast<int>(random.next() % 5);
+  for (int part = 0; part < parts; ++part) {
+    const Vec3 centre(random.between(0, n), random.between(0, n), random.between(0, n));
+    const Vec3 half(random.between(0.3, n / 3.0), random.between(0.3, n / 3.0), random.between(0.3, n / 3.0));
+    const bool ball = random.unit() < 0.5;
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const Vec3 off = (Vec3(i + 0.5, j + 0.5, k + 0.5) - centre).cwiseQuotient(half);
+          if (ball ? off.norm() < 1 : off.cwiseAbs().maxCoeff() < 1) target.insert({i, j, k});
+        }
+  }
+  return target;
+}
+
+inline Job make_job(const CellFiles& cell, const VoxelSet& target, std::uint64_t seed = 0) {
+  Job job;
+  job.cell = cell;
+  job.mesh = binvox_file(target, cell);
+  job.resolution = target.n();
+  job.seed = seed;
+  return job;
+}
+
+/// A trajectory file of this test's own, gone at the end.
+class ScratchFile {
+ public:
+  ScratchFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "sculpt-test-XXXXXX").string();
+    const int handle = mkstemp(pattern.data());
+    if (handle >= 0) close(handle);
+    path_ = pattern;
+  }
+  ~ScratchFile() { std::filesystem::remove(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace sculpt

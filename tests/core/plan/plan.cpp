@@ -1,0 +1,187 @@
+#include "core/plan/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/material/cavities.hpp"
+#include "tests/core/plan/jobs.hpp"
+
+namespace sculpt {
+namespace {
+
+/// What every finished plan must be, whatever the robot: clean in the replay and complete about what it left.
+void expect_sound(const JobResult& result) {
+  const Report& report = result.report;
+  EXPECT_TRUE(report.verify.clean) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_EQ(report.verify.voxels_checked, report.voxels.removed);
+  EXPECT_EQ(report.voxels.removed + report.voxels.residue, report.voxels.remove);
+  EXPECT_EQ(report.voxels.air + report.voxels.keep + report.voxels.remove, report.voxels.total);
+  EXPECT_EQ(result.residue.size(), report.voxels.residue);
+  const VoxelSet enclosed = find_enclosed(result.voxels);
+  for (const Residue& left : result.residue) {
+    EXPECT_EQ(result.voxels.label(left.voxel), Label::remove);
+    EXPECT_EQ(left.reason == Reason::enclosed, enclosed.contains(left.voxel));
+  }
+}
+
+std::map<Reason, std::uint64_t> reasons(const Report& report) {
+  return {report.residue.begin(), report.residue.end()};
+}
+
+TEST(Plan, RandomShapesWithTheGantryLeaveOnlyWhatIsEnclosed) {
+  const CellFiles cell = shipped_cell("gantry");
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const ScratchFile file;
+    const JobResult result = run_job(make_job(cell, random_target(seed % 2 == 0 ? 8 : 16, seed)), file.path(), {});
+    expect_sound(result);
+    for (const Residue& left : result.residue) EXPECT_EQ(left.reason, Reason::enclosed);
+  }
+}
+
+TEST(Plan, RandomShapesWithTheArmReplayClean) {
+  const CellFiles cell = shipped_cell("panda-turntable");
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const ScratchFile file;
+    const JobResult result = run_job(make_job(cell, random_target(8, seed), seed), file.path(), {});
+    expect_sound(result);
+    EXPECT_GT(result.report.voxels.removed, result.report.voxels.remove / 2);
+  }
+}
+
+TEST(Plan, SameJobAndSeedGiveTheSameBytesAndAnotherSeedAnotherPlan) {
+  const CellFiles cell = shipped_cell("panda-turntable");
+  const VoxelSet target = random_target(8, 3);
+  const ScratchFile first, again, other;
+  const std::string hash = run_job(make_job(cell, target, 5), first.path(), {}).report.plan_sha256;
+  EXPECT_EQ(run_job(make_job(cell, target, 5), again.path(), {}).report.plan_sha256, hash);
+  EXPECT_EQ(read_file(first.path()), read_file(again.path()));
+  EXPECT_NE(run_job(make_job(cell, target, 6), other.path(), {}).report.plan_sha256, hash);
+}
+
+TEST(Plan, ThreadsDoNotChangeThePlan) {
+  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 4));
+  const ScratchFile first, second;
+  const std::string one = run_job(job, first.path(), {}).report.plan_sha256;
+  job.threads = 2;
+  EXPECT_EQ(run_job(job, second.path(), {}).report.plan_sha256, one);
+}
+
+TEST(Plan, AFullTargetAndAnEmptyOneAreResults) {
+  for (const char* name : {"gantry", "panda-turntable"}) {
+    SCOPED_TRACE(name);
+    const CellFiles cell = shipped_cell(name);
+    const ScratchFile nothing, everything;
+    const JobResult full = run_job(make_job(cell, VoxelSet(8, true)), nothing.path(), {});
+    expect_sound(full);
+    EXPECT_EQ(full.report.voxels.removed, 0u);
+    const JobResult empty = run_job(make_job(cell, VoxelSet(8)), everything.path(), {});
+    expect_sound(empty);
+    EXPECT_EQ(empty.report.voxels.residue, 0u) << "nothing to keep is in the way";
+  }
+}
+
+TEST(Plan, ACavityIsResidueWithItsReason) {
+  VoxelSet target(8);
+  for (int k = 0; k < 5; ++k)
+    for (int j = 1; j < 7; ++j)
+      for (int i = 1; i < 7; ++i) target.insert({i, j, k});
+  for (Voxel v : {Voxel{3, 3, 2}, Voxel{4, 3, 2}}) target.erase(v);
+  for (const char* name : {"gantry", "panda-turntable"}) {
+    SCOPED_TRACE(name);
+    const ScratchFile file;
+    const JobResult result = run_job(make_job(shipped_cell(name), target), file.path(), {});
+    expect_sound(result);
+    EXPECT_EQ(reasons(result.report), (std::map<Reason, std::uint64_t>{{Reason::enclosed, 2}}));
+  }
+}
+
+TEST(Plan, AJarIsEmptiedByTheGantryAndLeftByTheArmThatCannotComeIn) {
+  VoxelSet target(16);
+  for (int k = 0; k < 14; ++k)
+    for (int j = 2; j < 14; ++j)
+      for (int i = 2; i < 14; ++i) target.insert({i, j, k});
+  for (int k = 2; k < 12; ++k)
+    for (int j = 4; j < 12; ++j)
+      for (int i = 4; i < 12; ++i) target.erase({i, j, k});
+  for (int k = 12; k < 14; ++k) target.erase({8, 8, k});
+  const ScratchFile by_gantry, by_arm;
+  const JobResult gantry = run_job(make_job(shipped_cell("gantry"), target), by_gantry.path(), {});
+  expect_sound(gantry);
+  EXPECT_EQ(gantry.report.voxels.residue, 0u);
+  const JobResult arm = run_job(make_job(shipped_cell("panda-turntable"), target), by_arm.path(), {});
+  expect_sound(arm);
+  EXPECT_GT(reasons(arm.report)[Reason::tool_cannot_reach], 500u) << "the shank fits only straight down the neck";
+  EXPECT_EQ(reasons(arm.report).size(), 1u);
+}
+
+TEST(Plan, StockSmallerThanTheGridIsAirFromTheStart) {
+  Job job = make_job(shipped_cell("panda-turntable"), VoxelSet(8));
+  job.stock.box = Stock::Box{Vec3(0, 0, 0), Vec3(0.2, 0.2, 0.05)};
+  const ScratchFile file;
+  const JobResult result = run_job(job, file.path(), {});
+  expect_sound(result);
+  EXPECT_EQ(result.report.voxels.air, 8u * 8 * 6);
+  EXPECT_EQ(result.report.voxels.removed, 8u * 8 * 2);
+}
+
+TEST(Plan, StopsSoonAfterItIsAskedTo) {
+  const Job job = make_job(shipped_cell("panda-turntable"), random_target(32, 1));
+  for (std::uint64_t after : {1u, 50u, 500u}) {
+    std::stop_source stop;
+    std::uint64_t steps = 0, after_stop = 0;
+    const Watch watch{stop.get_token(), [&](const Progress& progress) {
+                        if (stop.stop_requested()) ++after_stop;
+                        if (progress.stage == Stage::plan && ++steps == after) stop.request_stop();
+                      }};
+    const ScratchFile file;
+    EXPECT_THROW(run_job(job, file.path(), watch), Cancelled);
+    EXPECT_EQ(after_stop, 0u) << "no step is taken after the stop";
+  }
+}
+
+TEST(Plan, ProgressNeverPassesItsTotalAndEndsAtWhatWasRemoved) {
+  const Job job = make_job(shipped_cell("gantry"), random_target(16, 2));
+  std::uint64_t last = 0;
+  const Watch watch{{}, [&](const Progress& progress) {
+                      EXPECT_LE(progress.done, progress.total);
+                      if (progress.stage == Stage::plan) last = progress.done;
+                    }};
+  const ScratchFile file;
+  EXPECT_EQ(last = 0, 0u);
+  const JobResult result = run_job(job, file.path(), watch);
+  EXPECT_EQ(last, result.report.voxels.removed);
+}
+
+TEST(Plan, DavidAt16WithTheArmIsCarvedToAtMostOnePercent) {
+  const auto mesh = shared_data() / "meshes/david.stl";
+  if (!std::filesystem::exists(mesh))
+    GTEST_SKIP() << "no david.stl: set SCULPT_SHARED_DATA to the folder of shared data";
+  Job job;
+  job.cell = shipped_cell("panda-turntable");
+  job.mesh = {read_file(mesh), "stl", "david.stl"};
+  job.resolution = 16;
+  const ScratchFile file;
+  const JobResult result = run_job(job, file.path(), {});
+  expect_sound(result);
+  EXPECT_LE(result.report.voxels.residue * 100, result.report.voxels.remove);
+}
+
+TEST(Plan, DavidAt64WithTheGantryIsCarvedWhole) {
+  const auto mesh = shared_data() / "meshes/david.stl";
+  if (!std::filesystem::exists(mesh))
+    GTEST_SKIP() << "no david.stl: set SCULPT_SHARED_DATA to the folder of shared data";
+  Job job;
+  job.cell = shipped_cell("gantry");
+  job.mesh = {read_file(mesh), "stl", "david.stl"};
+  job.resolution = 64;
+  const ScratchFile file;
+  const JobResult result = run_job(job, file.path(), {});
+  expect_sound(result);
+  EXPECT_EQ(result.report.voxels.residue, find_enclosed(result.voxels).size());
+}
+
+}  // namespace
+}  // namespace sculpt
