@@ -127,6 +127,48 @@ TEST(BetweenKeyframes, AToolThatSweepsThroughOneVoxelIsFound) {
   EXPECT_TRUE(beside.clean) << sentences(beside);
 }
 
+// Every swing of an arm is curved: the replay must find what a plain dense sampling finds, and nothing where that stays
+// well clear.
+TEST(BetweenKeyframes, RandomSwingsAreFoundExactlyWhenTheyHit) {
+  Cell cell = hinged_cell();
+  cell.tool.stickout_m = 0.25;
+  const double voxel_m = cell.grid(8).voxel_m;
+  int hits = 0, misses = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    VoxelGrid voxels = no_material(8);
+    for (int count = 0; count < 6; ++count) {
+      const auto index = [&] { return static_cast<int>(random.next() % 8); };
+      voxels.stock.insert({index(), index(), index()});
+    }
+    const Eigen::Vector3d home(-1, 0.3, 0);
+    // Somewhere over the block; two equal bars and the way to the ball are an isosceles triangle.
+    const Eigen::Vector2d goal(random.between(0.4, 0.48), random.between(-0.04, 0.04));
+    const double elbow = 2 * std::acos(goal.norm() / 0.6);
+    const Eigen::Vector3d stop(std::atan2(goal.y(), goal.x()) - elbow / 2, elbow, random.between(-1, 1));
+    double least = 1;  // voxel edges; samples are at most 0.05 apart
+    for (int s = 0; s <= 6000; ++s) {
+      const Eigen::Vector3d q = home + (stop - home) * s / 6000;
+      const Vec3 ball(0.3 * std::cos(q[0]) + 0.3 * std::cos(q[0] + q[1]),
+                      0.3 * std::sin(q[0]) + 0.3 * std::sin(q[0] + q[1]), 0.05);
+      const Vec3 at = (ball - cell.stock_origin_m) / voxel_m;
+      least = std::min(least, least_upright_gap(at, voxels.stock));
+    }
+    const Verdict verdict = swing(cell, voxels, {stop});
+    if (least < -0.001) {
+      ++hits;
+      EXPECT_FALSE(verdict.clean) << least;
+    }
+    if (least > 0.03) {
+      ++misses;
+      EXPECT_TRUE(verdict.clean) << least << "\n" << sentences(verdict);
+    }
+  }
+  EXPECT_GT(hits, 20);
+  EXPECT_GT(misses, 20);
+}
+
 TEST(BetweenKeyframes, AFoldedArmThatMeetsItselfIsFound) {
   Cell cell = hinged_cell();
   // The spindle turns about the elbow into the upper arm's root.

@@ -53,15 +53,6 @@ TEST(FaultInjection, TwoRowsSwappedAreFound) {
   }
 }
 
-// Smallest distance from the box [0,1]^3 at `voxel` to the ball or the upright shank with the ball at `at`, less the
-// radius; voxel edges.
-double gap(const Vec3& at, Voxel voxel) {
-  const Vec3 low(voxel.i, voxel.j, voxel.k);
-  const Vec3 off = (low - at).cwiseMax(at - low - Vec3::Ones()).cwiseMax(0);
-  const double aside = off.head<2>().norm();
-  return std::min(off.norm() - 0.45, std::max(aside - 0.4, at.z() - (voxel.k + 1)));
-}
-
 // Does the carving hit something, by sampling every motion densely? Positive: by how much it stays clear of all
 // material.
 double least_gap(const std::vector<Keyframe>& keyframes, const Configuration& home, double voxel_m, VoxelSet standing) {
@@ -78,10 +69,7 @@ double least_gap(const std::vector<Keyframe>& keyframes, const Configuration& ho
                                         Voxel{run.i / (parts - 1), run.j / (parts - 1), run.k / (parts - 1)} * part);
       }
       const Vec3 at = (from + (keyframe.q - from) * s / samples) / voxel_m;
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-          for (int k = 0; k < n; ++k)
-            if (standing.contains({i, j, k})) least = std::min(least, gap(at, {i, j, k}));
+      least = std::min(least, least_upright_gap(at, standing));
     }
     from = keyframe.q;
   }

@@ -1,6 +1,8 @@
 // Tiny cells in code for the tests of this folder, and trajectories written by plain loops.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -168,6 +170,26 @@ inline GantryProgram carve_landscape(const Cell& cell, const Landscape& land) {
       program.plunge(i, j, land.height[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   program.go_home();
   return program;
+}
+
+// Smallest distance from the box [0,1]^3 at `voxel` to the ball or the upright shank with the ball at `at`, less the
+// radius; voxel edges.
+inline double upright_tool_gap(const Vec3& at, Voxel voxel) {
+  const Vec3 low(voxel.i, voxel.j, voxel.k);
+  const Vec3 off = (low - at).cwiseMax(at - low - Vec3::Ones()).cwiseMax(0);
+  const double aside = off.head<2>().norm();
+  return std::min(off.norm() - 0.45, std::max(aside - 0.4, at.z() - (voxel.k + 1)));
+}
+
+/// The smallest of these gaps over the standing voxels near the tool; 0.5 if there are none.
+inline double least_upright_gap(const Vec3& at, const VoxelSet& standing) {
+  double least = 0.5;
+  const int n = standing.n(), i0 = static_cast<int>(std::floor(at.x())), j0 = static_cast<int>(std::floor(at.y()));
+  for (int i = std::max(0, i0 - 1); i <= std::min(n - 1, i0 + 1); ++i)
+    for (int j = std::max(0, j0 - 1); j <= std::min(n - 1, j0 + 1); ++j)
+      for (int k = 0; k < n; ++k)
+        if (standing.contains({i, j, k})) least = std::min(least, upright_tool_gap(at, {i, j, k}));
+  return least;
 }
 
 }  // namespace sculpt
