@@ -78,7 +78,8 @@ std::int64_t Fields::integer(const std::string& field, std::int64_t low, std::in
 
 std::uint64_t Fields::count(const std::string& field, std::uint64_t high) {
   const Json& value = take(field);
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > high) {
+  const bool natural = value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+  if (!natural || value.get<std::uint64_t>() > high) {
     refuse(field, "must be an integer from 0 to " + std::to_string(high));
   }
   return value.get<std::uint64_t>();

@@ -21,8 +21,10 @@ HelloParams read_hello(const Json& params) {
   Fields fields = params_of(params);
   HelloParams hello;
   const Json& version = fields.value("protocol");
-  if (!version.is_array() || version.size() != 2 || !version[0].is_number_unsigned() ||
-      !version[1].is_number_unsigned()) {
+  const auto small = [](const Json& number) {
+    return number.is_number_integer() && number.get<std::int64_t>() >= 0 && number.get<std::int64_t>() < 1000;
+  };
+  if (!version.is_array() || version.size() != 2 || !small(version[0]) || !small(version[1])) {
     fields.refuse("protocol", "must be [major, minor], for example [1,0]");
   }
   hello.major = version[0].get<int>();
