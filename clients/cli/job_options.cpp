@@ -1,6 +1,7 @@
 #include "clients/cli/job_options.hpp"
 
 #include <bit>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
@@ -25,6 +26,20 @@ std::vector<fs::path> cell_folders() {
         if (fs::is_directory(at / place, failed)) return {at / place};
   return {};
 }
+
+/// CLI11 reads -1 as the largest unsigned number.
+const CLI::Validator not_negative{
+    [](std::string& text) { return text.starts_with('-') ? text + " is negative: give 0 or more" : std::string(); },
+    ""};
+
+/// Nor does it say when a number is too large.
+const CLI::Validator seed_number{[](std::string& text) {
+                                   std::uint64_t seed = 0;
+                                   const auto read = std::from_chars(text.data(), text.data() + text.size(), seed);
+                                   const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+                                   return whole ? std::string() : text + " is no whole number from 0 to 2^64 - 1";
+                                 },
+                                 ""};
 
 Vec3 vec3(const std::vector<double>& values) {
   return {values[0], values[1], values[2]};
@@ -66,12 +81,14 @@ void add_placement_options(CLI::App& command, PlacementOptions& options) {
       ->type_name("FILE")
       ->excludes("--stock-box")
       ->group(group);
-  command
-      .add_option("--memory-cap", options.memory_cap_bytes, "Refuse what is predicted to need more, e.g. 512M or 8G")
+}
+
+void add_memory_cap(CLI::App& command, std::uint64_t& bytes) {
+  command.add_option("--memory-cap", bytes, "Refuse what is predicted to need more, e.g. 512M or 8G")
       ->transform(CLI::AsSizeValue(false))
+      ->transform(not_negative)
       ->type_name("BYTES")
-      ->default_str("2G")
-      ->group(group);
+      ->default_str("2G");
 }
 
 void add_job_options(CLI::App& command, JobOptions& options) {
@@ -88,6 +105,7 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_option("--search", options.search, "The planner, e.g. octree; without it the default")->type_name("NAME");
   command.add_option("--seed", options.seed, "Same job and same seed: same plan, byte for byte")
       ->type_name("K")
+      ->check(seed_number)
       ->capture_default_str();
   add_placement_options(command, options.placement);
 }

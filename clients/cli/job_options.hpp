@@ -31,6 +31,8 @@ struct JobOptions {
 };
 
 void add_placement_options(CLI::App& command, PlacementOptions& options);
+/// For what is planned in this process: a server has its own cap.
+void add_memory_cap(CLI::App& command, std::uint64_t& bytes);
 /// MESH, --resolution, --robot, --search, --seed and the placement.
 void add_job_options(CLI::App& command, JobOptions& options);
 

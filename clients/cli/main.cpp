@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(sculpt::exit_usage, "usage", std::string(error.what()) + " (see sculpt --help)");
+    return complain(sculpt::exit_usage, "usage", std::string(error.what()) + " (see sculpt COMMAND --help)");
   }
   return run(invocation);
 }

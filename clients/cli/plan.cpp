@@ -70,6 +70,7 @@ void add_plan(CLI::App& app, Invocation& invocation) {
   CLI::App& command = add_command(app, invocation, "plan", "Plan in this process, without a server",
                                   [options] { return run_plan(*options); });
   add_job_options(command, options->job);
+  add_memory_cap(command, options->job.placement.memory_cap_bytes);
   command.add_option("--threads", options->threads, "Worker threads; the plan is the same at any number")
       ->type_name("T")
       ->check(CLI::Range(1, 256))

@@ -120,6 +120,7 @@ void add_verify(CLI::App& app, Invocation& invocation) {
       ->type_name("N");
   command.add_flag("--json", options->json, "Print the verdict as one JSON document");
   add_placement_options(command, options->placement);
+  add_memory_cap(command, options->placement.memory_cap_bytes);
 }
 
 }  // namespace sculpt

@@ -75,6 +75,7 @@ void add_voxelize(CLI::App& app, Invocation& invocation) {
   command.add_flag("--json", options->json, "Print the counts as one JSON document");
   command.add_option("-o,--output", options->output, "The .binvox file (target = 1)")->type_name("FILE")->required();
   add_placement_options(command, options->placement);
+  add_memory_cap(command, options->placement.memory_cap_bytes);
 }
 
 }  // namespace sculpt

@@ -124,7 +124,8 @@ class BySubmit(BadInput, DaemonTest):
 
     def test_priorities_and_seeds_out_of_range(self):
         self.reject(4, "params_invalid", "good.stl", 8, "gantry", "--priority", "101", hint="100")
-        self.reject(2, "usage", "good.stl", 8, "gantry", "--seed", "-1")
+        for seed in ("-1", "18446744073709551616", "1e3"):
+            self.reject(2, "usage", "good.stl", 8, "gantry", "--seed", seed, hint=seed)
 
     def tearDown(self):
         super().tearDown()
