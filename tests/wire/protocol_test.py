@@ -1,7 +1,6 @@
 """Every `session` of proto/PROTOCOL.md, in order, against a real daemon; and the tables of that file against each other."""
 
 import json
-import pathlib
 import re
 import socket
 import tempfile
@@ -115,6 +114,14 @@ class Examples(unittest.TestCase):
         catalogue = dict((word, int(number)) for number, word in re.findall(r"^\| (-?\d+) \| `(\w+)` \|", text, re.M))
         for number, word in re.findall(r'"error":\{"code":(-?\d+),.*?"data":\{"code":"(\w+)"', text):
             self.assertEqual(catalogue.get(word), int(number), word)
+
+
+class Manual(unittest.TestCase):
+    def test_every_refusal_of_the_planner_is_in_protocol_and_troubleshooting(self):
+        thrown = {word for file in (SOURCE / "core").rglob("*.cpp") for word in re.findall(r'InputError[({]\s*"(\w+)"', file.read_text())}
+        self.assertGreater(len(thrown), 10)
+        for manual in (PROTOCOL, SOURCE / "README.md"):
+            self.assertEqual({word for word in thrown - {"threads_invalid"} if f"`{word}`" not in manual.read_text()}, set(), manual)
 
 
 class TheComparison(unittest.TestCase):
