@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_boxes_a_mesh = 12;
+constexpr std::size_t most_boxes_a_mesh = 32;
 
 Piece make_piece(const Shape& shape) {
   Vec3 half = Vec3::Zero();

@@ -161,6 +161,21 @@ bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   return !impl_->material.meets_capsule({line.ball, line.top}, radius, exempt);
 }
 
+std::string Scene::describe_contact(const Configuration& q) const {
+  if (!impl_->chain.within_limits(q)) return "a joint is outside its limits";
+  if (impl_->tool_meets_material(impl_->chain.tool_pose(q), {})) return "the tool touches the stock";
+  const auto name = [&](const Body& body) {
+    return body.tool ? "the tool" : "'" + impl_->chain.robot().links[static_cast<std::size_t>(body.link)].name + "'";
+  };
+  std::vector<Frame> at;
+  impl_->chain.link_poses(q, at);
+  for (const Pair& pair : impl_->pairs)
+    if (impl_->near(pair, at, pair.margin_m))
+      return name(impl_->bodies[static_cast<std::size_t>(pair.first)]) + " touches " +
+             (pair.second < 0 ? "the stock" : name(impl_->bodies[static_cast<std::size_t>(pair.second)]));
+  return {};
+}
+
 Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(q)) return Contact::limits;
   if (impl_->tool_meets_material(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/cell/cell.hpp"
 #include "core/collision/material.hpp"
@@ -33,6 +34,9 @@ class Scene {
 
   /// Contacts at q. The tool (not the links) may touch `exempt`.
   Contact contact_at(const Configuration& q, std::optional<Voxel> exempt = {}) const;
+
+  /// The first contact at q as a person would say it, e.g. "'link5' touches 'link7'"; empty if there is none.
+  std::string describe_contact(const Configuration& q) const;
 
   /// Certifies the joint-linear edge from `from` to `to` at every point between, not at samples: `none` only if it is
   /// free. May refuse an edge that passes closer than the margins (0.2 mm for links, 0.005 voxel for the tool). The

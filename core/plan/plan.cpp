@@ -174,11 +174,9 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   Scene scene(cell, result.grid, result.voxels.stock);
   const Chain& chain = scene.chain();
   const TrajectoryHeader header = make_header(job, cell, chain, result.grid);
-  if (scene.contact_at(header.home) != Contact::none)
-    throw InputError(
-        "cell_invalid",
-        "cell '" + cell.name +
-            "': home touches the stock, the room or the robot itself: choose a home clear of the full stock");
+  if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
+    throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
+                                         ": choose a home clear of the full stock, the room and itself");
   Output output(trajectory, header, chain, report.voxels.remove, watch);
   if (chain.translating())
     carve_with_gantry(scene, result.voxels, octree, graph, header.home, output, watch);

@@ -6,7 +6,7 @@
 #include "core/collision/body.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/motion_bound.hpp"
-#include "tests/core/collision/test_cell.hpp"
+#include "tests/core/collision/small_arm.hpp"
 
 namespace sculpt {
 namespace {

@@ -30,7 +30,7 @@ TEST(RosPanda, WithMeshLinksCarvesAndReplaysClean) {
                                       << std::filesystem::absolute(package).string() << R"("},
     "stock": {"link": "disc", "size_m": 0.16, "origin_m": [-0.08, -0.08, 0]},
     "tool": {"link": "nose", "stickout_m": 0.2, "ball_radius_voxels": 0.45, "shank_radius_voxels": 0.4},
-    "home": {"panda_joint2": -0.6, "panda_joint4": -2.0, "panda_joint6": 1.4, "panda_joint7": 0.785}})";
+    "home": {"panda_joint2": -0.139, "panda_joint4": -1.612, "panda_joint6": 1.473, "panda_joint7": 0.717, "panda_finger_joint1": 0.02}})";
   const CellFiles cell = read_cell_files(folder / "cell.json");
   std::filesystem::remove_all(folder);
 

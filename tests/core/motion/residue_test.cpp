@@ -1,0 +1,68 @@
+#include "core/motion/residue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/plan/jobs.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Residue of a scene in which only `standing` is left, all of it to be removed.
+std::vector<Residue> explain(const Cell& cell, const VoxelSet& keep, Voxel left) {
+  VoxelSet standing = keep;
+  standing.insert(left);
+  const VoxelGrid voxels{standing, keep};
+  const Scene scene(cell, cell.grid(keep.n()), standing);
+  return explain_residue(scene, voxels, 0, {});
+}
+
+TEST(Residue, AVoxelInTheOpenThatWasLeftLacksATransit) {
+  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), VoxelSet(8), {4, 4, 4});
+  ASSERT_EQ(residue.size(), 1u);
+  EXPECT_EQ(residue[0].voxel, (Voxel{4, 4, 4}));
+  EXPECT_EQ(residue[0].reason, Reason::no_transit);
+}
+
+TEST(Residue, UnderARoofTheToolCannotReach) {
+  VoxelSet keep(8, true);
+  keep.erase({4, 4, 0});
+  keep.erase({4, 4, 1});
+  keep.erase({4, 5, 1});
+  for (int k = 1; k < 8; ++k) keep.erase({4, 5, k});
+  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), keep, {4, 4, 0});
+  ASSERT_EQ(residue.size(), 1u);
+  EXPECT_EQ(residue[0].reason, Reason::tool_cannot_reach);
+}
+
+TEST(Residue, ShutInIsEnclosed) {
+  VoxelSet keep(8, true);
+  keep.erase({4, 4, 4});
+  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), keep, {4, 4, 4});
+  ASSERT_EQ(residue.size(), 1u);
+  EXPECT_EQ(residue[0].reason, Reason::enclosed);
+}
+
+TEST(Residue, FarAwayIsOutOfReachAndBehindALimitIsAJointLimit) {
+  CellFiles files = shipped_cell("panda-turntable");
+  const std::string at = "\"origin_m\": [-0.1, -0.1, 0]";
+  files.cell_json.replace(files.cell_json.find(at), at.size(), "\"origin_m\": [-0.1, -0.1, 4]");
+  const auto far = explain(parse_cell(files), VoxelSet(8), {4, 4, 4});
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_EQ(far[0].reason, Reason::out_of_reach);
+
+  Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const auto limit = [&](const char* name, double lower, double upper) {
+    Joint& joint = cell.robot.joints[static_cast<std::size_t>(cell.robot.find_joint(name))];
+    joint.lower = lower;
+    joint.upper = upper;
+  };
+  limit("joint1", -0.1, 0.1);
+  limit("joint2", -1.7, -1.6);
+  limit("joint3", -0.1, 0.1);
+  const auto limited = explain(cell, VoxelSet(8), {4, 4, 4});
+  ASSERT_EQ(limited.size(), 1u);
+  EXPECT_EQ(limited[0].reason, Reason::joint_limits);
+}
+
+}  // namespace
+}  // namespace sculpt
