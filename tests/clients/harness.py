@@ -70,6 +70,14 @@ class Daemon:
         self.stop()
 
 
+def shared_data(test, path):
+    """A file or folder of the shared data; skips `test` where there is none."""
+    found = pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared" / "data") / path
+    if not found.exists():
+        test.skipTest(f"no {found}: set SCULPT_SHARED_DATA to the folder that has {path}")
+    return found
+
+
 def environment(server=None):
     """The caller's, with only this server and the cells of the source tree."""
     env = {name: value for name, value in os.environ.items() if name != "SCULPT_SERVER"}

@@ -5,19 +5,14 @@ import hashlib
 import json
 import math
 import os
-import pathlib
 import signal
 import subprocess
 import unittest
 
 import shapes
-from harness import SCULPT, SOURCE, ClientTest, environment
+from harness import SCULPT, ClientTest, environment, shared_data
 
 COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan".split()
-
-
-def shared_data():
-    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared" / "data")
 
 
 class CommandLine(ClientTest):
@@ -179,9 +174,7 @@ class Plan(ClientTest):
         self.assertEqual(os.listdir(self.scratch), ["ball.stl"])
 
     def test_davids_head_on_the_gantry_is_planned_whole(self):
-        david = shared_data() / "meshes" / "david.stl"
-        if not david.exists():
-            self.skipTest(f"no {david}: set SCULPT_SHARED_DATA to the folder that has meshes/david.stl")
+        david = shared_data(self, "meshes/david.stl")
         report = json.loads(self.fine("plan", david, "--resolution", 64, "--robot", "gantry", "--json", "-o", "david.ndjson"))
         voxels = report["voxels"]
         self.assertEqual(voxels["removed"] + voxels["residue"], voxels["remove"])

@@ -6,9 +6,20 @@ import subprocess
 import unittest
 
 import shapes
-from harness import SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest, environment
+from harness import SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest, environment, shared_data
 
 import sculpt
+
+
+# What stands round the arm of ROS: floor, turntable, and a tool that starts below the fingers.
+ROOM = """
+  <link name="room"><collision><origin xyz="0.3 0 -0.05"/><geometry><box size="2 2 0.1"/></geometry></collision></link>
+  <joint name="mount" type="fixed"><parent link="room"/><child link="panda_link0"/></joint>
+  <link name="disc"><collision><origin xyz="0 0 -0.01"/><geometry><cylinder radius="0.1" length="0.02"/></geometry></collision></link>
+  <joint name="table" type="continuous"><parent link="room"/><child link="disc"/><origin xyz="0.5 0 0.12"/><axis xyz="0 0 1"/></joint>
+  <link name="nose"/>
+  <joint name="nose_joint" type="fixed"><parent link="panda_hand"/><child link="nose"/><origin xyz="0 0 0.13"/></joint>
+</robot>"""
 
 
 class Verbs:
@@ -122,6 +133,21 @@ class Verbs:
         shipped = json.loads(self.fine("report", self.finished(), "--json"))
         self.assertEqual(own["robot"], "my")
         self.assertEqual(own["path"], shipped["path"])
+
+    def test_a_cell_of_ros_is_sent_with_its_meshes(self):
+        package = shared_data(self, "ros/moveit_resources_panda_description")
+        urdf = (package / "urdf/panda.urdf").read_text().replace("</robot>", ROOM)
+        (self.scratch / "room.urdf").write_text(urdf)
+        (self.scratch / "ros.json").write_text(json.dumps({
+            "urdf": "room.urdf", "packages": {package.name: str(package)},
+            "stock": {"link": "disc", "size_m": 0.16, "origin_m": [-0.08, -0.08, 0]},
+            "tool": {"link": "nose", "stickout_m": 0.2, "ball_radius_voxels": 0.45, "shank_radius_voxels": 0.4},
+            "home": {"panda_joint2": -0.139, "panda_joint4": -1.612, "panda_joint6": 1.473, "panda_joint7": 0.717,
+                     "panda_finger_joint1": 0.02}}))
+        job = self.finished(robot="ros.json")
+        report = json.loads(self.fine("report", job, "--json"))
+        self.assertTrue(report["verify"]["clean"])
+        self.assertGreater(report["voxels"]["removed"], 0)
 
     def test_placement_and_stock_reach_the_planner(self):
         job = self.finished("--scale", "0.025", "--rotate", "0,0,90", "--offset", "0.05,-0.05,0", "--stock-box", "0,0,0,0.2,0.2,0.1")
