@@ -38,6 +38,12 @@ void OpenSpace::open_cube(Voxel corner, int size) {
       for (int i = 0; i < size; ++i) open(corner + Voxel{i, j, k});
 }
 
+void OpenSpace::want_cube(Voxel corner, int size) {
+  for (int k = 0; k < size; ++k)
+    for (int j = 0; j < size; ++j)
+      for (int i = 0; i < size; ++i) cells_[index(corner + Voxel{i, j, k})] |= wanted_bit;
+}
+
 bool OpenSpace::leg_is_open(Voxel from, Voxel to) const {
   const Voxel step = direction(from, to);
   for (Voxel at = from; at != to; at = at + step)
@@ -68,17 +74,24 @@ void OpenSpace::push(Entry entry, std::size_t detour) {
   frontier_[detour].push_back(entry);
 }
 
-void OpenSpace::search(Voxel from, Voxel to) {
+/// False if the voxel was closed before.
+bool OpenSpace::close(Entry entry) {
+  std::uint8_t& cell = cells_[index(entry.at)];
+  if (cell & closed_bit) return false;
+  cell |= static_cast<std::uint8_t>(closed_bit | entry.face << parent_shift);
+  if (touched_.size() < most_touched) touched_.push_back(index(entry.at));
+  return true;
+}
+
+bool OpenSpace::search(Voxel from, Voxel to, std::size_t limit) {
   push({from, 0}, 0);
   for (std::size_t detour = 0; detour < frontier_.size(); ++detour) {
     while (!frontier_[detour].empty()) {
       const Entry entry = frontier_[detour].back();
       frontier_[detour].pop_back();
-      std::uint8_t& cell = cells_[index(entry.at)];
-      if (cell & closed_bit) continue;
-      cell |= static_cast<std::uint8_t>(closed_bit | entry.face << parent_shift);
-      touched_.push_back(index(entry.at));
-      if (entry.at == to) return;
+      if (!close(entry)) continue;
+      if (entry.at == to) return true;
+      if (touched_.size() >= limit) return false;
       for (std::uint8_t face = 0; face < 6; ++face) {
         const Voxel next = entry.at + face_steps[face];
         if (!is_open(next) || (cells_[index(next)] & closed_bit)) continue;
@@ -86,7 +99,17 @@ void OpenSpace::search(Voxel from, Voxel to) {
       }
     }
   }
-  assert(false && "find_way needs two voxels of one connected air");
+  return false;
+}
+
+void OpenSpace::forget_search() {
+  if (touched_.size() < most_touched) {
+    for (std::size_t at : touched_) cells_[at] &= open_bit | wanted_bit;
+  } else {
+    for (std::uint8_t& cell : cells_) cell &= open_bit | wanted_bit;
+  }
+  touched_.clear();
+  for (auto& bucket : frontier_) bucket.clear();
 }
 
 std::vector<Voxel> OpenSpace::trace(Voxel from, Voxel to) const {
@@ -102,15 +125,39 @@ std::vector<Voxel> OpenSpace::trace(Voxel from, Voxel to) const {
   return way;
 }
 
-std::vector<Voxel> OpenSpace::find_way(Voxel from, Voxel to) {
+std::optional<std::vector<Voxel>> OpenSpace::find_way(Voxel from, Voxel to, std::size_t limit) {
   std::vector<Voxel> way;
   if (try_legs(from, to, way)) return way;
-  search(from, to);
-  way = trace(from, to);
-  for (std::size_t at : touched_) cells_[at] &= open_bit;
-  touched_.clear();
-  for (auto& bucket : frontier_) bucket.clear();
+  const bool found = search(from, to, limit);
+  if (found) way = trace(from, to);
+  forget_search();
+  if (!found) return std::nullopt;
   return way;
+}
+
+OpenSpace::Wanted OpenSpace::find_wanted(Voxel from) {
+  // Layer by layer, so that only two layers are held.
+  std::vector<Entry> layer{{from, 0}}, next_layer;
+  close(layer[0]);
+  while (!layer.empty()) {
+    for (const Entry& entry : layer) {
+      for (std::uint8_t face = 0; face < 6; ++face) {
+        const Voxel beside = entry.at + face_steps[face];
+        if (!inside(beside)) continue;
+        const std::uint8_t cell = cells_[index(beside)];
+        if (cell == wanted_bit) {
+          Wanted found{beside, trace(from, entry.at)};
+          forget_search();
+          return found;
+        }
+        if ((cell & open_bit) && close({beside, face})) next_layer.push_back({beside, face});
+      }
+    }
+    layer.swap(next_layer);
+    next_layer.clear();
+  }
+  assert(false && "find_wanted needs a wanted voxel beside connected air");
+  return {};
 }
 
 }  // namespace sculpt

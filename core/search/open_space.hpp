@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/material/voxel.hpp"
@@ -18,13 +20,27 @@ class OpenSpace {
   void open(Voxel v) { cells_[index(v)] |= open_bit; }
   void open_cube(Voxel corner, int size);
 
+  /// Marks the voxels of a cube as worth going to; those that are open by then count no longer.
+  void want_cube(Voxel corner, int size);
+
+  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
   /// Corners of a shortest way from `from` to `to` (both open), without `from`: straight legs, one axis each where some
-  /// order of the three axes is free, else by A*. Empty if from == to. There must be a way.
-  std::vector<Voxel> find_way(Voxel from, Voxel to);
+  /// order of the three axes is free, else by A* over at most `limit` voxels. Empty if from == to; nothing if the limit
+  /// was too low.
+  std::optional<std::vector<Voxel>> find_way(Voxel from, Voxel to, std::size_t limit = no_limit);
+
+  struct Wanted {
+    Voxel voxel;             ///< wanted and not open
+    std::vector<Voxel> way;  ///< corners of a shortest way to a face neighbour of it
+  };
+  /// The wanted voxel with the shortest way from `from` (open). There must be one.
+  Wanted find_wanted(Voxel from);
 
  private:
-  static constexpr std::uint8_t open_bit = 1, closed_bit = 2;  // closed: A* knows the way to it
-  static constexpr int parent_shift = 2;                       // the face through which A* came, 3 bits
+  static constexpr std::uint8_t open_bit = 1, wanted_bit = 2, closed_bit = 4;  // closed: the search knows the way to it
+  static constexpr int parent_shift = 3;  // the face through which the search came, 3 bits
+
+  static constexpr std::size_t most_touched = 1 << 20;  // from there on it is cheaper to clear all cells
 
   struct Entry {
     Voxel at;
@@ -39,15 +55,17 @@ class OpenSpace {
   }
   bool leg_is_open(Voxel from, Voxel to) const;
   bool try_legs(Voxel from, Voxel to, std::vector<Voxel>& way) const;
-  void search(Voxel from, Voxel to);
+  bool search(Voxel from, Voxel to, std::size_t limit);
+  bool close(Entry entry);
   void push(Entry entry, std::size_t detour);
+  void forget_search();
   std::vector<Voxel> trace(Voxel from, Voxel to) const;
 
   int n_;
   std::vector<std::uint8_t> cells_;
   std::vector<std::vector<Entry>>
       frontier_;  ///< by half the detour over the straight distance: bucket 0 is popped first, last in first out
-  std::vector<std::size_t> touched_;
+  std::vector<std::size_t> touched_;  ///< closed by the running search; at `most_touched` it is no longer complete
 };
 
 }  // namespace sculpt

@@ -36,14 +36,14 @@ class Carving {
     std::uint64_t removed = 0;
     while (!candidates_.empty()) {
       watch.step(Stage::plan, removed, total);
-      const std::uint32_t id = candidates_.best(writer_.at());
+      const std::uint32_t id = go_to_next();
       candidates_.erase(id);
       const Block& block = octree_.leaves[id];
       carve(block);
       removed += static_cast<std::uint64_t>(block.size) * block.size * block.size;
       for (std::uint32_t neighbour : graph_.of(static_cast<int>(id))) reach(neighbour);
     }
-    travel(translating_entry(octree_.n));
+    travel(space_.find_way(writer_.at(), translating_entry(octree_.n)).value());
     writer_.finish();
     watch.step(Stage::plan, removed, total);
   }
@@ -65,6 +65,7 @@ class Carving {
       seen_[next] = true;
       if (block.label == Label::remove) {
         candidates_.insert(next);
+        space_.want_cube(block.corner, block.size);
         continue;
       }
       space_.open_cube(block.corner, block.size);
@@ -106,8 +107,27 @@ class Carving {
     return entry;
   }
 
-  void travel(Voxel to) {
-    for (Voxel corner : space_.find_way(writer_.at(), to)) writer_.travel(corner);
+  void travel(const std::vector<Voxel>& way) {
+    for (Voxel corner : way) writer_.travel(corner);
+  }
+
+  /// Brings the robot into the first voxel of the block that is carved next. L1 does not see walls: where the best
+  /// block is round a corner, the block with the shortest way is taken instead, so that both sides of a wall are not
+  /// carved by turns.
+  std::uint32_t go_to_next() {
+    constexpr std::size_t search_limit =
+        16;  // voxels; higher costs time and wins nothing (vase at 256: 2.6 s, 12 s with 1000)
+    const std::uint32_t best = candidates_.best(writer_.at());
+    const Entry entry = find_entry(octree_.leaves[best]);
+    if (const auto way = space_.find_way(writer_.at(), entry.door, search_limit)) {
+      travel(*way);
+      step_to(entry.voxel);
+      return best;
+    }
+    const OpenSpace::Wanted nearest = space_.find_wanted(writer_.at());
+    travel(nearest.way);
+    step_to(nearest.voxel);
+    return static_cast<std::uint32_t>(octree_.find(nearest.voxel));
   }
 
   /// One step inside the block; what is cut already is only passed.
@@ -146,13 +166,11 @@ class Carving {
     }
   }
 
+  /// From the voxel where the robot entered.
   void carve(const Block& block) {
-    const Entry entry = find_entry(block);
-    travel(entry.door);
-    step_to(entry.voxel);
     int nearest = 0;
     for (int bits = 1; bits < 8; ++bits)
-      if (l1(corner_of(block, bits), entry.voxel) < l1(corner_of(block, nearest), entry.voxel)) nearest = bits;
+      if (l1(corner_of(block, bits), writer_.at()) < l1(corner_of(block, nearest), writer_.at())) nearest = bits;
     go_inside(corner_of(block, nearest));
     sweep(block, 0, 1, 2);
   }

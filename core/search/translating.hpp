@@ -1,4 +1,5 @@
-// Octree search for the translating robot (paper, section III-B): blocks by greedy best-first over the octree-graph, boustrophedon inside blocks.
+// Octree search for the translating robot (paper, section III-B): blocks by greedy best-first over the octree-graph,
+// boustrophedon inside blocks.
 #pragma once
 
 #include <functional>
@@ -7,16 +8,19 @@
 
 namespace sculpt {
 
-/// One straight run along one axis. A cut removes every voxel first..last; the robot stands at a face neighbour of `first`
-/// on the run's own line or turns into it from one. A travel goes from where the robot stands to `last` through air.
+/// One straight run along one axis. A cut removes every voxel first..last; the robot stands at a face neighbour of
+/// `first` on the run's own line or turns into it from one. A travel goes from `first`, where the robot stands, to
+/// `last` through air.
 struct VoxelRun {
   bool cut = false;
   Voxel first, last;
 };
 
-/// Above the corner of the grid: where every path of `carve_translating` starts and ends. Positions may leave the grid by one
-/// voxel at the sides and above, never below the floor.
-inline Voxel translating_entry(int n) { return {0, 0, n}; }
+/// Above the corner of the grid: where every path of `carve_translating` starts and ends. Positions may leave the grid
+/// by one voxel at the sides and above, never below the floor.
+inline Voxel translating_entry(int n) {
+  return {0, 0, n};
+}
 
 /// Removes every remove voxel that is not enclosed; `emit` gets the runs in order. Deterministic. Throws Cancelled.
 /// Every voxel passed by a travel is air or already removed; consecutive runs join up.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 
@@ -55,11 +56,49 @@ TEST(OpenSpace, WaysAreOpenAndShortest) {
       if (!space.is_open(from)) continue;
       const auto steps = steps_from(space, from);
       if (!steps.contains(to)) continue;
-      const std::vector<Voxel> way = space.find_way(from, to);
+      const std::vector<Voxel> way = space.find_way(from, to).value();
       ASSERT_EQ(walk(space, from, way), steps.at(to));
       ASSERT_EQ(way.empty() ? from : way.back(), to);
     }
   }
+}
+
+TEST(OpenSpace, TheWantedVoxelFoundIsTheOneWithTheShortestWay) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    OpenSpace space(8);
+    const double share = random.unit();
+    std::vector<Voxel> wanted;
+    for (int k = 0; k < 8; ++k)
+      for (int j = 0; j < 8; ++j)
+        for (int i = 0; i < 8; ++i) {
+          if (random.unit() < 0.02) {
+            space.want_cube({i, j, k}, 1);
+            wanted.push_back({i, j, k});
+          }
+          if (random.unit() < share) space.open({i, j, k});
+        }
+    const Voxel from{-1, 3, static_cast<int>(random.between(0, 9))};
+    int least = 1 << 30;
+    for (const auto& [at, steps] : steps_from(space, from))
+      for (Voxel v : wanted)
+        if (l1(at, v) == 1 && !space.is_open(v)) least = std::min(least, steps);
+    if (least == 1 << 30) continue;
+    const OpenSpace::Wanted found = space.find_wanted(from);
+    EXPECT_EQ(walk(space, from, found.way), least);
+    EXPECT_EQ(l1(found.way.empty() ? from : found.way.back(), found.voxel), 1);
+    EXPECT_EQ(std::count(wanted.begin(), wanted.end(), found.voxel), 1);
+  }
+}
+
+TEST(OpenSpace, ASearchThatRunsIntoItsLimitFindsNothingAndForgetsItself) {
+  OpenSpace space(16);
+  space.open({8, 8, 15});
+  space.open({8, 8, 14});
+  space.open({9, 8, 14});
+  EXPECT_FALSE(space.find_way({-1, -1, 0}, {9, 8, 14}, 10).has_value());
+  EXPECT_EQ(walk(space, {-1, -1, 0}, space.find_way({-1, -1, 0}, {9, 8, 14}).value()), l1({-1, -1, 0}, {8, 8, 16}) + 3);
 }
 
 TEST(OpenSpace, StartsAsAShellWithoutAFloor) {
