@@ -6,10 +6,8 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t room_for_envelope = 1024;
-
-// At most this many bytes of jobs in one reply, so that a list is a shorter list and not an error.
-constexpr std::size_t list_bytes = max_line_bytes - room_for_envelope;
+// Of a reply line, for everything around the jobs of a list.
+constexpr std::size_t room_for_envelope = 200;
 
 Answer replay(Services& services, const JobRecord& job, const std::stop_token& stop) {
   const Job planned = to_job(read_stored_spec(job), job.cell_bundle, services.blobs, services.defaults);
@@ -34,14 +32,15 @@ void on_get(Services& services, Call call) {
 
 void on_list(Services& services, Call call) {
   const ListParams list = read_list(call.params);
-  // One more than asked for says whether there are more.
+  // One more than asked for says whether there are more. A list that would be too long for the client is cut.
   const std::vector<JobRecord> jobs = services.store.list(list.after, list.limit + 1);
   Json views = Json::array();
   std::size_t bytes = 0;
   for (const JobRecord& job : jobs) {
     Json view = job_view(services, job);
     bytes += write_json(view).size() + 1;
-    if (bytes > list_bytes || views.size() == static_cast<std::size_t>(list.limit)) break;
+    const bool full = bytes + room_for_envelope > call.session->max_line() && !views.empty();
+    if (full || views.size() == static_cast<std::size_t>(list.limit)) break;
     views.push_back(std::move(view));
   }
   const bool more = views.size() < jobs.size();

@@ -18,6 +18,19 @@ constexpr std::size_t high_water_bytes = 1 << 20;  // above it no more of its re
 constexpr int max_pending = 64;
 constexpr std::chrono::seconds linger_time{5};
 
+// The error as a line of at most max_line bytes: its sentence is cut, then its pointer is left out.
+std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
+  std::string line = error_line(id, error);
+  while (line.size() > max_line) {
+    const std::string sentence = error["message"];
+    if (sentence.empty()) break;
+    error["message"] = sentence.substr(0, sentence.size() - std::min(sentence.size(), line.size() - max_line));
+    line = error_line(id, error);
+  }
+  if (line.size() > max_line) error["data"].erase("pointer");
+  return error_line(id, error);
+}
+
 }  // namespace
 
 Session::Session(net::ip::tcp::socket socket, std::uint64_t number, Services& services)
@@ -150,7 +163,7 @@ void Session::answer(const Json& id, const Answer& answer) {
 }
 
 void Session::refuse(const Json& id, const Json& error) {
-  send(error_line(id, error) + "\n");
+  send(fitted_error(id, error, max_line_) + "\n");
   answered();
 }
 

@@ -52,6 +52,7 @@ class Session : public std::enable_shared_from_this<Session> {
   std::uint64_t number() const { return number_; }
   bool greeted() const { return greeted_; }
   void greet(const HelloParams& hello);
+  std::size_t max_line() const { return max_line_; }
   /// Jobs whose events this connection gets; kept by Streams.
   std::set<std::string>& subscriptions() { return subscriptions_; }
 

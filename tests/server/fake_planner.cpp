@@ -1,0 +1,74 @@
+#include "tests/server/fake_planner.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <ostream>
+
+namespace sculpt {
+
+void Gate::open() {
+  {
+    const std::lock_guard lock(mutex_);
+    open_ = true;
+  }
+  opened_.notify_all();
+}
+
+void Gate::pass(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  if (!opened_.wait(lock, std::move(stop), [this] { return open_; })) throw Cancelled{};
+}
+
+PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
+  ++runs;
+  const std::string& wish = job.mesh.bytes;
+  watch.step(Stage::load, 0, 1);
+  std::ofstream out(trajectory, std::ios::binary | std::ios::trunc);
+  out << fake_header << std::flush;
+  watch.step(Stage::plan, 1, 2);
+  if (wish == "hold") gate.pass(watch.stop);
+  if (wish == "fails") throw InputError("no_transit", "there is no way");
+  if (wish == "throws") throw std::runtime_error("a fault");
+  if (wish == "no memory") throw std::bad_alloc();
+  if (wish == "big") {
+    for (int i = 0; i < 8; ++i) out << std::string((1 << 20) - 1, static_cast<char>('a' + i)) << "\n";
+  }
+  out << fake_end << std::flush;
+  watch.step(Stage::verify, 2, 2);
+  PlanFiles files;
+  files.report_json = "{\"mesh\":\"" + job.mesh.name + "\",\"robot\":\"" + job.cell.name +
+                      "\",\"threads\":" + std::to_string(job.threads) + "}";
+  files.residue_ndjson = "{\"voxel\":[0,0,0],\"reason\":\"enclosed\"}\n";
+  files.voxels_binvox = "#binvox 1\n";
+  files.clean = wish != "unclean";
+  files.collisions = files.clean ? 0 : 3;
+  if (!files.clean) files.first_finding = "tool touches keep";
+  return files;
+}
+
+Planner FakePlanner::planner() {
+  Planner planner;
+  planner.cells = [] { return std::vector<std::string>{"gantry"}; };
+  planner.read_cell = [](const std::string& name) {
+    if (name != "gantry") throw InputError("cell_unknown", "there is no cell '" + name + "': there is gantry");
+    return CellFiles{name, "{}", {{"room.urdf", "<robot/>"}}};
+  };
+  planner.check = [](const Job& job, const Watch&) {
+    if (job.mesh.bytes == "bad input") throw InputError("mesh_unreadable", "the file is no mesh");
+  };
+  planner.run = [this](const Job& job, const std::filesystem::path& path, const Watch& watch) {
+    return run(job, path, watch);
+  };
+  planner.verify = [](const Job& job, const std::filesystem::path&, const Watch&) {
+    Replay replay{job.mesh.bytes != "unclean", 0, 7, {}};
+    if (!replay.clean) replay.collisions = 3;
+    if (!replay.clean) replay.findings.push_back({2, "tool touches keep"});
+    return replay;
+  };
+  planner.to_csv = [](std::istream& in, std::ostream& out) { out << "csv\n" << in.rdbuf(); };
+  planner.to_binary = [](std::istream& in, std::ostream& out) { out << "sct\n" << in.rdbuf(); };
+  return planner;
+}
+
+}  // namespace sculpt

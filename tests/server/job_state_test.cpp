@@ -1,0 +1,58 @@
+#include "server/job_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/random.hpp"
+#include "server/job_id.hpp"
+#include "server/time_stamp.hpp"
+
+namespace sculpt {
+namespace {
+
+TEST(JobState, EveryStateHasAName) {
+  for (const JobState state : job_states) EXPECT_EQ(find_state(name(state)), state);
+  EXPECT_FALSE(find_state("paused"));
+}
+
+TEST(JobState, AFinalStateIsNeverLeft) {
+  for (const JobState from : job_states) {
+    const bool final = from == JobState::succeeded || from == JobState::failed || from == JobState::cancelled;
+    EXPECT_EQ(is_final(from), final) << name(from);
+    for (const JobState to : job_states) {
+      EXPECT_FALSE(final && may_move(from, to)) << name(from) << " " << name(to);
+    }
+  }
+}
+
+TEST(JobState, OnlyARunningJobSucceedsOrFails) {
+  for (const JobState from : job_states) {
+    EXPECT_EQ(may_move(from, JobState::succeeded), from == JobState::running);
+    EXPECT_EQ(may_move(from, JobState::failed), from == JobState::running);
+  }
+}
+
+TEST(JobId, IdsRiseWhateverTheClockDoes) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    IdMaker ids;
+    std::string last;
+    for (int i = 0; i < 500; ++i) {
+      const std::string id = ids.next(1'700'000'000'000 + random.next() % 5);
+      ASSERT_EQ(id.size(), 26u);
+      ASSERT_GT(id, last);
+      last = id;
+    }
+    EXPECT_GT(IdMaker(last).next(1), last);
+  }
+}
+
+TEST(TimeStamp, IsUtcWithMilliseconds) {
+  EXPECT_EQ(utc_text(0), "1970-01-01T00:00:00.000Z");
+  EXPECT_EQ(utc_text(1769860800007), "2026-01-31T12:00:00.007Z");
+}
+
+}  // namespace
+}  // namespace sculpt

@@ -1,0 +1,74 @@
+#include "tests/server/live_server.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace sculpt {
+
+LiveServer::LiveServer(const std::function<void(Config&)>& change) {
+  spdlog::set_level(spdlog::level::off);
+  config_.port = 0;
+  config_.workers = 2;
+  config_.data = folder_.path();
+  if (change) change(config_);
+  start();
+}
+
+void LiveServer::start() {
+  server_.emplace(config_, fake.planner());
+  thread_ = std::jthread([this] { server_->run(); });
+}
+
+void LiveServer::stop() {
+  if (!server_) return;
+  server_->stop();
+  thread_.join();
+  server_.reset();
+}
+
+void LiveServer::restart() {
+  stop();
+  start();
+}
+
+Json make_spec(Client& client, const std::string& wish) {
+  return {{"mesh", {{"blob", client.upload(wish)}, {"name", "wish.stl"}}}, {"robot", "gantry"}, {"resolution", 8}};
+}
+
+std::string submit(Client& client, const std::string& wish) {
+  return client.call("job.submit", {{"spec", make_spec(client, wish)}}).at("job");
+}
+
+std::string final_state(Client& client, const std::string& job) {
+  return client.call("job.wait", {{"job", job}, {"timeout_s", 86400}}).at("state");
+}
+
+void await_state(Client& client, const std::string& job, const std::string& state) {
+  client.subscribe(job);
+  while (true) {
+    const Json event = *client.next_event();
+    if (event.at("job") == job && event.at("type") == "state" && event.at("data").at("to") == state) break;
+  }
+  client.unsubscribe(job);
+}
+
+std::string refusal(Client& client, const std::string& method, const Json& params) {
+  try {
+    client.call(method, params);
+    return "accepted";
+  } catch (const ServerError& error) {
+    return error.code();
+  }
+}
+
+void say_hello(Connection& connection) {
+  connection.send("{\"id\":0,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"test\"}}\n");
+  connection.read_line();
+}
+
+std::string read_error(Connection& connection) {
+  const std::string line = *connection.read_line();
+  const Json reply = parse_json(line);
+  return reply.contains("error") ? reply["error"]["data"]["code"].get<std::string>() : line;
+}
+
+}  // namespace sculpt

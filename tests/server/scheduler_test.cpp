@@ -1,0 +1,130 @@
+#include "server/scheduler.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include <new>
+
+#include "tests/server/fake_planner.hpp"
+#include "tests/server/temp_folder.hpp"
+
+namespace sculpt {
+namespace {
+
+class SchedulerTest : public testing::Test {
+ protected:
+  SchedulerTest() { spdlog::set_level(spdlog::level::off); }
+
+  std::string add(const std::string& spec) {
+    std::string id = store->submit({{}, 0, spec, {}}).job.id;
+    scheduler.wake();
+    return id;
+  }
+  /// Waits for the scheduler's word.
+  JobState await(const std::string& job, JobState wanted) {
+    std::unique_lock lock(mutex);
+    while (true) {
+      const JobState state = store->find(job)->state;
+      if (state == wanted || is_final(state)) return state;
+      changed.wait(lock);
+    }
+  }
+  void on_change() {
+    const std::lock_guard lock(mutex);
+    changed.notify_all();
+  }
+
+  // The spec is the wish.
+  Ending run(const JobRecord& job, const Watch& watch) {
+    watch.step(Stage::plan, 3, 4);
+    if (job.spec == "input") throw InputError("mesh_empty", "no triangle");
+    if (job.spec == "memory") throw std::bad_alloc();
+    if (job.spec == "exception") throw std::runtime_error("a fault");
+    if (job.spec == "number") throw 7;
+    if (job.spec == "hold") gate.pass(watch.stop);
+    return {JobState::succeeded, {}, {}, {}};
+  }
+
+  TempFolder folder;
+  std::unique_ptr<JobStore> store = open_sqlite_store(folder.path() / "db");
+  std::mutex mutex;
+  std::condition_variable changed;
+  Gate gate;
+  Scheduler scheduler{*store, [this](const JobRecord& job, const Watch& watch) { return run(job, watch); },
+                      [this](const std::string&) { on_change(); }};
+};
+
+TEST_F(SchedulerTest, JobsRunToTheirEnd) {
+  scheduler.start(2);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, JobsThatWaitedBeforeTheStartRunToo) {
+  const std::string job = add("fine");
+  scheduler.start(1);
+  EXPECT_EQ(await(job, JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, WhateverARunThrowsTheWorkerLivesOn) {
+  scheduler.start(1);
+  const std::vector<std::pair<std::string, std::string>> wishes{{"input", "mesh_empty"},
+                                                                {"memory", "out_of_memory"},
+                                                                {"exception", "internal_error"},
+                                                                {"number", "internal_error"}};
+  for (const auto& [wish, code] : wishes) {
+    const std::string job = add(wish);
+    EXPECT_EQ(await(job, JobState::failed), JobState::failed) << wish;
+    EXPECT_EQ(store->find(job)->error_code, code);
+    EXPECT_FALSE(store->find(job)->error_sentence.empty());
+  }
+  EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, ARunningJobIsCancelledAndItsWorkerTakesTheNext) {
+  scheduler.start(1);
+  const std::string job = add("hold");
+  ASSERT_EQ(await(job, JobState::running), JobState::running);
+  ASSERT_EQ(store->cancel(job), JobState::cancelling);
+  scheduler.cancel(job);
+  EXPECT_EQ(await(job, JobState::cancelled), JobState::cancelled);
+  EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, CancellingRightAfterTheClaimIsNeverLost) {
+  scheduler.start(2);
+  for (int i = 0; i < 50; ++i) {
+    const std::string job = add("hold");
+    if (i % 2 == 0) await(job, JobState::running);
+    store->cancel(job);
+    scheduler.cancel(job);
+    ASSERT_EQ(await(job, JobState::cancelled), JobState::cancelled);
+  }
+}
+
+TEST_F(SchedulerTest, StoppingPutsRunningJobsBackIntoTheQueue) {
+  scheduler.start(2);
+  const std::string first = add("hold"), second = add("hold"), third = add("hold");
+  await(first, JobState::running);
+  await(second, JobState::running);
+  scheduler.stop();
+  for (const std::string& job : {first, second, third}) EXPECT_EQ(store->find(job)->state, JobState::queued);
+  EXPECT_EQ(store->find(first)->attempt, 1);
+  EXPECT_EQ(store->find(third)->attempt, 0);
+}
+
+TEST_F(SchedulerTest, ProgressIsSeenWhileTheJobRuns) {
+  scheduler.start(1);
+  const std::string job = add("hold");
+  await(job, JobState::running);
+  std::optional<Progress> progress;
+  while (!progress) progress = scheduler.progress(job);
+  EXPECT_EQ(progress->done, 3u);
+  EXPECT_EQ(progress->total, 4u);
+  gate.open();
+  await(job, JobState::succeeded);
+  scheduler.stop();
+  EXPECT_FALSE(scheduler.progress(job));
+}
+
+}  // namespace
+}  // namespace sculpt
