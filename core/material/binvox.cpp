@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
 namespace {
@@ -58,6 +59,44 @@ int take_header(std::string_view& bytes) {
   return n;
 }
 
+/// One slice of fixed i, bit j + n k, for each i of a chunk of rows.
+using Slices = std::vector<std::vector<std::uint64_t>>;
+
+Slices slices_of(const VoxelSet& voxels, const VoxelRows& rows, int chunk) {
+  const auto n = static_cast<std::size_t>(rows.n);
+  Slices slices(static_cast<std::size_t>(rows.width), std::vector<std::uint64_t>(n * n / 64));
+  for (int k = 0; k < rows.n; ++k) {
+    for (int j = 0; j < rows.n; ++j) {
+      const std::size_t at = j + n * k;
+      for (std::uint64_t bits = rows.get(voxels, j, k, chunk); bits != 0; bits &= bits - 1)
+        slices[static_cast<std::size_t>(std::countr_zero(bits))][at >> 6] |= std::uint64_t{1} << (at & 63);
+    }
+  }
+  return slices;
+}
+
+/// Pairs of a value and how often it comes, up to 255 times.
+class Runs {
+ public:
+  explicit Runs(std::string& out) : out_(out) {}
+  void add(bool value) {
+    if (value != value_ || length_ == 255) finish();
+    value_ = value;
+    ++length_;
+  }
+  void finish() {
+    if (length_ == 0) return;
+    out_ += static_cast<char>(value_);
+    out_ += static_cast<char>(length_);
+    length_ = 0;
+  }
+
+ private:
+  std::string& out_;
+  bool value_ = false;
+  int length_ = 0;
+};
+
 Voxel voxel_at(std::size_t index, int n) {
   const int row = static_cast<int>(index / n);
   return {row / n, static_cast<int>(index % n), row % n};
@@ -72,25 +111,17 @@ std::string write_binvox(const VoxelSet& voxels, const Grid& grid) {
   header << "#binvox 1\ndim " << n << ' ' << n << ' ' << n << "\ntranslate " << grid.origin_m.x() << ' '
          << grid.origin_m.y() << ' ' << grid.origin_m.z() << "\nscale " << n * grid.voxel_m << "\ndata\n";
   std::string out = header.str();
-  bool value = false;
-  int run = 0;
-  const auto flush = [&] {
-    if (run == 0) return;
-    out += static_cast<char>(value);
-    out += static_cast<char>(run);
-    run = 0;
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < n; ++k) {
-      for (int j = 0; j < n; ++j) {
-        const bool here = voxels.contains({i, j, k});
-        if (here != value || run == 255) flush();
-        value = here;
-        ++run;
-      }
-    }
+  Runs runs(out);
+  const VoxelRows rows(n);
+  for (int chunk = 0; chunk < rows.chunks; ++chunk) {
+    // The format runs across the words of a set: reading bit by bit would miss the cache at every voxel of a large
+    // grid.
+    const Slices slices = slices_of(voxels, rows, chunk);
+    for (int i = 0; i < rows.width; ++i)
+      for (std::size_t at = 0; at < static_cast<std::size_t>(n) * n; ++at)
+        runs.add((slices[i][at >> 6] >> (at & 63)) & 1);
   }
-  flush();
+  runs.finish();
   return out;
 }
 
