@@ -18,7 +18,7 @@ namespace sculpt {
 namespace {
 
 /// Peak bytes of memory a byte of file comes to while it is loaded: measured on a closed surface of 400 000 triangles
-/// in the densest common form of each kind (4.8 for binary STL), plus a fifth and more.
+/// in the densest common form of each kind (4.4 for binary STL), plus a fifth and more.
 struct Kind {
   const char* extension;
   double memory_per_byte;
