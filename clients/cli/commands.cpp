@@ -1,10 +1,28 @@
 #include "clients/cli/commands.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace sculpt {
+
+namespace {
+
+const CLI::Validator host_and_port{
+    [](std::string& text) {
+      const std::size_t colon = text.rfind(':');
+      const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
+      const bool digits = std::all_of(port.begin(), port.end(), [](unsigned char c) { return std::isdigit(c); });
+      const bool usable = colon > 0 && !port.empty() && port.size() <= 5 && digits && std::stoi(port) <= 65535;
+      return usable ? std::string() : "'" + text + "' is no address: write HOST:PORT, for example 127.0.0.1:7878";
+    },
+    ""};
+
+}  // namespace
 
 void add_common_options(CLI::App& command, Invocation& invocation) {
   command.add_option("--server", invocation.server, "Where sculptd listens (env SCULPT_SERVER)")
       ->type_name("HOST:PORT")
+      ->check(host_and_port)
       ->capture_default_str();
   command.set_version_flag("--version", client_name);
 }

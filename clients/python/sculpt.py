@@ -42,14 +42,14 @@ class Client:
     """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED)."""
 
     def __init__(self, server="127.0.0.1:7878", name=VERSION):
-        host, colon, port = server.rpartition(":")
-        if not colon or not port.isdigit():
-            raise Failure(USAGE, "usage", f"--server {server} is no address: write HOST:PORT")
+        host, _, port = server.rpartition(":")
+        if not host or not port.isdecimal() or int(port) > 65535:
+            raise Failure(USAGE, "usage", f"--server: '{server}' is no address: write HOST:PORT, for example 127.0.0.1:7878")
         self.server, self.next_id, self.events = server, 1, collections.deque()
         try:
             self.socket = socket.create_connection((host.strip("[]"), int(port)), timeout=10)
             self.socket.settimeout(None)
-        except (OSError, OverflowError) as error:
+        except OSError as error:
             raise Failure(UNREACHABLE, "unreachable",
                           f"no server answers at {server} ({error}): start sculptd, or say --server HOST:PORT") from error
         self.stream = self.socket.makefile("rwb")

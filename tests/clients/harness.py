@@ -6,8 +6,6 @@ Environment: SCULPTD and SCULPT (the programs), SCULPT_SOURCE (the source tree).
 import os
 import pathlib
 import re
-import select
-import signal
 import subprocess
 import sys
 import tempfile
@@ -23,45 +21,47 @@ PATIENCE_S = 300  # a hang becomes a failure; nothing is measured by it
 
 
 class Daemon:
-    """sculptd on a free port. Its data folder may be handed on to the next one."""
+    """sculptd on a free port; its log is DATA.log. The data folder may be handed on to the next one."""
 
     def __init__(self, data, *options):
-        self.data = str(data)
-        self.process = subprocess.Popen(
-            [os.environ["SCULPTD"], "--listen", "127.0.0.1:0", "--data", self.data, *options],
-            cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.log = b""
+        self.log_path = pathlib.Path(f"{data}.log")
+        with self.log_path.open("wb") as log:
+            self.process = subprocess.Popen(
+                [os.environ["SCULPTD"], "--listen", "127.0.0.1:0", "--data", str(data), *options],
+                cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
         self.address = self._read_address()
+
+    def log(self):
+        """What it has printed so far."""
+        return self.log_path.read_text(errors="replace")
 
     def _read_address(self):
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
-            found = re.search(rb"listening on (\S+:\d+)", self.log)
+            ended = self._ended_within(0.02)
+            found = re.search(r"listening on (\S+:\d+)\n", self.log())
             if found:
-                return found.group(1).decode()
-            ready, _, _ = select.select([self.process.stdout], [], [], 1)
-            chunk = os.read(self.process.stdout.fileno(), 65536) if ready else None
-            if chunk == b"":
+                return found.group(1)
+            if ended:
                 break
-            self.log += chunk or b""
-        self.kill()
-        raise AssertionError("sculptd did not say where it listens:\n" + self.log.decode("utf-8", "replace"))
+        raise AssertionError("sculptd did not say where it listens:\n" + self.log())
+
+    def _ended_within(self, seconds):
+        try:
+            self.process.wait(seconds)
+            return True
+        except subprocess.TimeoutExpired:
+            return False
 
     def kill(self):
         """As a power cut would: no chance to tidy up."""
         self.process.kill()
-        self._reap()
+        self.process.wait(PATIENCE_S)
 
     def stop(self):
         """As an operator would. Gives the exit code."""
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGTERM)
-        return self._reap()
-
-    def _reap(self):
-        output, _ = self.process.communicate(timeout=PATIENCE_S)
-        self.log += output or b""
-        return self.process.returncode
+        self.process.terminate()  # nothing happens if it has ended already
+        return self.process.wait(PATIENCE_S)
 
     def __enter__(self):
         return self
@@ -123,9 +123,9 @@ class DaemonTest(ClientTest):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
         cls.addClassCleanup(folder.cleanup)
-        daemon = Daemon(folder.name)
+        daemon = Daemon(pathlib.Path(folder.name) / "data")
         cls.addClassCleanup(daemon.stop)
         cls.daemon, cls.server = daemon, daemon.address
 
     def tearDown(self):
-        self.assertIsNone(self.daemon.process.poll(), "the daemon died: " + self.daemon.log.decode("utf-8", "replace"))
+        self.assertIsNone(self.daemon.process.poll(), "the daemon ended:\n" + self.daemon.log())

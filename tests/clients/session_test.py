@@ -155,6 +155,12 @@ class Verbs:
         low, high = 4 * 4 * 2, 2 * 2 * 2  # 0.1 m wide in a grid of 0.2 m, so half of its 8 voxels: 4 x 4 x 2 below, 2 x 2 x 2 above
         self.assertEqual(voxels, {**voxels, "air": 256, "keep": low + high, "remove": 256 - low - high})
 
+    def test_an_address_that_is_none_is_usage(self):
+        for address in ("nohost", "host:", ":80", "127.0.0.1:99999", "127.0.0.1:http"):
+            self.refused(2, "usage", "list", "--server", address)
+        self.refused(3, "unreachable", "list", "--server", "127.0.0.1:1")
+        self.refused(3, "unreachable", "--server", "127.0.0.1:1", "list")
+
     def test_an_unknown_job_is_refused_by_every_verb(self):
         for verb in ("status", "watch", "wait", "cancel", "report", "verify"):
             self.refused(4, "not_found", verb, "nosuchjob")
@@ -167,10 +173,6 @@ class CommandLineSession(Verbs, DaemonTest):
 
 class PythonSession(Verbs, DaemonTest):
     client = SCULPT_PY
-
-    def test_no_server_is_unreachable(self):
-        self.refused(3, "unreachable", "list", "--server", "127.0.0.1:1")
-        self.refused(3, "unreachable", "--server", "127.0.0.1:1", "list")
 
     def test_the_module_is_a_client(self):
         mesh = shapes.write_stl(self.scratch / "steps.stl", shapes.steps())
@@ -224,6 +226,23 @@ class TwoClients(ClientTest):
             self.assertEqual(watcher.returncode, 1, output + errors)
             self.assertIn("cancelled", output.splitlines()[-1])
             self.fine("wait", behind)
+
+    def test_a_daemon_that_dies_is_unreachable_to_those_who_wait_on_it(self):
+        daemon = Daemon(self.scratch / "data", "--workers", "1")
+        self.server = daemon.address
+        mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
+        job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable").strip()
+        verbs = (["watch", job], ["wait", job], ["fetch", job, "-o", "t.ndjson"])
+        waiting = [subprocess.Popen([*client, *verb], env=environment(self.server), cwd=self.scratch, stdout=subprocess.DEVNULL,
+                                    stderr=subprocess.PIPE, text=True) for client in (SCULPT, SCULPT_PY) for verb in verbs]
+        with sculpt.Client(self.server) as client:
+            client.call("job.wait", job=job, timeout_s=2)  # long enough for all of them to be connected
+        daemon.kill()
+        for process in waiting:
+            _, errors = process.communicate()
+            self.assertEqual(process.returncode, 3, f"{process.args}\n{errors}")
+            self.assertRegex(errors, r"^sculpt: unreachable: ")
+        self.assertEqual(list(self.scratch.glob("t.ndjson*")), [])
 
     def test_interrupting_a_watch_leaves_the_job_running(self):
         with Daemon(self.scratch / "data", "--workers", "1") as daemon:

@@ -95,7 +95,7 @@ def play(lines, first_number, address, names):
 class Examples(unittest.TestCase):
     def test_every_session_goes_as_written(self):
         text, names, played = PROTOCOL.read_text(), {}, 0
-        with tempfile.TemporaryDirectory(prefix="sculpt-test-") as data, Daemon(data) as daemon:
+        with tempfile.TemporaryDirectory(prefix="sculpt-test-") as folder, Daemon(f"{folder}/data") as daemon:
             for number, lines in sessions(text):
                 with self.subTest(line=number):
                     play(lines, number, daemon.address, names)
