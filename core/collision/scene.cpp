@@ -95,6 +95,7 @@ struct Scene::Impl {
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const {
     std::vector<Frame> at;
+    ++checks;
     chain.link_poses(from + middle * step, at);
     const Eigen::VectorXd joint_steps = half * step.cwiseAbs();
     std::vector<const Pair*> left;
@@ -133,6 +134,7 @@ struct Scene::Impl {
   Eigen::VectorXd tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
   ToolRadii radii;             // voxel edges
   bool has_mimic = false;
+  mutable std::uint64_t checks = 0;
 };
 
 Scene::Scene(const Cell& cell, const Grid& grid, const VoxelSet& standing)
@@ -161,6 +163,10 @@ bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   return !impl_->material.meets_capsule({line.ball, line.top}, radius, exempt);
 }
 
+std::uint64_t Scene::checks() const {
+  return impl_->checks;
+}
+
 std::string Scene::describe_contact(const Configuration& q) const {
   if (!impl_->chain.within_limits(q)) return "a joint is outside its limits";
   if (impl_->tool_meets_material(impl_->chain.tool_pose(q), {})) return "the tool touches the stock";
@@ -178,6 +184,7 @@ std::string Scene::describe_contact(const Configuration& q) const {
 
 Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(q)) return Contact::limits;
+  ++impl_->checks;
   if (impl_->tool_meets_material(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
@@ -189,7 +196,10 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
 Contact Scene::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(from) || !impl_->chain.within_limits(to)) return Contact::limits;
   const Configuration step = to - from;
-  const auto line_at = [&](double t) { return impl_->tool_line(impl_->chain.tool_pose(from + t * step)); };
+  const auto line_at = [&](double t) {
+    ++impl_->checks;
+    return impl_->tool_line(impl_->chain.tool_pose(from + t * step));
+  };
   if (!tool_sweep_is_free(impl_->material, line_at, impl_->tool_bend(step), impl_->radii, tool_margin_voxels, exempt))
     return Contact::tool_material;
   std::vector<const Pair*> open;

@@ -35,6 +35,9 @@ class Scene {
   /// Contacts at q. The tool (not the links) may touch `exempt`.
   Contact contact_at(const Configuration& q, std::optional<Voxel> exempt = {}) const;
 
+  /// Configurations that were tested so far, for links or for the tool: what collision checking costs.
+  std::uint64_t checks() const;
+
   /// The first contact at q as a person would say it, e.g. "'link5' touches 'link7'"; empty if there is none.
   std::string describe_contact(const Configuration& q) const;
 

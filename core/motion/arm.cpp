@@ -151,7 +151,7 @@ bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
     if (!entry) continue;
     const Configuration& hub = entry->from_outside.front();
     const Path& out = way_out();
-    const Path across = plan_transit(scene_, out.back(), hub, mix(seed_, queries_++), stop_, {rrt_iterations[effort]});
+    const Path across = cross(out.back(), hub, rrt_iterations[effort]);
     if (across.empty()) {
       if (++failures > 1 + 2 * effort) return false;
       continue;
@@ -167,6 +167,13 @@ bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
     return true;
   }
   return false;
+}
+
+Arm::Path Arm::cross(const Configuration& from, const Configuration& to, int iterations) {
+  Transit transit = plan_transit(scene_, from, to, mix(seed_, queries_++), stop_, {iterations});
+  if (transit.searched) ++ompl_calls_;
+  if (transit.searched && !transit.path.empty()) ++ompl_solved_;
+  return std::move(transit.path);
 }
 
 void Arm::move(const Path& moves) {
@@ -195,7 +202,7 @@ void Arm::go_home() {
   Path path = way_out();
   Path across;
   for (int iterations : rrt_iterations)
-    if (across.empty()) across = plan_transit(scene_, path.back(), home_, mix(seed_, queries_++), stop_, {iterations});
+    if (across.empty()) across = cross(path.back(), home_, iterations);
   if (stop_.stop_requested()) throw Cancelled{};
   if (across.empty()) {
     path = reversed(trail_);

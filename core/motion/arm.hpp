@@ -41,6 +41,10 @@ class Arm {
   /// Leaves the stock and goes home.
   void go_home();
 
+  /// How often OMPL was asked for a transit, and how often it found one.
+  std::uint64_t ompl_calls() const { return ompl_calls_; }
+  std::uint64_t ompl_solved() const { return ompl_solved_; }
+
  private:
   using Path = std::vector<Configuration>;
   struct Entry {
@@ -58,12 +62,14 @@ class Arm {
   const Path& way_out();
   std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort);
   std::optional<Entry> find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const;
+  /// Free motion between two configurations outside the stock; empty if none was found.
+  Path cross(const Configuration& from, const Configuration& to, int iterations);
   void commit(const Path& moves, const Configuration& cut, Voxel voxel);
   void move(const Path& moves);
 
   Scene& scene_;
   Configuration home_;
-  std::uint64_t seed_, queries_ = 0;
+  std::uint64_t seed_, queries_ = 0, ompl_calls_ = 0, ompl_solved_ = 0;
   std::stop_token stop_;
   Emit emit_;
   std::vector<Vec3> axes_;

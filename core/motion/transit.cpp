@@ -140,11 +140,10 @@ std::vector<Configuration> shorten(const Scene& scene, const std::vector<Configu
   return kept;
 }
 
-std::vector<Configuration> plan_transit(const Scene& scene, const Configuration& from, const Configuration& to,
-                                        std::uint64_t seed, const std::stop_token& stop,
-                                        const TransitSettings& settings) {
-  if (scene.certify(from, to) == Contact::none) return {from, to};
-  return shorten(scene, plan_rrt(scene, from, to, seed, stop, settings));
+Transit plan_transit(const Scene& scene, const Configuration& from, const Configuration& to, std::uint64_t seed,
+                     const std::stop_token& stop, const TransitSettings& settings) {
+  if (scene.certify(from, to) == Contact::none) return {{from, to}, false};
+  return {shorten(scene, plan_rrt(scene, from, to, seed, stop, settings)), true};
 }
 
 }  // namespace sculpt

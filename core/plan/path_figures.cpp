@@ -3,11 +3,23 @@
 #include <cmath>
 
 namespace sculpt {
+namespace {
+
+/// Cosine above which two steps count as one direction (1 degree).
+constexpr double straight = 0.99985;
+
+}  // namespace
 
 void PathFigures::add(const Keyframe& keyframe) {
   ++keyframes;
   const Vec3 ball = chain_.tool_pose(keyframe.q).ball_m;
-  (keyframe.cut ? cut_m : travel_m) += (ball - ball_).norm();
+  const double length = (ball - ball_).norm();
+  (keyframe.cut ? cut_m : travel_m) += length;
+  if (length > 0) {
+    const Vec3 heading = (ball - ball_) / length;
+    if (heading.dot(heading_) < straight) ++turns;
+    heading_ = heading;
+  }
   for (int c = 0; c < chain_.dof(); ++c)
     if (chain_.robot().joints[static_cast<std::size_t>(chain_.joints()[static_cast<std::size_t>(c)])].kind ==
         JointKind::revolute)

@@ -8,6 +8,7 @@ namespace sculpt {
 
 /// Counts as keyframes pass by. A row is a straight run of cuts one voxel after the other, a transit an unbroken series
 /// of moves; lengths are chords of the ball's path between keyframes (m), joint travel sums over revolute joints (rad).
+/// A turn is a change of the ball's direction by more than a degree.
 class PathFigures {
  public:
   PathFigures(const Chain& chain, const Configuration& home)
@@ -15,7 +16,7 @@ class PathFigures {
 
   void add(const Keyframe& keyframe);
 
-  std::uint64_t keyframes = 0, rows = 0, transits = 0, removed = 0;
+  std::uint64_t keyframes = 0, rows = 0, transits = 0, removed = 0, turns = 0;
   double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
 
  private:
@@ -24,6 +25,7 @@ class PathFigures {
   Vec3 ball_;
   bool cutting_ = false, moving_ = false;
   Voxel last_, along_;
+  Vec3 heading_ = Vec3::Zero();
 };
 
 }  // namespace sculpt

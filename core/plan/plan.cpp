@@ -82,7 +82,7 @@ void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octr
 }
 
 void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph, const Configuration& home,
-                    std::uint64_t seed, Output& output, const Watch& watch) {
+                    std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
   Arm arm(scene, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
   const auto try_block = [&](int block, int effort) {
     const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
@@ -91,6 +91,8 @@ void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph,
   };
   order_blocks(octree, graph, arm.at(), most_effort, try_block, watch);
   arm.go_home();
+  report.quality.ompl_calls = arm.ompl_calls();
+  report.quality.ompl_solved = arm.ompl_solved();
 }
 
 TrajectoryHeader make_header(const Job& job, const Cell& cell, const Chain& chain, const Grid& grid) {
@@ -118,10 +120,15 @@ void count_voxels(Report& report, const VoxelGrid& voxels, const Octree& octree)
     if (block.label == Label::remove) ++report.octree.remove_leaves;
 }
 
-void count_path(Report& report, const PathFigures& figures) {
+void count_path(Report& report, const PathFigures& figures, double voxel_m, std::uint64_t checks) {
   report.path = {figures.keyframes, figures.rows,     figures.transits,
                  figures.cut_m,     figures.travel_m, figures.joint_travel_rad};
   report.voxels.removed = figures.removed;
+  report.quality.turns = figures.turns;
+  if (figures.removed == 0) return;
+  const auto removed = static_cast<double>(figures.removed);
+  report.quality.moves_per_voxel = (figures.cut_m + figures.travel_m) / (voxel_m * removed);
+  report.quality.checks_per_voxel = static_cast<double>(checks) / removed;
 }
 
 void count_residue(Report& report, const std::vector<Residue>& residue) {
@@ -181,9 +188,9 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   if (chain.translating())
     carve_with_gantry(scene, result.voxels, octree, graph, header.home, output, watch);
   else
-    carve_with_arm(scene, octree, graph, header.home, job.seed, output, watch);
+    carve_with_arm(scene, octree, graph, header.home, job.seed, output, report, watch);
   report.plan_sha256 = output.finish(trajectory).sha256;
-  count_path(report, output.figures());
+  count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
   result.residue = explain_residue(scene, result.voxels, job.seed, watch);
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();

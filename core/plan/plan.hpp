@@ -58,6 +58,12 @@ struct Report {
     std::uint64_t keyframes = 0, rows = 0, transits = 0;
     double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
   } path;
+  /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
+  /// configurations tested.
+  struct {
+    double moves_per_voxel = 0, checks_per_voxel = 0;
+    std::uint64_t turns = 0, ompl_calls = 0, ompl_solved = 0;
+  } quality;
   struct {
     double load = 0, voxelize = 0, octree = 0, plan = 0, verify = 0, total = 0;
   } seconds;

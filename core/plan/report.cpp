@@ -10,6 +10,7 @@ std::string report_json(const Report& report) {
   for (const auto& [reason, voxels] : report.residue) residue.push_back({{"reason", name(reason)}, {"voxels", voxels}});
   const auto& v = report.voxels;
   const auto& p = report.path;
+  const auto& q = report.quality;
   const auto& s = report.seconds;
   const Json json{{"mesh", report.mesh},
                   {"robot", report.robot},
@@ -32,6 +33,12 @@ std::string report_json(const Report& report) {
                     {"cut_m", p.cut_m},
                     {"travel_m", p.travel_m},
                     {"joint_travel_rad", p.joint_travel_rad}}},
+                  {"quality",
+                   {{"moves_per_voxel", q.moves_per_voxel},
+                    {"checks_per_voxel", q.checks_per_voxel},
+                    {"turns", q.turns},
+                    {"ompl_calls", q.ompl_calls},
+                    {"ompl_solved", q.ompl_solved}}},
                   {"seconds",
                    {{"load", s.load},
                     {"voxelize", s.voxelize},

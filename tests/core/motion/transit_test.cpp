@@ -34,7 +34,7 @@ TEST_F(Transit, PathsRoundTheStockAreCertifiedFromEndToEnd) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto [from, to] = separated(seed);
-    const auto path = plan_transit(scene, from, to, seed, {});
+    const auto path = plan_transit(scene, from, to, seed, {}).path;
     if (path.empty()) continue;
     ++found;
     EXPECT_EQ(path.front(), from);
@@ -46,7 +46,7 @@ TEST_F(Transit, PathsRoundTheStockAreCertifiedFromEndToEnd) {
 
 TEST_F(Transit, DependsOnTheSeedAloneAlsoOnOtherThreads) {
   const auto [from, to] = separated(1);
-  const auto first = plan_transit(scene, from, to, 7, {});
+  const auto first = plan_transit(scene, from, to, 7, {}).path;
   ASSERT_FALSE(first.empty());
   std::vector<std::vector<Configuration>> others(4);
   std::vector<std::jthread> threads;
@@ -54,7 +54,7 @@ TEST_F(Transit, DependsOnTheSeedAloneAlsoOnOtherThreads) {
     threads.emplace_back([&, t] {
       const Scene own(cell, cell.grid(8), VoxelSet(8, true));
       plan_transit(own, from, to, 100 + t, {});
-      others[t] = plan_transit(own, from, to, 7, {});
+      others[t] = plan_transit(own, from, to, 7, {}).path;
     });
   threads.clear();
   for (const auto& other : others) EXPECT_EQ(other, first);
@@ -64,12 +64,12 @@ TEST_F(Transit, AStopEndsTheSearchWithoutAPath) {
   const auto [from, to] = separated(2);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_TRUE(plan_transit(scene, from, to, 0, stop.get_token()).empty());
+  EXPECT_TRUE(plan_transit(scene, from, to, 0, stop.get_token()).path.empty());
 }
 
 TEST_F(Transit, ShorteningKeepsTheEndsAndOnlyCertifiedEdges) {
   const auto [from, to] = separated(3);
-  auto path = plan_transit(scene, from, to, 3, {}, {20000});
+  auto path = plan_transit(scene, from, to, 3, {}, {20000}).path;
   ASSERT_FALSE(path.empty());
   std::vector<Configuration> detour;
   for (std::size_t i = 1; i < path.size(); ++i)
