@@ -6,7 +6,7 @@ import socket
 import unittest
 
 import shapes
-from harness import SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest
+from harness import SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest
 
 
 class BadInput:
