@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/cell/shipped_cells.hpp"
 #include "proto/fields.hpp"
 
 namespace sculpt {
@@ -21,23 +22,6 @@ fs::path home_data_folder() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
     return fs::path(home) / ".local/share/sculptd";
   return "sculptd-data";
-}
-
-// In the source tree the program is in build/PRESET/bin below the folder that holds config/; installed it is in bin/
-// beside share/.
-std::vector<fs::path> find_cells() {
-  std::error_code error;
-  std::vector<fs::path> found;
-  std::vector<fs::path> starts{fs::read_symlink("/proc/self/exe", error).parent_path(), fs::current_path(error)};
-  for (const fs::path& start : starts) {
-    for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
-      for (const char* place : {"config/cells", "share/sculptd/cells"}) {
-        if (found.empty() && fs::is_directory(folder / place, error)) found.push_back(folder / place);
-      }
-      if (folder == folder.root_path()) break;
-    }
-  }
-  return found;
 }
 
 void apply(Fields fields, const fs::path& folder, Config& config) {
@@ -60,7 +44,7 @@ void apply(Fields fields, const fs::path& folder, Config& config) {
 Config default_config() {
   Config config;
   config.data = home_data_folder();
-  config.cells = find_cells();
+  config.cells = shipped_cell_folders();
   return config;
 }
 

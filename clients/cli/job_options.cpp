@@ -8,24 +8,13 @@
 
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
+#include "core/cell/shipped_cells.hpp"
 
 namespace sculpt {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Where shipped cells lie: the folder that SCULPT_CELLS names, else the first one found above this program or above
-/// the working folder, as sculptd looks for them.
-std::vector<fs::path> cell_folders() {
-  if (const char* named = std::getenv("SCULPT_CELLS")) return {named};
-  std::error_code failed;
-  for (const fs::path& start : {fs::read_symlink("/proc/self/exe", failed).parent_path(), fs::current_path(failed)})
-    for (fs::path at = start; at.has_relative_path(); at = at.parent_path())
-      for (const char* place : {"config/cells", "share/sculptd/cells"})
-        if (fs::is_directory(at / place, failed)) return {at / place};
-  return {};
-}
 
 /// CLI11 reads -1 as the largest unsigned number.
 const CLI::Validator not_negative{
@@ -140,7 +129,7 @@ CellFiles read_cell(const std::string& robot) {
     read_input(robot, "cell");
     return read_cell_files(robot);
   }
-  return read_cell_files(find_cell(robot, cell_folders()));
+  return read_cell_files(find_cell(robot, shipped_cell_folders()));
 }
 
 void check_resolution(int n) {

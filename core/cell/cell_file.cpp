@@ -254,6 +254,11 @@ fs::path find_cell(const std::string& cell, const std::vector<fs::path>& folders
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  if (folders.empty())
+    throw InputError("cell_unknown",
+                     "there is no cell '" + cell +
+                         "': no folder config/cells was found above the program or the working folder; set "
+                         "SCULPT_CELLS to it, or give the path of a cell file (with a '/' or ending in .json)");
   throw InputError("cell_unknown", "there is no cell '" + cell + "'; known cells: " + (list.empty() ? "none" : list) +
                                        "; or give the path of a cell file (with a '/' or ending in .json)");
 }
