@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "server/handlers.hpp"
+#include "server/net.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
 
@@ -100,7 +101,7 @@ void answer_from(TaskQueue& queue, Services& services, Call call, std::function<
       outcome = current_error();
     }
     // Moved, so that the last owner of a session is always the I/O thread.
-    boost::asio::post(services.io, [waiting = std::move(shared), outcome = std::move(outcome)] {
+    net::post(services.io, [waiting = std::move(shared), outcome = std::move(outcome)] {
       if (const Answer* answer = std::get_if<Answer>(&outcome)) {
         waiting->session->answer(waiting->id, *answer);
       } else {

@@ -2,13 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/net.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
 
 namespace sculpt {
 namespace {
 
-namespace net = boost::asio;
 using tcp = net::ip::tcp;
 
 constexpr std::chrono::milliseconds accept_pause{100};

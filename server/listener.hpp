@@ -1,15 +1,13 @@
 // Accepts connections and knows which are open. I/O thread only.
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <list>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>  // before Asio 1.74, which forgets it
 
+#include "server/net.hpp"
 namespace sculpt {
 
 class Session;
@@ -32,11 +30,11 @@ class Listener {
 
  private:
   void accept();
-  void on_accept(const boost::system::error_code& error, boost::asio::ip::tcp::socket socket);
+  void on_accept(const boost::system::error_code& error, net::ip::tcp::socket socket);
 
   Services& services_;
-  boost::asio::ip::tcp::acceptor acceptor_;
-  boost::asio::steady_timer pause_;
+  net::ip::tcp::acceptor acceptor_;
+  net::steady_timer pause_;
   std::list<std::weak_ptr<Session>> sessions_;
   std::uint64_t accepted_ = 0;
 };

@@ -27,11 +27,23 @@ struct Flags {
   int workers = 0;
 };
 
+// What is wrong with a listen address, or nothing.
+std::string address_fault(const std::string& address) {
+  try {
+    Config ignored;
+    set_listen(address, ignored);
+    return {};
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
 int parse_flags(int argc, char** argv, Flags& flags, bool& done) {
   CLI::App app{"sculptd: the plan server for robotic sculpting"};
   app.set_version_flag("--version", server_name);
   app.add_option("--config", flags.config, "JSON file with settings (see config/server.json)");
-  app.add_option("--listen", flags.listen, "HOST:PORT to listen on, default 127.0.0.1:7878; port 0 takes any free one");
+  app.add_option("--listen", flags.listen, "HOST:PORT to listen on, default 127.0.0.1:7878; port 0 takes any free one")
+      ->check(address_fault);
   app.add_option("--data", flags.data, "folder for jobs and results, default ~/.local/share/sculptd");
   app.add_option("--workers", flags.workers, "jobs that run at once, default one less than there are cores")
       ->check(CLI::Range(1, 1024));

@@ -3,21 +3,18 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <csignal>
 #include <thread>
 
 #include "server/data_folder.hpp"
 #include "server/job_run.hpp"
 #include "server/listener.hpp"
+#include "server/net.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
 
 namespace sculpt {
 namespace {
-
-namespace net = boost::asio;
 
 constexpr std::chrono::milliseconds tick_time{250};
 

@@ -1,14 +1,13 @@
 // What the handlers work with. Owned by Server, which outlives every session.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
 #include <chrono>
-#include <utility>  // before Asio 1.74, which forgets it
 
 #include "server/artifacts.hpp"
 #include "server/blobs.hpp"
 #include "server/config.hpp"
 #include "server/job_store.hpp"
+#include "server/net.hpp"
 #include "server/planner.hpp"
 #include "server/scheduler.hpp"
 #include "server/streams.hpp"
@@ -19,7 +18,7 @@
 namespace sculpt {
 
 struct Services {
-  boost::asio::io_context& io;
+  net::io_context& io;
   const Config& config;
   const Planner& planner;
   JobDefaults defaults;

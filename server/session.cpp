@@ -2,15 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/buffer.hpp>
-
 #include "server/dispatch.hpp"
+#include "server/net.hpp"
 #include "server/services.hpp"
 
 namespace sculpt {
 namespace {
-
-namespace net = boost::asio;
 
 constexpr std::size_t read_bytes = 64 << 10;
 constexpr std::size_t low_water_bytes = 64 << 10;  // below it events are fetched for the peer

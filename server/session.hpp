@@ -1,7 +1,6 @@
 // One connection: bytes -> requests -> dispatch, and replies and events -> bytes. Lives on the I/O thread only.
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -9,11 +8,11 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>  // before Asio 1.74, which forgets it
 
 #include "proto/framing.hpp"
 #include "proto/messages.hpp"
 #include "proto/request.hpp"
+#include "server/net.hpp"
 
 namespace sculpt {
 
@@ -29,7 +28,7 @@ class Session : public std::enable_shared_from_this<Session> {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Session(boost::asio::ip::tcp::socket socket, std::uint64_t number, Services& services);
+  Session(net::ip::tcp::socket socket, std::uint64_t number, Services& services);
   void start();
 
   /// Every dispatched request is answered exactly once, by one of these two. A reply over the client's max_line becomes
@@ -71,7 +70,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void on_write(const boost::system::error_code& error, std::size_t bytes);
   void close_if_done();
 
-  boost::asio::ip::tcp::socket socket_;
+  net::ip::tcp::socket socket_;
   std::uint64_t number_;
   Services& services_;
   FrameReader reader_;

@@ -3,12 +3,11 @@
 #include <chrono>
 
 #include "server/job_view.hpp"
+#include "server/net.hpp"
 #include "server/session.hpp"
 
 namespace sculpt {
 namespace {
-
-namespace net = boost::asio;
 
 void answer(const Call& call, const JobRecord& job) {
   Json result{{"job", job.id}, {"state", name(job.state)}, {"timed_out", !is_final(job.state)}};

@@ -1,21 +1,19 @@
 // Calls of job.wait that are not answered yet. I/O thread only.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>  // before Asio 1.74, which forgets it
 
 #include "server/dispatch.hpp"
 #include "server/job_store.hpp"
+#include "server/net.hpp"
 
 namespace sculpt {
 
 class Waits {
  public:
-  Waits(boost::asio::io_context& io, JobStore& store) : io_(io), store_(store) {}
+  Waits(net::io_context& io, JobStore& store) : io_(io), store_(store) {}
 
   /// Answers the call when the job is in a final state, or after `timeout_s`.
   void add(Call call, const std::string& job, double timeout_s);
@@ -26,11 +24,11 @@ class Waits {
  private:
   struct Wait {
     Call call;
-    std::shared_ptr<boost::asio::steady_timer> timer;
+    std::shared_ptr<net::steady_timer> timer;
   };
-  void on_timeout(const std::string& job, const std::shared_ptr<boost::asio::steady_timer>& timer);
+  void on_timeout(const std::string& job, const std::shared_ptr<net::steady_timer>& timer);
 
-  boost::asio::io_context& io_;
+  net::io_context& io_;
   JobStore& store_;
   std::multimap<std::string, Wait> waits_;
 };
