@@ -14,7 +14,7 @@ struct Invocation {
 };
 
 /// How this program names itself to servers, and in --version.
-inline constexpr const char* client_name = "sculpt/0.1.0";
+inline constexpr const char* client_name = "sculpt 0.1.0";
 
 /// --server and --version, which stand before or after the command's name.
 void add_common_options(CLI::App& command, Invocation& invocation);
