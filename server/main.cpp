@@ -40,6 +40,9 @@ std::string address_fault(const std::string& address) {
 
 int parse_flags(int argc, char** argv, Flags& flags, bool& done) {
   CLI::App app{"sculptd: the plan server for robotic sculpting"};
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("sculptd: ") + error.what() + "; see --help\n";
+  });
   app.set_version_flag("--version", server_name);
   app.add_option("--config", flags.config, "JSON file with settings (see config/server.json)");
   app.add_option("--listen", flags.listen, "HOST:PORT to listen on, default 127.0.0.1:7878; port 0 takes any free one")
