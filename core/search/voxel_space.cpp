@@ -1,0 +1,72 @@
+#include "core/search/voxel_space.hpp"
+
+#include <algorithm>
+
+namespace sculpt {
+
+VoxelSpace::VoxelSpace(const VoxelGrid& voxels)
+    : edge_(voxels.n() + 4), cells_(static_cast<std::size_t>(edge_) * edge_ * (edge_ - 1)) {
+  for (std::size_t face = 0; face < 6; ++face) steps_[face] = index(face_steps[face]) - index({0, 0, 0});
+  const int n = voxels.n();
+  const Grid grid{n, 1, Vec3::Zero()};
+  for (int k = 0; k <= n; ++k) {
+    for (int j = -1; j <= n; ++j) {
+      for (int i = -1; i <= n; ++i) {
+        const Label label = grid.contains({i, j, k}) ? voxels.label({i, j, k}) : Label::air;
+        if (label != Label::keep) cells_[index({i, j, k})] = label == Label::air ? air_bit : remove_bit;
+      }
+    }
+  }
+}
+
+void VoxelSpace::expand(const Entry& entry, std::size_t detour, const Distance& distance) {
+  // Straight on is pushed last and so tried first: the fewer turns the better.
+  for (int turn = 1; turn <= 6; ++turn) {
+    const auto face = static_cast<std::uint8_t>((entry.face + turn) % 6);
+    const Index next = beside(entry.at, face);
+    if ((cells_[next] & (air_bit | closed_bit)) != air_bit) continue;
+    const int there = distance(voxel(next), entry.distance + 1);
+    const std::size_t further = detour + static_cast<std::size_t>(1 + there - entry.distance);
+    if (frontier_.size() <= further) frontier_.resize(further + 1);
+    frontier_[further].push_back({next, there, face});
+  }
+}
+
+std::optional<std::vector<std::uint8_t>> VoxelSpace::find_way(Index from, int enough, const Distance& distance) {
+  std::optional<std::vector<std::uint8_t>> way;
+  frontier_.resize(std::max<std::size_t>(frontier_.size(), 1));
+  frontier_[0].push_back({from, distance(voxel(from), 3 * edge_), 0});
+  for (std::size_t detour = 0; detour < frontier_.size() && !way; ++detour) {
+    while (!frontier_[detour].empty() && !way) {
+      const Entry entry = frontier_[detour].back();
+      frontier_[detour].pop_back();
+      if (cells_[entry.at] & closed_bit) continue;
+      cells_[entry.at] |= static_cast<std::uint8_t>(closed_bit | entry.face << parent_shift);
+      touched_.push_back(entry.at);
+      if (entry.distance == enough)
+        way = trace(from, entry.at);
+      else
+        expand(entry, detour, distance);
+    }
+  }
+  forget_search();
+  return way;
+}
+
+std::vector<std::uint8_t> VoxelSpace::trace(Index from, Index to) const {
+  std::vector<std::uint8_t> way;
+  for (Index at = to; at != from;) {
+    way.push_back(cells_[at] >> parent_shift);
+    at -= steps_[way.back()];
+  }
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+void VoxelSpace::forget_search() {
+  for (Index at : touched_) cells_[at] &= air_bit;
+  touched_.clear();
+  for (auto& bucket : frontier_) bucket.clear();
+}
+
+}  // namespace sculpt
