@@ -7,6 +7,8 @@
 // can be reached from every one of its descendants; no node is a dead end, and the newest one has the fewest voxels
 // left. Going back to an older node would mean to put material back. Going back in space is what may be needed, and
 // that is a walk through voxels that are removed already.
+// A move that removes is taken before any that does not: h alone would at times walk past a single voxel, which only
+// puts it off.
 //
 // The stuck state of the paper's figure 3: the robot has cut its way into a pocket, all around it is kept or removed,
 // and what is left lies elsewhere, perhaps just behind a wall. Every further node has the same voxels left and is no
