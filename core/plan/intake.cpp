@@ -110,14 +110,17 @@ VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
 
 void check_job(const Job& job, const Watch& watch) {
   check_resolution(job.resolution);
-  if (job.search != "octree")
-    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree");
+  if (job.search != "octree" && job.search != "voxel")
+    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree or voxel");
   if (job.threads < 1)
     throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
   check_memory(job);
   const Cell cell = parse_cell(job.cell);
   const Grid grid = cell.grid(job.resolution);
   make_tool(cell.tool, grid.voxel_m);
+  if (job.search == "voxel" && !cell.chain().translating())
+    throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
+                                           "' has turning joints: use octree");
   check_reach(cell, grid);
   Job coarse = job;
   if (job.mesh.extension != "binvox" && !(job.stock.mesh && job.stock.mesh->extension == "binvox"))

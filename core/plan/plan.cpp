@@ -9,6 +9,7 @@
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
 #include "core/plan/path_figures.hpp"
+#include "core/search/voxel_search.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {
@@ -74,10 +75,13 @@ class Output {
 };
 
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
-                       const Configuration& home, Output& output, const Watch& watch) {
+                       const Configuration& home, const std::string& search, Output& output, const Watch& watch) {
   Gantry gantry(scene, home, translating_entry(octree.n), [&](const Keyframe& keyframe) { output.add(keyframe); });
-  carve_translating(
-      voxels, octree, graph, [&](const VoxelRun& run) { gantry.follow(run); }, watch);
+  const auto follow = [&](const VoxelRun& run) { gantry.follow(run); };
+  if (search == "voxel")
+    carve_voxelwise(voxels, follow, watch);
+  else
+    carve_translating(voxels, octree, graph, follow, watch);
   gantry.go_home();
 }
 
@@ -186,7 +190,7 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
                                          ": choose a home clear of the full stock, the room and itself");
   Output output(trajectory, header, chain, report.voxels.remove, watch);
   if (chain.translating())
-    carve_with_gantry(scene, result.voxels, octree, graph, header.home, output, watch);
+    carve_with_gantry(scene, result.voxels, octree, graph, header.home, job.search, output, watch);
   else
     carve_with_arm(scene, octree, graph, header.home, job.seed, output, report, watch);
   report.plan_sha256 = output.finish(trajectory).sha256;

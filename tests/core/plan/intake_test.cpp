@@ -48,6 +48,9 @@ TEST(Intake, RefusesUnknownSearchesAndNoThreads) {
   Job job = sound_job();
   job.search = "magic";
   expect_refused(job, "search_unknown", "octree");
+  job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
+  job.search = "voxel";
+  expect_refused(job, "search_unknown", "translating");
   job = sound_job();
   job.threads = 0;
   expect_refused(job, "threads_invalid", "0");

@@ -40,6 +40,20 @@ TEST(Plan, RandomShapesWithTheGantryLeaveOnlyWhatIsEnclosed) {
   }
 }
 
+TEST(Plan, RandomShapesVoxelByVoxelLeaveTheSameAsTheOctree) {
+  const CellFiles cell = shipped_cell("gantry");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Job job = make_job(cell, random_target(seed % 2 == 0 ? 8 : 16, seed));
+    const ScratchFile by_octree, by_voxel;
+    const JobResult octree = run_job(job, by_octree.path(), {});
+    job.search = "voxel";
+    const JobResult voxel = run_job(job, by_voxel.path(), {});
+    expect_sound(voxel);
+    EXPECT_EQ(voxel.report.voxels.removed, octree.report.voxels.removed);
+  }
+}
+
 TEST(Plan, RandomShapesWithTheArmReplayClean) {
   const CellFiles cell = shipped_cell("panda-turntable");
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
