@@ -25,7 +25,7 @@ class CommandLine(ClientTest):
                 self.assertIn(option, text, command)
 
     def test_version_stands_before_and_after_the_command(self):
-        self.assertRegex(self.fine("--version"), r"^sculpt/\d+\.\d+\.\d+\n$")
+        self.assertRegex(self.fine("--version"), r"^sculpt \d+\.\d+\.\d+\n$")
         self.assertEqual(self.fine("list", "--version"), self.fine("--version"))
 
     def test_a_wrong_command_line_is_usage(self):
