@@ -1,6 +1,8 @@
 #include "server/session.hpp"
 
+#include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
 #include "server/dispatch.hpp"
 #include "server/net.hpp"
@@ -14,6 +16,7 @@ constexpr std::size_t low_water_bytes = 64 << 10;  // below it events are fetche
 constexpr std::size_t high_water_bytes = 1 << 20;  // above it no more of its requests are taken
 constexpr int max_pending = 64;
 constexpr std::chrono::seconds linger_time{5};
+constexpr int probe_after_s = 10;
 
 // The error as a line of at most max_line bytes: its sentence is cut, then its pointer is left out.
 std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
@@ -63,16 +66,30 @@ void Session::read() {
 void Session::on_read(const boost::system::error_code& error, std::size_t bytes) {
   reading_ = false;
   if (closed_) return;
-  if (error == net::error::eof) {
-    input_ended_ = true;
-    if (lingering_) return close("lingered");
-    pump_input();
-    return close_if_done();
-  }
+  if (error == net::error::eof) return on_input_end();
   if (error) return close("read failed");
   if (lingering_ || finishing_) return read();
   reader_.feed({buffer_.data(), bytes});
   pump_input();
+}
+
+// The peer may only have ended its side and wait for answers and events, or be gone: keepalive probes tell
+// (check_stalled).
+void Session::on_input_end() {
+  input_ended_ = true;
+  if (lingering_) return close("lingered");
+  const int on = 1;
+  ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+  ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_KEEPIDLE, &probe_after_s, sizeof probe_after_s);
+  ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_KEEPINTVL, &probe_after_s, sizeof probe_after_s);
+  pump_input();
+  close_if_done();
+}
+
+bool Session::broken() {
+  int error = 0;
+  socklen_t size = sizeof error;
+  return ::getsockopt(socket_.native_handle(), SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0;
 }
 
 bool Session::may_take_requests() const {
@@ -250,6 +267,7 @@ void Session::close(const char* reason) {
 
 void Session::check_stalled(Clock::time_point now, Clock::duration patience) {
   if (closed_) return;
+  if (input_ended_ && broken()) return close("the peer is gone");
   if (lingering_ && now - last_step_ > linger_time) return close("lingered too long");
   if (!queue_.empty() && now - last_step_ > patience) {
     spdlog::info("conn={} slow_reader: took no bytes", number_);

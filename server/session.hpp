@@ -43,7 +43,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void finish();
   void close(const char* reason);
 
-  /// Closes a connection that takes no bytes although there are some, or lingers after an error.
+  /// Closes a connection that takes no bytes although there are some, lingers after an error, or is gone without a
+  /// word.
   void check_stalled(Clock::time_point now, Clock::duration patience);
   std::size_t queued_bytes() const { return queued_bytes_; }
   bool writable() const;
@@ -68,6 +69,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void send(std::string bytes);
   void write();
   void on_write(const boost::system::error_code& error, std::size_t bytes);
+  void on_input_end();
+  bool broken();
   void close_if_done();
 
   net::ip::tcp::socket socket_;
