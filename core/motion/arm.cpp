@@ -71,6 +71,7 @@ bool Arm::cut_neighbour(Voxel voxel) {
 }
 
 bool Arm::cut_after_hop(Voxel voxel) {
+  if (stop_.stop_requested()) throw Cancelled{};
   if (outside_ || !fits(voxel, axis_)) return false;
   const double h = scene_.grid().voxel_m;
   for (int lift = 1; lift <= 2 * scene_.grid().n; lift *= 2)

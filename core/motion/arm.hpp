@@ -12,7 +12,7 @@ namespace sculpt {
 
 /// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:
 /// cut edges are free in both directions once their voxel is gone. Single-threaded; the same calls give the same
-/// keyframes.
+/// keyframes. Throws Cancelled once a stop was asked for.
 class Arm {
  public:
   using Emit = std::function<void(const Keyframe&)>;
