@@ -1,0 +1,195 @@
+"""bench/paper: its rows, its page, going on where it was stopped, and the row that is cut short."""
+
+import importlib.machinery
+import importlib.util
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import shapes
+from harness import PATIENCE_S, SCULPT, SOURCE, environment
+
+PROGRAM = SOURCE / "bench/paper"
+
+# Stands in for `sculpt`: cuts 30 of 100 voxels at once and then never ends by itself. Says that it is there by a file.
+ENDLESS = """#!{python}
+import pathlib, signal, sys
+output = sys.argv[sys.argv.index("-o") + 1]
+if sys.argv[1] == "voxelize":
+    print('{{"voxels": {{"total": 200, "air": 0, "keep": 100, "remove": 100}}}}')
+else:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    pathlib.Path(output + ".part").write_text('{{"type":"cut","q":[0],"voxels":[[0,0,29],[0,0,0]]}}\\n' + '{{"type":"cut","vox')
+    pathlib.Path({sign!r}).write_text("")
+    signal.pause()
+"""
+
+
+def load_program():
+    loader = importlib.machinery.SourceFileLoader("paper", str(PROGRAM))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("paper", loader))
+    loader.exec_module(module)
+    return module
+
+
+class PaperTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
+        self.addCleanup(folder.cleanup)
+        self.scratch = pathlib.Path(folder.name)
+        self.out = self.scratch / "out"
+        self.mesh = shapes.write_stl(self.scratch / "steps.stl", shapes.steps())
+
+    def command(self, *options, program=SCULPT[0]):
+        return [sys.executable, "-B", str(PROGRAM), "--mesh", str(self.mesh), "--sculpt", str(program), "--out", str(self.out),
+                *map(str, options)]
+
+    def run_program(self, *options, program=SCULPT[0]):
+        return subprocess.run(self.command(*options, program=program), env=environment(), stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=PATIENCE_S)
+
+    def fine(self, *options, **named):
+        result = self.run_program(*options, **named)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def refused(self, words, *options, **named):
+        result = self.run_program(*options, **named)
+        self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
+        self.assertRegex(result.stderr, r"\Abench/paper: .*\n\Z")
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def document(self):
+        return json.loads((self.out / "paper.json").read_text())
+
+    def page(self):
+        return (self.out / "paper.md").read_text()
+
+    def endless(self):
+        program, sign = self.scratch / "endless", self.scratch / "running"
+        program.write_text(ENDLESS.format(python=sys.executable, sign=str(sign)))
+        program.chmod(0o755)
+        return program, sign
+
+
+class Rows(PaperTest):
+    def test_cheap_rows_give_page_and_json(self):
+        self.fine("--rows", "I:8", "II:8")
+        tables = self.document()["tables"]
+        self.assertEqual([len(tables[table]) for table in ("I", "II", "III")], [8, 4, 3])
+        voxel, octree = tables["I"][:2]
+        for entry, paper in ((voxel, 12), (octree, 14)):
+            self.assertEqual((entry["state"], entry["paper"]), ("measured", paper))
+            self.assertAlmostEqual(entry["ratio"] * entry["report"]["seconds"]["plan"], paper)
+            self.assertTrue(entry["report"]["verify"]["clean"])
+        # Two boxes of half the height, the upper of half the width: 8*8*4 + 4*4*4 of 512 voxels stay.
+        self.assertEqual(tables["II"][0]["report"]["voxels"]["keep"], 320)
+        self.assertEqual(tables["II"][0]["ours"], octree["report"]["octree"]["leaves"])
+        self.assertEqual({e["state"] for e in tables["II"][1:] + tables["III"]}, {"not run"})
+        page = self.page()
+        self.assertIn("| 8 | 512 | 354 | 30.9 % |", page)
+        self.assertIn("| 62.5 % |", page)
+        self.assertIn("| 256 | voxel | N/A | not run | - |", page)
+        self.assertIn("| 256 | 457 | not run | - |", page)
+        self.assertEqual(page.count("The set-ups differ: "), 3)
+        self.assertIn(octree["report"]["plan_sha256"], page)
+        self.assertNotIn("Extrapolated", page)
+
+    def test_a_second_run_does_nothing_until_asked_again(self):
+        self.fine("--rows", "II:8")
+        result = self.out / "gantry-octree-8.json"
+        marked = {**json.loads(result.read_text()), "mark": 1}
+        result.write_text(json.dumps(marked))
+        more = self.fine("--rows", "I:8").stderr
+        self.assertIn("1 of 2 runs are there already", more)
+        self.assertEqual(json.loads(result.read_text()), marked)
+        self.assertTrue((self.out / "gantry-voxel-8.json").exists())
+        self.fine("--rows", "II:8", "--again")
+        self.assertNotIn("mark", json.loads(result.read_text()))
+
+    def test_results_of_another_mesh_do_not_count(self):
+        self.fine("--rows", "II:8")
+        self.mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
+        self.fine("--rows", "II:8")
+        self.assertEqual(self.document()["tables"]["II"][0]["report"]["mesh"], "ball.stl")
+
+    def test_by_default_the_long_rows_are_left_out(self):
+        paper = load_program()
+        self.assertEqual(paper.choose_rows([]), ["I:8", "I:16", "I:64", "II:8", "II:16", "II:64", "II:256", "III:16"])
+        self.assertEqual(paper.choose_rows(["III", "I:64"]), ["I:64", "III:16", "III:64", "III:256"])
+        self.assertEqual(paper.choose_rows(["all"]), list(paper.ROWS))
+
+
+class Refusals(PaperTest):
+    def test_an_unknown_row_names_those_there_are(self):
+        self.refused(["'IV:8'", "I:8", "III:256"], "--rows", "I:8", "IV:8")
+        self.refused(["'I:32'"], "--rows", "I:32")
+        self.assertFalse(self.out.exists())
+
+    def test_a_missing_program_names_the_cure(self):
+        self.refused(["nowhere", "--preset release", "--sculpt"], "--rows", "I:8", program="nowhere")
+
+    def test_a_missing_mesh_names_the_cure(self):
+        self.mesh = self.scratch / "none.stl"
+        self.refused(["none.stl", "--mesh"], "--rows", "I:8")
+
+    def test_a_mesh_that_cannot_be_planned_keeps_the_words_of_sculpt(self):
+        self.mesh = shapes.write_stl(self.scratch / "open.stl", shapes.open_bowl())
+        result = self.run_program("--rows", "II:8")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("sculpt: mesh_not_solid: ", result.stderr)
+        self.assertEqual(self.document()["tables"]["II"][0]["state"], "not run")
+
+
+class CutShort(PaperTest):
+    def test_the_timed_row_is_stopped_and_marked_as_extrapolated(self):
+        program, _ = self.endless()
+        self.fine("--rows", "III:256", "--minutes", "0.03", program=program)
+        entry = self.document()["tables"]["III"][2]
+        self.assertEqual((entry["state"], entry["extrapolation"]["removed"], entry["extrapolation"]["remove"]), ("extrapolated", 30, 100))
+        self.assertAlmostEqual(entry["ours"], entry["extrapolation"]["measured_minutes"] / 0.3)
+        self.assertRegex(self.page(), r"\| 256 \| 457 \| about \S+ \(extrapolated\) \|")
+        self.assertIn("**Extrapolated, not measured:** III:256", self.page())
+        self.assertIn("already", self.fine("--rows", "III:256", program=program).stderr)
+
+    def test_the_rate_of_the_last_quarter_is_given_too(self):
+        samples = [[60.0, 90], [90.0, 100], [120.0, 110]]
+        x = load_program().extrapolate({"samples": samples, "voxels": {"remove": 220}})
+        self.assertEqual(x["minutes"], 4)
+        self.assertAlmostEqual(x["minutes_at_late_rate"], (120 + 110 * 3) / 60)
+
+    def test_voxels_are_counted_while_lines_grow(self):
+        path = self.scratch / "growing"
+        counter = load_program().CutCounter(path)
+        self.assertEqual(counter.count(), 0)
+        line = '{"type":"cut","q":[0.5],"voxels":[[3,4,5],[3,1,5]]}\n'
+        path.write_text(line[:40])
+        self.assertEqual(counter.count(), 0)
+        path.write_text(line + '{"type":"move","q":[1]}\n' + line)
+        self.assertEqual(counter.count(), 8)
+        self.assertEqual(counter.count(), 8)
+
+    def test_interrupting_leaves_no_rest_and_says_how_to_go_on(self):
+        program, sign = self.endless()
+        process = subprocess.Popen(self.command("--rows", "II:8", program=program), env=environment(), stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(process.stderr.readline(), "1/1 gantry octree 8 ...\n")
+        while process.poll() is None and not sign.exists():
+            try:
+                process.wait(0.02)
+            except subprocess.TimeoutExpired:
+                pass
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertEqual(stderr, "bench/paper: interrupted; the finished runs are kept, the same command goes on from there\n")
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["paper.json", "paper.md"])
+
+
+if __name__ == "__main__":
+    unittest.main()
