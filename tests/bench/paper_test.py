@@ -153,15 +153,16 @@ class CutShort(PaperTest):
         entry = self.document()["tables"]["III"][2]
         self.assertEqual((entry["state"], entry["extrapolation"]["removed"], entry["extrapolation"]["remove"]), ("extrapolated", 30, 100))
         self.assertAlmostEqual(entry["ours"], entry["extrapolation"]["measured_minutes"] / 0.3)
-        self.assertRegex(self.page(), r"\| 256 \| 457 \| about \S+ \(extrapolated\) \|")
+        self.assertRegex(self.page(), r"\| 256 \| 457 \| at least \S+ \(extrapolated\) \| at most \S+ \(extrapolated\) \|")
         self.assertIn("**Extrapolated, not measured:** III:256", self.page())
         self.assertIn("already", self.fine("--rows", "III:256", program=program).stderr)
 
-    def test_the_rate_of_the_last_quarter_is_given_too(self):
+    def test_the_slower_of_the_mean_and_the_last_rate_is_the_estimate(self):
         samples = [[60.0, 90], [90.0, 100], [120.0, 110]]
         x = load_program().extrapolate({"samples": samples, "voxels": {"remove": 220}})
-        self.assertEqual(x["minutes"], 4)
+        self.assertEqual(x["minutes_at_mean_rate"], 4)
         self.assertAlmostEqual(x["minutes_at_late_rate"], (120 + 110 * 3) / 60)
+        self.assertEqual(x["minutes"], x["minutes_at_late_rate"])
 
     def test_voxels_are_counted_while_lines_grow(self):
         path = self.scratch / "growing"
