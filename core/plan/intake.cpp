@@ -1,5 +1,6 @@
 // Job -> checked inputs: what can be refused before any planning, and mesh -> labelled voxels.
 #include <bit>
+#include <limits>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
