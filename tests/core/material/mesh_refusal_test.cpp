@@ -6,11 +6,6 @@
 #include "tests/core/material/gltf_files.hpp"
 #include "tests/core/material/shapes.hpp"
 
-/// assimp 5.2 loses two small objects of its own whenever a text STL is refused; that is not for these tests to find.
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libassimp";
-}
-
 namespace sculpt {
 namespace {
 
