@@ -23,9 +23,7 @@ std::string text(Voxel v) {
 }  // namespace
 
 Gantry::Gantry(Scene& scene, const Configuration& home, Voxel entry, Emit emit)
-    : scene_(scene), home_(home), q_(home), at_(entry), emit_(std::move(emit)) {
-  move(configuration_at(entry));
-}
+    : scene_(scene), home_(home), q_(home), at_(entry), emit_(std::move(emit)) {}
 
 Configuration Gantry::configuration_at(Voxel voxel) const {
   const auto q = solve_rounded(scene_.chain(), {scene_.grid().centre(voxel), {}}, q_);
@@ -45,6 +43,8 @@ void Gantry::move(const Configuration& q) {
 }
 
 void Gantry::follow(const VoxelRun& run) {
+  if (!entered_) move(configuration_at(at_));
+  entered_ = true;
   if (!run.cut) {
     move(configuration_at(run.last));
     at_ = run.last;

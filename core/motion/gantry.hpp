@@ -14,12 +14,12 @@ class Gantry {
  public:
   using Emit = std::function<void(const Keyframe&)>;
 
-  /// Goes from `home` to `entry` (a voxel position, maybe outside the grid). Throws InputError `no_transit` when a
-  /// straight line between the two is not free: then the cell's home has to be moved.
+  /// Stands at `home`; goes to `entry` (a voxel position, maybe outside the grid) before it follows the first run.
   Gantry(Scene& scene, const Configuration& home, Voxel entry, Emit emit);
 
   /// Throws InputError `stock_out_of_reach` where the joints do not reach, `no_transit` where something of the room is
-  /// in the way.
+  /// in the way; at the first run also of the straight line from home to the entry, then the cell's home has to be
+  /// moved.
   void follow(const VoxelRun& run);
   void go_home();
 
@@ -31,6 +31,7 @@ class Gantry {
   Scene& scene_;
   Configuration home_, q_;
   Voxel at_;
+  bool entered_ = false;
   Emit emit_;
 };
 
