@@ -2,32 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "core/material/cavities.hpp"
 #include "tests/core/plan/jobs.hpp"
+#include "tests/core/plan/soundness.hpp"
 
 namespace sculpt {
 namespace {
-
-/// What every finished plan must be, whatever the robot: clean in the replay and complete about what it left.
-void expect_sound(const JobResult& result) {
-  const Report& report = result.report;
-  EXPECT_TRUE(report.verify.clean) << (report.findings.empty() ? "" : report.findings.front());
-  EXPECT_EQ(report.verify.voxels_checked, report.voxels.removed);
-  EXPECT_EQ(report.voxels.removed + report.voxels.residue, report.voxels.remove);
-  EXPECT_EQ(report.voxels.air + report.voxels.keep + report.voxels.remove, report.voxels.total);
-  EXPECT_EQ(result.residue.size(), report.voxels.residue);
-  const VoxelSet enclosed = find_enclosed(result.voxels);
-  for (const Residue& left : result.residue) {
-    EXPECT_EQ(result.voxels.label(left.voxel), Label::remove);
-    EXPECT_EQ(left.reason == Reason::enclosed, enclosed.contains(left.voxel));
-  }
-}
-
-std::map<Reason, std::uint64_t> reasons(const Report& report) {
-  return {report.residue.begin(), report.residue.end()};
-}
 
 TEST(Plan, RandomShapesWithTheGantryLeaveOnlyWhatIsEnclosed) {
   const CellFiles cell = shipped_cell("gantry");
@@ -81,54 +61,6 @@ TEST(Plan, ThreadsDoNotChangeThePlan) {
   const std::string one = run_job(job, first.path(), {}).report.plan_sha256;
   job.threads = 2;
   EXPECT_EQ(run_job(job, second.path(), {}).report.plan_sha256, one);
-}
-
-TEST(Plan, AFullTargetAndAnEmptyOneAreResults) {
-  for (const char* name : {"gantry", "panda-turntable"}) {
-    SCOPED_TRACE(name);
-    const CellFiles cell = shipped_cell(name);
-    const ScratchFile nothing, everything;
-    const JobResult full = run_job(make_job(cell, VoxelSet(8, true)), nothing.path(), {});
-    expect_sound(full);
-    EXPECT_EQ(full.report.voxels.removed, 0u);
-    const JobResult empty = run_job(make_job(cell, VoxelSet(8)), everything.path(), {});
-    expect_sound(empty);
-    EXPECT_EQ(empty.report.voxels.residue, 0u) << "nothing to keep is in the way";
-  }
-}
-
-TEST(Plan, ACavityIsResidueWithItsReason) {
-  VoxelSet target(8);
-  for (int k = 0; k < 5; ++k)
-    for (int j = 1; j < 7; ++j)
-      for (int i = 1; i < 7; ++i) target.insert({i, j, k});
-  for (Voxel v : {Voxel{3, 3, 2}, Voxel{4, 3, 2}}) target.erase(v);
-  for (const char* name : {"gantry", "panda-turntable"}) {
-    SCOPED_TRACE(name);
-    const ScratchFile file;
-    const JobResult result = run_job(make_job(shipped_cell(name), target), file.path(), {});
-    expect_sound(result);
-    EXPECT_EQ(reasons(result.report), (std::map<Reason, std::uint64_t>{{Reason::enclosed, 2}}));
-  }
-}
-
-TEST(Plan, AJarIsEmptiedByTheGantryAndLeftByTheArmThatCannotComeIn) {
-  VoxelSet target(16);
-  for (int k = 0; k < 14; ++k)
-    for (int j = 2; j < 14; ++j)
-      for (int i = 2; i < 14; ++i) target.insert({i, j, k});
-  for (int k = 2; k < 12; ++k)
-    for (int j = 4; j < 12; ++j)
-      for (int i = 4; i < 12; ++i) target.erase({i, j, k});
-  for (int k = 12; k < 14; ++k) target.erase({8, 8, k});
-  const ScratchFile by_gantry, by_arm;
-  const JobResult gantry = run_job(make_job(shipped_cell("gantry"), target), by_gantry.path(), {});
-  expect_sound(gantry);
-  EXPECT_EQ(gantry.report.voxels.residue, 0u);
-  const JobResult arm = run_job(make_job(shipped_cell("panda-turntable"), target), by_arm.path(), {});
-  expect_sound(arm);
-  EXPECT_GT(reasons(arm.report)[Reason::tool_cannot_reach], 500u) << "the shank fits only straight down the neck";
-  EXPECT_EQ(reasons(arm.report).size(), 1u);
 }
 
 TEST(Plan, StockSmallerThanTheGridIsAirFromTheStart) {
