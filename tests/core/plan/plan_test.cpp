@@ -101,20 +101,6 @@ TEST(Plan, ProgressNeverPassesItsTotalAndEndsAtWhatWasRemoved) {
   EXPECT_EQ(last, result.report.voxels.removed);
 }
 
-TEST(Plan, DavidAt16WithTheArmIsCarvedToAtMostOnePercent) {
-  const auto mesh = shared_data() / "meshes/david.stl";
-  if (!std::filesystem::exists(mesh))
-    GTEST_SKIP() << "no david.stl: set SCULPT_SHARED_DATA to the folder of shared data";
-  Job job;
-  job.cell = shipped_cell("panda-turntable");
-  job.mesh = {read_file(mesh), "stl", "david.stl"};
-  job.resolution = 16;
-  const ScratchFile file;
-  const JobResult result = run_job(job, file.path(), {});
-  expect_sound(result);
-  EXPECT_LE(result.report.voxels.residue * 100, result.report.voxels.remove);
-}
-
 TEST(Plan, DavidAt64WithTheGantryIsCarvedWhole) {
   const auto mesh = shared_data() / "meshes/david.stl";
   if (!std::filesystem::exists(mesh))
