@@ -1,6 +1,7 @@
 // VoxelGrid -> Octree. Leaves are sorted by the Morton code of their corner; a leaf's id is its index.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/base/watch.hpp"
@@ -13,10 +14,16 @@ struct Block {
   Voxel corner;
   int size = 1;
   Label label = Label::air;
+  bool operator==(const Block&) const = default;
 
   bool contains(Voxel v) const {
     return v.i >= corner.i && v.j >= corner.j && v.k >= corner.k && v.i < corner.i + size && v.j < corner.j + size &&
            v.k < corner.k + size;
+  }
+  /// L1 from `v`, which may be outside the grid, to the nearest voxel of the block.
+  int distance(Voxel v) const {
+    const auto gap = [&](int at, int low) { return std::max(std::max(low - at, at - (low + size - 1)), 0); };
+    return gap(v.i, corner.i) + gap(v.j, corner.j) + gap(v.k, corner.k);
   }
 };
 

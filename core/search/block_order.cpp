@@ -7,15 +7,6 @@
 namespace sculpt {
 namespace {
 
-int gap(int x, int low, int size) {
-  return x < low ? low - x : std::max(0, x - (low + size - 1));
-}
-
-int l1_to_block(Voxel at, const Block& block) {
-  return gap(at.i, block.corner.i, block.size) + gap(at.j, block.corner.j, block.size) +
-         gap(at.k, block.corner.k, block.size);
-}
-
 bool touches_outside(const Block& block, int n) {
   const auto at_side = [&](int low) { return low == 0 || low + block.size == n; };
   return at_side(block.corner.i) || at_side(block.corner.j) || block.corner.k + block.size == n;
@@ -68,7 +59,7 @@ class Order {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (int b : open_) {
       const auto at = static_cast<std::size_t>(b);
-      const auto h = static_cast<std::int64_t>(total_ - done_ - left_[at]) + l1_to_block(at_, octree_.leaves[at]);
+      const auto h = static_cast<std::int64_t>(total_ - done_ - left_[at]) + octree_.leaves[at].distance(at_);
       if (h < least) {
         least = h;
         chosen = b;

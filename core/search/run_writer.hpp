@@ -14,23 +14,18 @@ class RunWriter {
 
   Voxel at() const { return at_; }
 
-  /// Removes `voxel`, a face neighbour of where the robot stands.
-  void cut(Voxel voxel) {
-    const bool longer = open_ && run_.cut && (run_.first == run_.last || voxel - run_.last == step_);
-    if (!longer) {
-      finish();
-      run_ = {true, voxel, voxel};
-      open_ = true;
-    }
-    step_ = voxel - at_;
-    run_.last = at_ = voxel;
+  /// Removes the straight line first..last; `first` is a face neighbour of where the robot stands.
+  void cut(Voxel first, Voxel last) {
+    cut_one(first);
+    if (first == last) return;
+    cut_one(first + unit(first, last));
+    run_.last = at_ = last;
   }
 
   /// Goes straight to `voxel` through air.
   void travel(Voxel voxel) {
     if (voxel == at_) return;
-    const int length = l1(at_, voxel);
-    const Voxel way = voxel - at_, step{way.i / length, way.j / length, way.k / length};
+    const Voxel step = unit(at_, voxel);
     if (!open_ || run_.cut || step != step_) {
       finish();
       run_ = {false, at_, voxel};
@@ -46,6 +41,24 @@ class RunWriter {
   }
 
  private:
+  /// The step from a voxel towards another on a line with it.
+  static Voxel unit(Voxel from, Voxel to) {
+    const int length = l1(from, to);
+    const Voxel way = to - from;
+    return {way.i / length, way.j / length, way.k / length};
+  }
+
+  void cut_one(Voxel voxel) {
+    const bool longer = open_ && run_.cut && (run_.first == run_.last || voxel - run_.last == step_);
+    if (!longer) {
+      finish();
+      run_ = {true, voxel, voxel};
+      open_ = true;
+    }
+    step_ = voxel - at_;
+    run_.last = at_ = voxel;
+  }
+
   Voxel at_;
   const std::function<void(const VoxelRun&)>& emit_;
   VoxelRun run_;

@@ -4,16 +4,24 @@
 #include <limits>
 
 #include "core/search/nearest_blocks.hpp"
-#include "core/search/open_space.hpp"
 #include "core/search/run_writer.hpp"
+#include "core/search/voxel_space.hpp"
 
 namespace sculpt {
 namespace {
 
-/// Corner `bits` (1: high x, 2: high y, 4: high z) of a block.
-Voxel corner_of(const Block& block, int bits) {
-  const int far = block.size - 1;
-  return block.corner + Voxel{bits & 1 ? far : 0, bits & 2 ? far : 0, bits & 4 ? far : 0};
+/// Which of the two ends of a block, along one axis, is nearer.
+int nearer_end(int at, int low, int size) {
+  return at - low < low + size - 1 - at ? low : low + size - 1;
+}
+
+Voxel nearest_corner(const Block& block, Voxel from) {
+  return {nearer_end(from.i, block.corner.i, block.size), nearer_end(from.j, block.corner.j, block.size),
+          nearer_end(from.k, block.corner.k, block.size)};
+}
+
+std::uint64_t volume(const Block& block) {
+  return static_cast<std::uint64_t>(block.size) * block.size * block.size;
 }
 
 /// What is air only ever grows, and a block is carved whole, so which blocks can be reached is kept block by block:
@@ -24,162 +32,183 @@ class Carving {
           const std::function<void(const VoxelRun&)>& emit)
       : octree_(octree),
         graph_(graph),
-        space_(voxels.n()),
-        candidates_(octree),
+        space_(voxels),
+        candidates_(voxels.n()),
         seen_(octree.leaves.size()),
         writer_(translating_entry(voxels.n()), emit) {
     for (std::uint32_t id = 0; id < seen_.size(); ++id)
       if (on_the_outside(octree.leaves[id])) reach(id);
   }
 
-  void run(const Watch& watch, std::uint64_t total) {
-    std::uint64_t removed = 0;
+  void run(const Watch& watch) {
+    std::uint64_t removed = 0, total = 0;
+    for (const Block& block : octree_.leaves)
+      if (block.label == Label::remove) total += volume(block);
     while (!candidates_.empty()) {
       watch.step(Stage::plan, removed, total);
-      const std::uint32_t id = go_to_next();
-      candidates_.erase(id);
-      const Block& block = octree_.leaves[id];
+      const Block block = enter_next();
+      candidates_.erase(block);
       carve(block);
-      removed += static_cast<std::uint64_t>(block.size) * block.size * block.size;
-      for (std::uint32_t neighbour : graph_.of(static_cast<int>(id))) reach(neighbour);
+      removed += volume(block);
+      for (std::uint32_t neighbour : graph_.of(octree_.find(block.corner))) reach(neighbour);
     }
-    travel(space_.find_way(writer_.at(), translating_entry(octree_.n)).value());
+    const Voxel home = translating_entry(octree_.n);
+    travel(space_.find_way(space_.index(writer_.at()), 0, [home](Voxel from, int) { return l1(from, home); }).value());
     writer_.finish();
     watch.step(Stage::plan, removed, total);
   }
 
  private:
+  using Way = std::vector<std::uint8_t>;
+
   bool on_the_outside(const Block& block) const {
-    const Voxel low = block.corner, high = corner_of(block, 7);
+    const Voxel low = block.corner, high = low + Voxel{1, 1, 1} * (block.size - 1);
     return std::min(low.i, low.j) == 0 || std::max({high.i, high.j, high.k}) == octree_.n - 1;
   }
 
   /// `id` shares a face with reached air: air lets the robot further, a block to remove becomes a candidate.
   void reach(std::uint32_t id) {
-    std::vector<std::uint32_t> waiting{id};
-    while (!waiting.empty()) {
-      const std::uint32_t next = waiting.back();
-      waiting.pop_back();
+    waiting_.assign(1, id);
+    while (!waiting_.empty()) {
+      const std::uint32_t next = waiting_.back();
+      waiting_.pop_back();
       const Block& block = octree_.leaves[next];
       if (seen_[next] || block.label == Label::keep) continue;
       seen_[next] = true;
       if (block.label == Label::remove) {
-        candidates_.insert(next);
-        space_.want_cube(block.corner, block.size);
+        candidates_.insert(block);
         continue;
       }
-      space_.open_cube(block.corner, block.size);
       const auto neighbours = graph_.of(static_cast<int>(next));
-      waiting.insert(waiting.end(), neighbours.begin(), neighbours.end());
+      waiting_.insert(waiting_.end(), neighbours.begin(), neighbours.end());
     }
   }
 
-  /// The open neighbour of `voxel` nearest to the robot, or where it stands if it is one.
-  std::optional<Voxel> door_to(Voxel voxel) const {
-    std::optional<Voxel> door;
-    for (Voxel step : face_steps) {
-      const Voxel beside = voxel + step;
-      if (space_.is_open(beside) && (!door || l1(beside, writer_.at()) < l1(*door, writer_.at()))) door = beside;
-    }
-    return door;
-  }
-
+  /// A corner of a block and the air beside it.
   struct Entry {
-    Voxel voxel, door;
-    int distance = std::numeric_limits<int>::max();
+    Voxel corner, door;
   };
-  void consider(Voxel voxel, Entry& entry) const {
-    const auto door = door_to(voxel);
-    if (!door || l1(*door, writer_.at()) >= entry.distance) return;
-    entry = {voxel, *door, l1(*door, writer_.at())};
-  }
-
-  /// A corner with an open face if there is one, else any voxel of the surface with one.
-  Entry find_entry(const Block& block) const {
-    Entry entry;
-    for (int bits = 0; bits < 8; ++bits) consider(corner_of(block, bits), entry);
-    if (entry.distance != std::numeric_limits<int>::max()) return entry;
+  std::optional<Entry> nearest_entry(const Block& block) const {
+    std::optional<Entry> nearest;
     const int far = block.size - 1;
-    for (int a = 0; a <= far; ++a)
-      for (int b = 0; b <= far; ++b)
-        for (Voxel on_face : {Voxel{0, a, b}, {far, a, b}, {a, 0, b}, {a, far, b}, {a, b, 0}, {a, b, far}})
-          consider(block.corner + on_face, entry);
-    return entry;
-  }
-
-  void travel(const std::vector<Voxel>& way) {
-    for (Voxel corner : way) writer_.travel(corner);
-  }
-
-  /// Brings the robot into the first voxel of the block that is carved next. L1 does not see walls: where the best
-  /// block is round a corner, the block with the shortest way is taken instead, so that both sides of a wall are not
-  /// carved by turns.
-  std::uint32_t go_to_next() {
-    constexpr std::size_t search_limit =
-        16;  // voxels; higher costs time and wins nothing (vase at 256: 2.6 s, 12 s with 1000)
-    const std::uint32_t best = candidates_.best(writer_.at());
-    const Entry entry = find_entry(octree_.leaves[best]);
-    if (const auto way = space_.find_way(writer_.at(), entry.door, search_limit)) {
-      travel(*way);
-      step_to(entry.voxel);
-      return best;
+    for (int bits = 0; bits < (far > 0 ? 8 : 1); ++bits) {
+      const Voxel corner = block.corner + Voxel{bits & 1, bits >> 1 & 1, bits >> 2} * far;
+      for (Voxel step : face_steps) {
+        const Voxel door = corner + step;
+        if (nearest && l1(door, writer_.at()) >= l1(nearest->door, writer_.at())) continue;
+        if (space_.is_air(space_.index(door))) nearest = {corner, door};
+      }
     }
-    const OpenSpace::Wanted nearest = space_.find_wanted(writer_.at());
-    travel(nearest.way);
-    step_to(nearest.voxel);
-    return static_cast<std::uint32_t>(octree_.find(nearest.voxel));
+    return nearest;
+  }
+
+  /// Where the robot turns on a way to `target` that goes along each axis once, if one of those is free.
+  std::optional<std::array<Voxel, 3>> straight_way(Voxel target) const {
+    // Up first and down last, sideways between: that is free most often.
+    constexpr int orders[6][3] = {{2, 0, 1}, {2, 1, 0}, {0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {1, 2, 0}};
+    for (const auto& order : orders) {
+      std::array<Voxel, 3> turns;
+      Voxel at = writer_.at();
+      for (int leg = 0; leg < 3; ++leg) turns[leg] = at = follow(at, target, order[leg]);
+      if (at == target) return turns;
+    }
+    return std::nullopt;
+  }
+
+  /// Along one axis towards `target`, as far as there is air.
+  Voxel follow(Voxel at, Voxel target, int axis) const {
+    const int way = axis == 0 ? target.i - at.i : axis == 1 ? target.j - at.j : target.k - at.k;
+    const Voxel step = face_steps[2 * axis + (way > 0 ? 1 : 0)];
+    for (int left = std::abs(way); left > 0 && space_.is_air(space_.index(at + step)); --left) at = at + step;
+    return at;
+  }
+
+  void travel(const Way& way) {
+    for (int face : way) writer_.travel(writer_.at() + face_steps[face]);
+  }
+
+  /// Brings the robot into the first voxel of the block that is carved next: a corner of the best one, for there its
+  /// boustrophedon begins. L1 does not see walls: where no straight way leads to that corner, the block with the
+  /// shortest way is taken instead, so that both sides of a wall are not carved by turns.
+  Block enter_next() {
+    const Block best = candidates_.best(writer_.at());
+    if (const auto entry = nearest_entry(best)) {
+      if (const auto turns = straight_way(entry->door)) {
+        for (Voxel turn : *turns) writer_.travel(turn);
+        cut(entry->corner);
+        return best;
+      }
+    }
+    travel(way_to_nearest());
+    const VoxelSpace::Index at = space_.index(writer_.at());
+    int face = 0;
+    while (!space_.is_remove(space_.beside(at, face))) ++face;
+    const Voxel voxel = writer_.at() + face_steps[face];
+    cut(voxel);
+    return octree_.leaves[static_cast<std::size_t>(octree_.find(voxel))];
+  }
+
+  Way way_to_nearest() {
+    Block block = *candidates_.nearest(writer_.at(), std::numeric_limits<int>::max());
+    const auto distance = [&](Voxel from, int most) {
+      // Towards the block that was nearest one step before, nothing else can be nearer.
+      if (block.distance(from) > most - 2) block = candidates_.nearest(from, most).value_or(block);
+      return std::min(block.distance(from), most);
+    };
+    return space_.find_way(space_.index(writer_.at()), 1, distance).value();
+  }
+
+  void cut(Voxel voxel) {
+    writer_.cut(voxel, voxel);
+    space_.open(space_.index(voxel));
   }
 
   /// One step inside the block; what is cut already is only passed.
   void step_to(Voxel voxel) {
-    if (space_.is_open(voxel)) return writer_.travel(voxel);
-    writer_.cut(voxel);
-    space_.open(voxel);
+    if (space_.is_air(space_.index(voxel)))
+      writer_.travel(voxel);
+    else
+      cut(voxel);
   }
 
   /// Straight to `to` inside the block, one axis after the other.
   void go_inside(Voxel to) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (;;) {
-        const Voxel way = to - writer_.at();
-        const int left = axis == 0 ? way.i : axis == 1 ? way.j : way.k;
-        if (left == 0) break;
-        step_to(writer_.at() + face_steps[2 * axis + (left > 0 ? 1 : 0)]);
-      }
-    }
+    for (int face = 0; face < 6; ++face)
+      while (l1(writer_.at() + face_steps[face], to) < l1(writer_.at(), to)) step_to(writer_.at() + face_steps[face]);
   }
 
-  /// Row by row, layer by layer, from the corner where the robot stands.
-  void sweep(const Block& block, int row_axis, int line_axis, int layer_axis) {
-    std::array<Voxel, 3> step{};
-    const Voxel in = writer_.at() - block.corner;
-    const std::array<int, 3> at{in.i, in.j, in.k};
-    for (int axis = 0; axis < 3; ++axis) step[axis] = face_steps[2 * axis + (at[axis] == 0 ? 1 : 0)];
-    for (int layer = 0; layer < block.size; ++layer) {
-      if (layer > 0) step_to(writer_.at() + step[layer_axis]);
-      for (int line = 0; line < block.size; ++line) {
-        if (line > 0) step_to(writer_.at() + step[line_axis]);
-        for (int cell = 1; cell < block.size; ++cell) step_to(writer_.at() + step[row_axis]);
-        step[row_axis] = step[row_axis] * -1;
-      }
-      step[line_axis] = step[line_axis] * -1;
-    }
-  }
-
-  /// From the voxel where the robot entered.
+  /// From the voxel where the robot entered: to a corner, then row by row, layer by layer.
   void carve(const Block& block) {
-    int nearest = 0;
-    for (int bits = 1; bits < 8; ++bits)
-      if (l1(corner_of(block, bits), writer_.at()) < l1(corner_of(block, nearest), writer_.at())) nearest = bits;
-    go_inside(corner_of(block, nearest));
-    sweep(block, 0, 1, 2);
+    const Voxel entered = writer_.at(), corner = nearest_corner(block, entered);
+    go_inside(corner);
+    const bool whole = entered == corner;  // but for the corner itself
+    const Voxel in = corner - block.corner;
+    Voxel along{in.i == 0 ? 1 : -1, 0, 0}, aside{0, in.j == 0 ? 1 : -1, 0};
+    const Voxel deeper{0, 0, in.k == 0 ? 1 : -1};
+    for (int layer = 0; layer < block.size; ++layer) {
+      if (layer > 0) step_to(writer_.at() + deeper);
+      for (int row = 0; row < block.size; ++row) {
+        if (row > 0) step_to(writer_.at() + aside);
+        go_along(along, block.size - 1, whole);
+        along = along * -1;
+      }
+      aside = aside * -1;
+    }
+    space_.open_cube(block.corner, block.size);
+  }
+
+  /// `whole`: nothing of these `count` voxels is cut yet. They are opened by the caller then.
+  void go_along(Voxel step, int count, bool whole) {
+    if (whole && count > 0) return writer_.cut(writer_.at() + step, writer_.at() + step * count);
+    for (int cell = 0; cell < count; ++cell) step_to(writer_.at() + step);
   }
 
   const Octree& octree_;
   const BlockGraph& graph_;
-  OpenSpace space_;
+  VoxelSpace space_;
   NearestBlocks candidates_;
   std::vector<bool> seen_;
+  std::vector<std::uint32_t> waiting_;  ///< scratch of `reach`
   RunWriter writer_;
 };
 
@@ -187,10 +216,7 @@ class Carving {
 
 void carve_translating(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
                        const std::function<void(const VoxelRun&)>& emit, const Watch& watch) {
-  std::uint64_t total = 0;
-  for (const Block& block : octree.leaves)
-    if (block.label == Label::remove) total += static_cast<std::uint64_t>(block.size) * block.size * block.size;
-  Carving(voxels, octree, graph, emit).run(watch, total);
+  Carving(voxels, octree, graph, emit).run(watch);
 }
 
 }  // namespace sculpt

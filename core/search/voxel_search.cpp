@@ -127,7 +127,7 @@ class VoxelSearch {
     at_ = space_.beside(at_, face);
     space_.open(at_);
     section_.erase(voxel);
-    writer_.cut(voxel);
+    writer_.cut(voxel, voxel);
     ++removed_;
   }
 

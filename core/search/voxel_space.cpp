@@ -2,21 +2,33 @@
 
 #include <algorithm>
 
+#include "core/material/voxel_rows.hpp"
+
 namespace sculpt {
 
 VoxelSpace::VoxelSpace(const VoxelGrid& voxels)
     : edge_(voxels.n() + 4), cells_(static_cast<std::size_t>(edge_) * edge_ * (edge_ - 1)) {
   for (std::size_t face = 0; face < 6; ++face) steps_[face] = index(face_steps[face]) - index({0, 0, 0});
   const int n = voxels.n();
-  const Grid grid{n, 1, Vec3::Zero()};
+  const VoxelRows rows(n);
   for (int k = 0; k <= n; ++k) {
     for (int j = -1; j <= n; ++j) {
-      for (int i = -1; i <= n; ++i) {
-        const Label label = grid.contains({i, j, k}) ? voxels.label({i, j, k}) : Label::air;
-        if (label != Label::keep) cells_[index({i, j, k})] = label == Label::air ? air_bit : remove_bit;
+      std::uint8_t* row = cells_.data() + index({0, j, k});
+      std::fill(row - 1, row + n + 1, air_bit);
+      if (j < 0 || j == n || k == n) continue;
+      for (int chunk = 0; chunk < rows.chunks; ++chunk) {
+        const std::uint64_t stock = rows.get(voxels.stock, j, k, chunk), keep = rows.get(voxels.keep, j, k, chunk);
+        if (stock == 0) continue;
+        for (int bit = 0; bit < rows.width; ++bit)
+          row[chunk * rows.width + bit] = cell_of((stock >> bit & 1) != 0, (keep >> bit & 1) != 0);
       }
     }
   }
+}
+
+void VoxelSpace::open_cube(Voxel corner, int size) {
+  for (int k = 0; k < size; ++k)
+    for (int j = 0; j < size; ++j) std::fill_n(cells_.data() + index(corner + Voxel{0, j, k}), size, air_bit);
 }
 
 void VoxelSpace::expand(const Entry& entry, std::size_t detour, const Distance& distance) {

@@ -32,6 +32,7 @@ class VoxelSpace {
   bool is_air(Index at) const { return (cells_[at] & air_bit) != 0; }
   bool is_remove(Index at) const { return (cells_[at] & remove_bit) != 0; }
   void open(Index at) { cells_[at] = air_bit; }
+  void open_cube(Voxel corner, int size);
   /// Face neighbours that are to be removed.
   int count_remove(Index at) const {
     int count = 0;
@@ -58,6 +59,7 @@ class VoxelSpace {
     std::uint8_t face;
   };
 
+  static std::uint8_t cell_of(bool stock, bool keep) { return stock ? (keep ? 0 : remove_bit) : air_bit; }
   void expand(const Entry& entry, std::size_t detour, const Distance& distance);
   std::vector<std::uint8_t> trace(Index from, Index to) const;
   void forget_search();

@@ -6,19 +6,19 @@
 namespace sculpt {
 namespace {
 
-int outside(int at, int low, int size) {
-  return std::max({low - at, at - (low + size - 1), 0});
+int log2_of(int power) {
+  return std::countr_zero(static_cast<unsigned>(power));
 }
 
-/// L1 to the nearest voxel of a cube.
-int distance_to_cube(Voxel from, Voxel corner, int size) {
-  return outside(from.i, corner.i, size) + outside(from.j, corner.j, size) + outside(from.k, corner.k, size);
+int outside(int at, int low, int size) {
+  return std::max(std::max(low - at, at - (low + size - 1)), 0);
 }
 
 }  // namespace
 
-VoxelTree::VoxelTree(int n) : log_n_(std::countr_zero(static_cast<unsigned>(n))) {
-  for (int edge = n / 2; edge > 0; edge /= 2) parts_.emplace_back(static_cast<std::size_t>(edge) * edge * edge);
+VoxelTree::VoxelTree(int n, int size) : log_size_(log2_of(size)), log_n_(std::max(log2_of(n / size), 1)) {
+  for (int edge = 1 << (log_n_ - 1); edge > 0; edge /= 2)
+    parts_.emplace_back(static_cast<std::size_t>(edge) * edge * edge);
 }
 
 void VoxelTree::insert(Voxel v) {
@@ -38,24 +38,28 @@ void VoxelTree::erase(Voxel v) {
   }
 }
 
-int VoxelTree::distance(Voxel from, int most) const {
-  visit({0, 0, 0}, log_n_ - 1, from, most);
-  return most;
+std::optional<VoxelTree::Nearest> VoxelTree::nearest(Voxel from, int most) const {
+  Nearest best{{}, most};
+  visit({0, 0, 0}, log_n_ - 1, from, best);
+  if (best.distance == most) return std::nullopt;
+  return best;
 }
 
-void VoxelTree::visit(Voxel corner, int level, Voxel from, int& best) const {
-  const std::uint8_t parts = parts_[level][cube(corner, level)];
-  const int half = 1 << level;
-  const int nearest =
-      (from.i >= corner.i + half ? 1 : 0) | (from.j >= corner.j + half ? 2 : 0) | (from.k >= corner.k + half ? 4 : 0);
-  for (int flip : {0, 1, 2, 4, 3, 5, 6, 7}) {
-    const int which = nearest ^ flip;
-    if ((parts >> which & 1) == 0) continue;
-    const Voxel below = corner + Voxel{which & 1, which >> 1 & 1, which >> 2} * half;
-    const int least = distance_to_cube(from, below, half);
-    if (least >= best) continue;
+void VoxelTree::visit(Voxel corner, int level, Voxel from, Nearest& best) const {
+  const unsigned parts = parts_[level][cube(corner, level)];
+  const int half = 1 << (log_size_ + level);
+  // How far outside of the lower and of the upper half, by axis.
+  const int x[]{outside(from.i, corner.i, half), outside(from.i, corner.i + half, half)};
+  const int y[]{outside(from.j, corner.j, half), outside(from.j, corner.j + half, half)};
+  const int z[]{outside(from.k, corner.k, half), outside(from.k, corner.k + half, half)};
+  const unsigned nearest = (x[1] < x[0] ? 1u : 0u) | (y[1] < y[0] ? 2u : 0u) | (z[1] < z[0] ? 4u : 0u);
+  for (unsigned flip : {0u, 1u, 2u, 4u, 3u, 5u, 6u, 7u}) {
+    const unsigned which = nearest ^ flip, i = which & 1, j = which >> 1 & 1, k = which >> 2;
+    const int distance = x[i] + y[j] + z[k];
+    if ((parts >> which & 1) == 0 || distance >= best.distance) continue;
+    const Voxel below = corner + Voxel{static_cast<int>(i), static_cast<int>(j), static_cast<int>(k)} * half;
     if (level == 0)
-      best = least;
+      best = {below, distance};
     else
       visit(below, level - 1, from, best);
   }

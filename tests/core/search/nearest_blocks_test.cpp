@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
 #include <tuple>
 
 #include "core/base/random.hpp"
@@ -19,36 +19,47 @@ int l1_to(const Block& block, Voxel from) {
   return least;
 }
 
-std::uint32_t best_by_brute_force(const Octree& octree, const std::set<std::uint32_t>& candidates, Voxel from) {
-  std::tuple<int, int, std::uint32_t> best{1 << 30, 0, 0};
-  for (std::uint32_t id : candidates) {
-    const Block& block = octree.leaves[id];
-    best = std::min(best, {l1_to(block, from) - block.size * block.size * block.size, -block.size, id});
-  }
-  return std::get<2>(best);
+/// What greedy best-first ranks by, ties included: distance less volume, larger blocks first.
+std::tuple<int, int> rank(const Block& block, Voxel from) {
+  return {l1_to(block, from) - block.size * block.size * block.size, -block.size};
 }
 
-TEST(NearestBlocks, TheBestIsThatOfLookingAtAll) {
+TEST(NearestBlocks, TheBestAndTheNearestAreThoseOfLookingAtAll) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const int n = 8 << seed % 3;
     const Octree octree = build_octree(random_voxels(n, seed), {});
-    NearestBlocks blocks(octree);
-    std::set<std::uint32_t> candidates;
+    NearestBlocks blocks(n);
+    std::vector<Block> candidates;
     for (int step = 0; step < 150; ++step) {
-      const auto id = static_cast<std::uint32_t>(random.between(0, static_cast<double>(octree.leaves.size())));
-      if (candidates.insert(id).second) {
-        blocks.insert(id);
+      Block block =
+          octree.leaves[static_cast<std::size_t>(random.between(0, static_cast<double>(octree.leaves.size())))];
+      block.label = Label::remove;
+      const auto known = std::find(candidates.begin(), candidates.end(), block);
+      if (known == candidates.end()) {
+        candidates.push_back(block);
+        blocks.insert(block);
       } else {
-        candidates.erase(id);
-        blocks.erase(id);
+        candidates.erase(known);
+        blocks.erase(block);
       }
       ASSERT_EQ(blocks.empty(), candidates.empty());
       if (candidates.empty()) continue;
       const auto place = [&] { return static_cast<int>(random.between(-1, n + 1)); };
       const Voxel from{place(), place(), place()};
-      ASSERT_EQ(blocks.best(from), best_by_brute_force(octree, candidates, from));
+      const Block best = blocks.best(from);
+      ASSERT_NE(std::find(candidates.begin(), candidates.end(), best), candidates.end());
+      for (const Block& other : candidates) ASSERT_LE(rank(best, from), rank(other, from));
+
+      const int most = static_cast<int>(random.between(1, 2 * n));
+      const auto nearest = blocks.nearest(from, most);
+      int least = most;
+      for (const Block& other : candidates) least = std::min(least, l1_to(other, from));
+      ASSERT_EQ(nearest.has_value(), least < most);
+      if (!nearest) continue;
+      ASSERT_NE(std::find(candidates.begin(), candidates.end(), *nearest), candidates.end());
+      ASSERT_EQ(l1_to(*nearest, from), least);
     }
   }
 }
