@@ -70,7 +70,7 @@ class NearestOrder {
       space_.open(at_);
       const Voxel voxel = space_.voxel(at_);
       standing_.erase(voxel);
-      writer_.cut(voxel);
+      writer_.cut(voxel, voxel);
       ++removed_;
       return true;
     }
