@@ -14,6 +14,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_sections = 16;  // of the holder
+
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
   throw InputError("cell_invalid",
                    "cell file, " + (where.empty() ? std::string("top level") : where) + ": " + sentence);
@@ -62,6 +64,12 @@ class Field {
     Vec3 out;
     for (std::size_t i = 0; i < 3; ++i)
       out[static_cast<int>(i)] = Field(value_[i], pointer_ + "/" + std::to_string(i)).number();
+    return out;
+  }
+  std::vector<Field> elements() const {
+    require(value_.is_array(), "an array");
+    std::vector<Field> out;
+    for (std::size_t i = 0; i < value_.size(); ++i) out.emplace_back(value_[i], pointer_ + "/" + std::to_string(i));
     return out;
   }
   std::vector<std::pair<std::string, Field>> members() const {
@@ -170,9 +178,36 @@ double read_radius(const Field& tool, const std::string& part, bool in_voxels) {
   return tool.has(name) ? tool.at(name).number_from(0) : 0;
 }
 
+/// Reads a length that is more than nothing.
+double read_extent(const Field& field) {
+  return field.number_from(1e-6);
+}
+
+/// From the link's origin towards the ball.
+std::vector<HolderSection> parse_holder(const Field& field, double stickout_m) {
+  std::vector<HolderSection> holder;
+  double length_m = 0;
+  if (field.elements().size() > most_sections)
+    refuse(field.pointer(), "give at most " + std::to_string(most_sections) + " sections");
+  for (const Field& section : field.elements()) {
+    section.require_object({"length_m", "radius_m", "end_radius_m"});
+    const double radius_m = read_extent(section.at("radius_m"));
+    const double end_m = section.has("end_radius_m") ? read_extent(section.at("end_radius_m")) : radius_m;
+    holder.push_back({read_extent(section.at("length_m")), radius_m, end_m});
+    length_m += holder.back().length_m;
+  }
+  if (!holder.empty() && length_m >= stickout_m) {
+    std::ostringstream text;
+    text << "its sections are " << length_m << " m long together, the tool sticks out by " << stickout_m
+         << " m only: stickout_m counts from the link's origin to the ball's centre and must be the longer one";
+    refuse(field.pointer(), text.str());
+  }
+  return holder;
+}
+
 ToolSpec parse_tool(const Field& field) {
   field.require_object(
-      {"link", "stickout_m", "ball_radius_voxels", "shank_radius_voxels", "ball_radius_m", "shank_radius_m"});
+      {"link", "stickout_m", "ball_radius_voxels", "shank_radius_voxels", "ball_radius_m", "shank_radius_m", "holder"});
   ToolSpec tool;
   tool.in_voxels = field.has("ball_radius_voxels");
   const std::string other = tool.in_voxels ? "_radius_m" : "_radius_voxels";
@@ -190,6 +225,7 @@ ToolSpec parse_tool(const Field& field) {
   tool.stickout_m = field.has("stickout_m") ? field.at("stickout_m").number_from(0) : 0;
   if (tool.ball_radius <= 0) refuse(field.pointer(), "the ball's radius must be above 0");
   if (tool.shank_radius > tool.ball_radius) refuse(field.pointer(), "the shank must not be thicker than the ball");
+  if (field.has("holder")) tool.holder = parse_holder(field.at("holder"), tool.stickout_m);
   return tool;
 }
 
@@ -297,6 +333,8 @@ Cell parse_cell(const CellFiles& files) {
                           [&](const std::string& reference) { return file_named(files, reference); });
   cell.stock_link = find_link(cell.robot, stock.at("link"));
   cell.tool_link = find_link(cell.robot, tool.at("link"));
+  for (Shape& shape : holder_shapes(cell.tool))  // to whoever looks at links the holder is part of one
+    cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes.push_back(std::move(shape));
   cell.rest = parse_home(cell.robot, top);
   cell.chain();  // refuses a cell in which nothing moves the tool
   return cell;

@@ -1,27 +1,100 @@
 #include "core/cell/tool.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "core/base/error.hpp"
 
 namespace sculpt {
+namespace {
 
-Tool make_tool(const ToolSpec& spec, double voxel_m) {
-  // A little less than half a voxel: what is left is all the room that path errors have.
-  constexpr double largest_share = 0.49;
+// A little less than half a voxel: what is left is all the room that path errors have.
+constexpr double largest_share = 0.49;
+// A cone becomes cylinders that step by this much; more of them would cost more time in every collision check.
+constexpr double cone_step_m = 0.002;
+constexpr int most_cone_steps = 8;
+
+double holder_length(const ToolSpec& spec) {
+  double length = 0;
+  for (const HolderSection& section : spec.holder) length += section.length_m;
+  return length;
+}
+
+[[noreturn]] void refuse_radius(const char* part, double radius_m, double voxel_m, bool in_voxels, int resolution) {
+  std::ostringstream text;
+  text << part << " radius " << radius_m << " m does not fit through a voxel of " << voxel_m << " m: it must be below "
+       << largest_share << " voxel edges, here " << largest_share * voxel_m << " m; take a ";
+  if (!in_voxels) {
+    int finer = 1;  // resolutions are powers of two
+    while (radius_m >= largest_share * voxel_m * finer) finer *= 2;
+    if (resolution >= finer)
+      text << "resolution of at most " << resolution / finer << " for this size of stock, or a ";
+    else
+      text << "lower resolution, or a ";
+  }
+  text << "thinner tool in the cell file";
+  throw InputError("tool_too_large", text.str());
+}
+
+/// The holder from the tool link's origin towards the ball, `from` and `to` measured from that origin.
+std::vector<ToolSection> holder_cylinders(const ToolSpec& spec) {
+  std::vector<ToolSection> cylinders;
+  double start_m = 0;
+  for (const HolderSection& section : spec.holder) {
+    const double taper_m = section.end_radius_m - section.radius_m;
+    const int steps = std::clamp(static_cast<int>(std::ceil(std::abs(taper_m) / cone_step_m)), 1, most_cone_steps);
+    const auto radius_at = [&](int step) { return section.radius_m + taper_m * step / steps; };
+    const auto place_of = [&](int step) { return start_m + section.length_m * step / steps; };
+    for (int step = 0; step < steps; ++step)
+      cylinders.push_back({place_of(step), place_of(step + 1), std::max(radius_at(step), radius_at(step + 1))});
+    start_m = place_of(steps);
+  }
+  return cylinders;
+}
+
+}  // namespace
+
+Tool make_tool(const ToolSpec& spec, double voxel_m, int resolution) {
   const double unit_m = spec.in_voxels ? voxel_m : 1.0;
   const Tool tool{spec.ball_radius * unit_m, spec.shank_radius * unit_m, spec.stickout_m};
   const auto check = [&](const char* part, double radius_m) {
-    if (radius_m < largest_share * voxel_m) return;
-    std::ostringstream text;
-    text << part << " radius " << radius_m << " m does not fit through a voxel of " << voxel_m
-         << " m: it must be below " << largest_share * voxel_m
-         << " m; take a lower resolution or a thinner tool in the cell file";
-    throw InputError("tool_too_large", text.str());
+    if (radius_m >= largest_share * voxel_m) refuse_radius(part, radius_m, voxel_m, spec.in_voxels, resolution);
   };
   check("ball", tool.ball_radius_m);
   check("shank", tool.shank_radius_m);
+  const double free_m = spec.stickout_m - holder_length(spec);
+  if (!spec.holder.empty() && free_m <= tool.ball_radius_m) {
+    std::ostringstream text;
+    text << "the ball of radius " << tool.ball_radius_m << " m is not free: its centre is only " << free_m
+         << " m beyond the end of the holder; take a longer stickout_m or a shorter holder in the cell file";
+    throw InputError("tool_too_large", text.str());
+  }
   return tool;
+}
+
+std::vector<ToolSection> tool_profile(const ToolSpec& spec, const Tool& tool) {
+  std::vector<ToolSection> profile;
+  const double free_m = tool.stickout_m - holder_length(spec);
+  if (tool.shank_radius_m > 0 && free_m > 0) profile.push_back({0, free_m, tool.shank_radius_m});
+  const std::vector<ToolSection> holder = holder_cylinders(spec);
+  for (auto cylinder = holder.rbegin(); cylinder != holder.rend(); ++cylinder)
+    profile.push_back({tool.stickout_m - cylinder->to_m, tool.stickout_m - cylinder->from_m,
+                       std::max(cylinder->radius_m, tool.shank_radius_m)});
+  return profile;
+}
+
+std::vector<Shape> holder_shapes(const ToolSpec& spec) {
+  std::vector<Shape> shapes;
+  for (const ToolSection& cylinder : holder_cylinders(spec)) {
+    Shape shape;
+    shape.kind = ShapeKind::cylinder;
+    shape.radius_m = cylinder.radius_m;
+    shape.length_m = cylinder.to_m - cylinder.from_m;
+    shape.pose.translation().z() = (cylinder.from_m + cylinder.to_m) / 2;
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
 }
 
 }  // namespace sculpt

@@ -1,7 +1,9 @@
-// The tool: a ball, and a shank that runs from the ball's centre to the spindle.
+// The tool: a ball, a shank that runs from the ball's centre to the spindle, and the holder that grips the shank.
 #pragma once
 
-#include <optional>
+#include <vector>
+
+#include "core/cell/robot.hpp"
 
 namespace sculpt {
 
@@ -12,15 +14,38 @@ struct Tool {
   double stickout_m = 0;  ///< from the tool link's origin to the ball's centre, along the tool link's +z
 };
 
-/// A tool as a cell file gives it: radii in metres, or in voxel edges so that it follows the resolution (the paper's tool).
+/// A cylinder or cone about the tool's axis; metres.
+struct HolderSection {
+  double length_m = 0;
+  double radius_m = 0;      ///< at the spindle's end
+  double end_radius_m = 0;  ///< at the ball's end
+};
+
+/// A tool as a cell file gives it: radii in metres, or in voxel edges so that it follows the resolution (the paper's
+/// tool). The holder is always in metres, from the tool link's origin towards the ball.
 struct ToolSpec {
   double ball_radius = 0.45;
   double shank_radius = 0.40;
   bool in_voxels = true;
   double stickout_m = 0;
+  std::vector<HolderSection> holder = {};
 };
 
-/// Throws InputError `tool_too_large` when ball or shank would not fit through one voxel (radius >= 0.49 voxel).
-Tool make_tool(const ToolSpec& spec, double voxel_m);
+/// Throws InputError `tool_too_large` when ball or shank would not fit through one voxel (radius >= 0.49 voxel), or the
+/// holder leaves none of the ball free. `resolution`, where known, lets the refusal name the finest one that is
+/// possible.
+Tool make_tool(const ToolSpec& spec, double voxel_m, int resolution = 0);
+
+/// The part of the tool from `from_m` to `to_m` above the ball's centre, along the axis, lies within `radius_m` of it.
+struct ToolSection {
+  double from_m = 0, to_m = 0, radius_m = 0;
+};
+
+/// What stands above the ball, nearest first, up to the tool link's origin (the spindle is not in it): the shank, then
+/// the holder. Cylinders that hold cones, without gaps or overlaps. Empty for a tool without shank and holder.
+std::vector<ToolSection> tool_profile(const ToolSpec& spec, const Tool& tool);
+
+/// The holder as cylinders in the tool link's frame: the same ones as in the profile.
+std::vector<Shape> holder_shapes(const ToolSpec& spec);
 
 }  // namespace sculpt

@@ -118,7 +118,7 @@ void check_job(const Job& job, const Watch& watch) {
   check_memory(job);
   const Cell cell = parse_cell(job.cell);
   const Grid grid = cell.grid(job.resolution);
-  make_tool(cell.tool, grid.voxel_m);
+  make_tool(cell.tool, grid.voxel_m, grid.n);
   if (job.search == "voxel" && !cell.chain().translating())
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");

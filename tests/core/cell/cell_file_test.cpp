@@ -100,6 +100,47 @@ TEST(CellFile, WrongTypesAndValuesAreNamedByTheirPointer) {
   expect_refused(with(good, "{\"lift\": 0.2}", "[0.2]"), "/home", "object");
 }
 
+std::string with_holder(const std::string& holder) {
+  return with(good, "\"stickout_m\": 0.1", "\"stickout_m\": 0.1, \"holder\": " + holder);
+}
+
+TEST(CellFile, HolderBecomesPartOfTheToolLink) {
+  const Cell cell = parse_cell({"test",
+                                with_holder(R"([{"length_m": 0.04, "radius_m": 0.02},
+                                               {"length_m": 0.01, "radius_m": 0.02, "end_radius_m": 0.017}])"),
+                                {{"r.urdf", urdf}}});
+  ASSERT_EQ(cell.tool.holder.size(), 2u);
+  EXPECT_EQ(cell.tool.holder[0].end_radius_m, 0.02) << "a cylinder unless told otherwise";
+  EXPECT_EQ(cell.tool.holder[1].end_radius_m, 0.017);
+  const std::vector<Shape>& shapes = cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes;
+  ASSERT_EQ(shapes.size(), 3u) << "3 mm of taper is two steps";
+  double end_m = 0;
+  for (const Shape& shape : shapes) {
+    EXPECT_EQ(shape.kind, ShapeKind::cylinder);
+    EXPECT_NEAR(shape.pose.translation().z() - shape.length_m / 2, end_m, 1e-12);
+    end_m = shape.pose.translation().z() + shape.length_m / 2;
+  }
+  EXPECT_NEAR(end_m, 0.05, 1e-12);
+}
+
+TEST(CellFile, ImpossibleHoldersAreNamedByTheirPointer) {
+  expect_refused(with_holder("{}"), "/tool/holder", "array");
+  expect_refused(with_holder("[3]"), "/tool/holder/0", "object");
+  expect_refused(with_holder(R"([{"radius_m": 0.02}])"), "/tool/holder/0/length_m", "missing");
+  expect_refused(with_holder(R"([{"length_m": 0.02}])"), "/tool/holder/0/radius_m", "missing");
+  expect_refused(with_holder(R"([{"length_m": 0, "radius_m": 0.02}])"), "/tool/holder/0/length_m", "at least");
+  expect_refused(with_holder(R"([{"length_m": 0.02, "radius_m": -1}])"), "/tool/holder/0/radius_m", "at least");
+  expect_refused(with_holder(R"([{"length_m": 0.02, "radius_m": 0.02, "end_radius_m": 0}])"),
+                 "/tool/holder/0/end_radius_m", "at least");
+  expect_refused(with_holder(R"([{"length_m": 0.02, "radius_m": 0.02, "radius_end_m": 1}])"),
+                 "/tool/holder/0/radius_end_m", "end_radius_m");
+  const std::string half = R"({"length_m": 0.05, "radius_m": 0.02})";
+  expect_refused(with_holder("[" + half + ", " + half + "]"), "/tool/holder", "stickout_m");
+  std::string many = half;
+  for (int i = 0; i < 16; ++i) many += ", " + half;
+  expect_refused(with_holder("[" + many + "]"), "/tool/holder", "at most 16");
+}
+
 TEST(CellFile, LinksAndJointsThatDoNotExistAreNamedWithThoseThatDo) {
   expect_refused(with(good, "\"room\"", "\"rom\""), "/stock/link", "room, head");
   expect_refused(with(good, "\"head\"", "\"hed\""), "/tool/link", "room, head");
