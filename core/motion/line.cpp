@@ -37,7 +37,7 @@ struct Tracker {
 std::optional<Configuration> solve_rounded(const Chain& chain, const IkGoal& goal, const Configuration& seed) {
   const auto q = solve_ik(chain, goal, seed);
   if (!q) return {};
-  const Configuration stored = rounded(*q);
+  const Configuration stored = rounded(*q, chain.lower(), chain.upper());
   if (!chain.within_limits(stored)) return {};
   return stored;
 }

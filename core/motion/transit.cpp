@@ -21,8 +21,9 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Space = ob::RealVectorStateSpace;
 
-Configuration configuration_of(const ob::State* state, int dof) {
-  return rounded(Eigen::Map<const Eigen::VectorXd>(state->as<Space::StateType>()->values, dof));
+Configuration configuration_of(const ob::State* state, const Chain& chain) {
+  const Eigen::Map<const Eigen::VectorXd> q(state->as<Space::StateType>()->values, chain.dof());
+  return rounded(q, chain.lower(), chain.upper());
 }
 
 void set_state(ob::State* state, const Configuration& q) {
@@ -65,8 +66,8 @@ class CertifiedMotion : public ob::MotionValidator {
       : ob::MotionValidator(space), scene_(scene) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    const int dof = scene_.chain().dof();
-    return scene_.certify(configuration_of(from, dof), configuration_of(to, dof)) == Contact::none;
+    const Chain& chain = scene_.chain();
+    return scene_.certify(configuration_of(from, chain), configuration_of(to, chain)) == Contact::none;
   }
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
@@ -95,7 +96,7 @@ ob::SpaceInformationPtr make_space(const Scene& scene, std::uint64_t seed) {
       [seed](const ob::StateSpace* of) { return std::make_shared<SeededSampler>(of, seed); });
   auto information = std::make_shared<ob::SpaceInformation>(space);
   information->setStateValidityChecker([&scene](const ob::State* state) {
-    return scene.contact_at(configuration_of(state, scene.chain().dof())) == Contact::none;
+    return scene.contact_at(configuration_of(state, scene.chain())) == Contact::none;
   });
   information->setMotionValidator(std::make_shared<CertifiedMotion>(information, scene));
   information->setup();
@@ -122,7 +123,7 @@ std::vector<Configuration> plan_rrt(const Scene& scene, const Configuration& fro
   if (planner.solve(end) != ob::PlannerStatus::EXACT_SOLUTION) return {};
   std::vector<Configuration> path;
   for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
-    path.push_back(configuration_of(state, scene.chain().dof()));
+    path.push_back(configuration_of(state, scene.chain()));
   return path;
 }
 

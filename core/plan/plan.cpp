@@ -102,7 +102,7 @@ void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph,
 TrajectoryHeader make_header(const Job& job, const Cell& cell, const Chain& chain, const Grid& grid) {
   TrajectoryHeader header;
   header.joints = chain.names();
-  header.home = rounded(cell.home(chain));
+  header.home = rounded(cell.home(chain), chain.lower(), chain.upper());
   header.grid = grid;
   header.tool = make_tool(cell.tool, grid.voxel_m);
   header.tolerance_m = tolerance_voxels * grid.voxel_m;

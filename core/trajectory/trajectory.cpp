@@ -1,11 +1,13 @@
 #include "core/trajectory/trajectory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <istream>
 #include <ostream>
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "core/trajectory/trajectory_line.hpp"
 
 namespace sculpt {
@@ -29,39 +31,68 @@ int run_length(const Keyframe& keyframe) {
 }
 
 Configuration rounded(const Configuration& q) {
-  // Dividing a whole number by 1e9 gives the double nearest to that decimal: exactly what its text is read back as. +
-  // 0.0 drops the sign of -0.
-  return q.unaryExpr([](double value) { return std::nearbyint(value * 1e9) / 1e9 + 0.0; });
+  // + 0.0 drops the sign of -0.
+  return q.unaryExpr([](double value) { return std::nearbyint(value * quanta_per_unit) / quanta_per_unit + 0.0; });
+}
+
+Configuration rounded(const Configuration& q, const Configuration& lower, const Configuration& upper) {
+  Configuration stored = rounded(q);
+  for (Eigen::Index at = 0; at < q.size(); ++at)
+    if (const int step = (stored[at] < lower[at]) - (stored[at] > upper[at]); step != 0)
+      stored[at] = from_quanta(std::llround(stored[at] * quanta_per_unit) + step);
+  return stored;
 }
 
 struct TrajectoryWriter::Impl {
-  explicit Impl(std::ostream& stream) : out(stream) {}
+  explicit Impl(std::ostream& stream) : out(stream), unhashed(1 << 16), top(unhashed.data()) {}
 
-  void write(std::string line) {
-    line += '\n';
-    hash.add(line);
-    out.write(line.data(), static_cast<std::streamsize>(line.size()));
+  // Room for one more line in `unhashed`.
+  char* make_room(std::size_t size) {
+    if (size > unhashed.size() - used()) hash_all();
+    if (size > unhashed.size()) {
+      unhashed.resize(size);
+      top = unhashed.data();
+    }
+    return top;
   }
 
+  // What was written from `top` to `line_end` goes out at once; it is hashed later, many lines in one go.
+  void send(char* line_end) {
+    out.write(top, line_end - top);
+    top = line_end;
+  }
+
+  void hash_all() {
+    hash.add({unhashed.data(), used()});
+    top = unhashed.data();
+  }
+
+  std::size_t used() const { return static_cast<std::size_t>(top - unhashed.data()); }
+
   std::ostream& out;
+  std::vector<char> unhashed;
+  char* top;
   Sha256 hash;
   TrajectoryEnd end;
 };
 
 TrajectoryWriter::TrajectoryWriter(std::ostream& out, const TrajectoryHeader& header)
     : impl_(std::make_unique<Impl>(out)) {
-  impl_->write(header_line(header));
+  const std::string line = header_line(header) + '\n';
+  impl_->send(std::copy(line.begin(), line.end(), impl_->make_room(line.size())));
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::add(const Keyframe& keyframe) {
-  impl_->write(keyframe_line(keyframe));
+  char* const line = impl_->make_room(longest_keyframe_line(static_cast<std::size_t>(keyframe.q.size())));
+  impl_->send(write_keyframe_line(line, keyframe));
   ++impl_->end.keyframes;
   impl_->end.removed += static_cast<std::uint64_t>(run_length(keyframe));
 }
 
 TrajectoryEnd TrajectoryWriter::finish() {
+  impl_->hash_all();
   impl_->end.sha256 = impl_->hash.hex();
   impl_->out << end_line(impl_->end) << '\n';
   return impl_->end;

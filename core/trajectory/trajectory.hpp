@@ -40,9 +40,12 @@ struct TrajectoryEnd {
   std::string sha256;  ///< of every byte before the end line
 };
 
-/// Joint values as they are stored: rounded to 1e-9 rad or m, so that the text read back gives the same double.
+/// Joint values as they are stored: multiples of 1e-7 rad or m, so that the text read back gives the same double.
 /// Planners certify rounded values.
 Configuration rounded(const Configuration& q);
+/// The same for a `q` within joint limits that need not be multiples themselves: what would be rounded past a limit is
+/// rounded to the inside, less than one quantum away.
+Configuration rounded(const Configuration& q, const Configuration& lower, const Configuration& upper);
 
 /// Writes lines to `out` as they come; the text depends on nothing but the values. Not shared between threads.
 class TrajectoryWriter {

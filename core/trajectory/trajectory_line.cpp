@@ -3,11 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/trajectory/number_text.hpp"
 
 namespace sculpt {
 namespace {
@@ -34,12 +36,18 @@ void append_numbers(std::string& text, const Values& values) {
   text += ']';
 }
 
-void append_voxel(std::string& text, Voxel voxel) {
+char* write_text(char* out, std::string_view text) {
+  std::memcpy(out, text.data(), text.size());
+  return out + text.size();
+}
+
+char* write_voxel(char* out, Voxel voxel) {
   for (auto [before, value] : {std::pair{'[', voxel.i}, {',', voxel.j}, {',', voxel.k}}) {
-    text += before;
-    text += std::to_string(value);
+    *out++ = before;
+    out = std::to_chars(out, out + longest_number, value).ptr;
   }
-  text += ']';
+  *out++ = ']';
+  return out;
 }
 
 // Text that is not UTF-8 is written with replacement characters instead of failing half-way.
@@ -141,11 +149,8 @@ Voxel parse_voxel(const Json& value, const std::string& where) {
 }  // namespace
 
 void append_number(std::string& text, double value) {
-  if (!std::isfinite(value)) throw std::invalid_argument("a trajectory value is not finite");
-  std::array<char, 32> digits;
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0).ptr;  // + 0.0: -0 is written as 0
-  text.append(digits.data(), end);
+  std::array<char, longest_number> digits;
+  text.append(digits.data(), write_number(digits.data(), value));
 }
 
 std::string header_line(const TrajectoryHeader& header) {
@@ -167,17 +172,22 @@ std::string header_line(const TrajectoryHeader& header) {
   return text + R"(,"seed":)" + std::to_string(header.seed) + "}";
 }
 
-std::string keyframe_line(const Keyframe& keyframe) {
-  std::string text = keyframe.cut ? R"({"type":"cut","q":)" : R"({"type":"move","q":)";
-  append_numbers(text, keyframe.q);
-  if (keyframe.cut) {
-    text += R"(,"voxels":[)";
-    append_voxel(text, keyframe.first);
-    text += ',';
-    append_voxel(text, keyframe.last);
-    text += ']';
+std::size_t longest_keyframe_line(std::size_t joints) {
+  return 128 + joints * (longest_number + 1);
+}
+
+char* write_keyframe_line(char* out, const Keyframe& keyframe) {
+  out = write_text(out, keyframe.cut ? R"({"type":"cut","q":[)" : R"({"type":"move","q":[)");
+  for (Eigen::Index at = 0; at < keyframe.q.size(); ++at) {
+    if (at > 0) *out++ = ',';
+    out = write_number(out, keyframe.q[at]);
   }
-  return text + "}";
+  if (!keyframe.cut) return write_text(out, "]}\n");
+  out = write_text(out, R"(],"voxels":[)");
+  out = write_voxel(out, keyframe.first);
+  *out++ = ',';
+  out = write_voxel(out, keyframe.last);
+  return write_text(out, "]}\n");
 }
 
 std::string end_line(const TrajectoryEnd& end) {

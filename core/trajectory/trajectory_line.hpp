@@ -10,14 +10,15 @@
 
 namespace sculpt {
 
-/// Without the newline. Doubles in the shortest decimal form that reads back as the same double.
+/// Without the newline. Numbers as `write_number` writes them.
 std::string header_line(const TrajectoryHeader& header);
-/// Throws std::invalid_argument for a value that JSON cannot hold (NaN, infinite): that is a planner's bug, not bad
-/// input.
-std::string keyframe_line(const Keyframe& keyframe);
 std::string end_line(const TrajectoryEnd& end);
-
 void append_number(std::string& text, double value);
+
+/// Writes a keyframe's line with its newline and returns the end; needs room for `longest_keyframe_line`. Throws
+/// std::invalid_argument for a value that is not finite.
+char* write_keyframe_line(char* out, const Keyframe& keyframe);
+std::size_t longest_keyframe_line(std::size_t joints);
 
 /// What one line after the header holds.
 struct TrajectoryLine {

@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::size_t listed_findings = 100;
 constexpr double largest_tolerance_voxels = 0.04;
-// Joint values are stored in steps of 1e-9 rad or m: half a step may lie outside a limit.
 constexpr double joint_slack = 1e-9;
+// Joint values are stored in steps of 1e-7 rad or m, rounded to the inside of the limits: home may be that far aside.
+constexpr double home_slack = 1e-7 + joint_slack;
 constexpr double length_slack_m = 1e-12;
 
 std::string text(Voxel v) {
@@ -109,7 +110,7 @@ class Replay {
            text(largest_tolerance_voxels));
     for (std::size_t at = 0; at < joints_.size(); ++at)
       if (std::abs(header().home[static_cast<Eigen::Index>(at)] - cell_.rest[static_cast<std::size_t>(joints_[at])]) >
-          joint_slack)
+          home_slack)
         find("the header's home of joint " + header().joints[at] + " is not the cell's");
     return true;
   }

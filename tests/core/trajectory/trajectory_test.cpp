@@ -92,24 +92,45 @@ TEST(Trajectory, EachKeyframeIsInTheStreamAsSoonAsItIsAdded) {
   }
 }
 
-TEST(Rounded, IsWithinHalfANanoAndStaysWhatItIs) {
+TEST(Rounded, IsWithinHalfAQuantumAndStaysWhatItIs) {
   Random random(3);
   for (int n = 0; n < 100000; ++n) {
     const Configuration q = Configuration::Constant(1, random.between(-100, 100));
     const Configuration once = rounded(q);
-    EXPECT_NEAR(once[0], q[0], 0.5e-9 + 1e-14);
+    EXPECT_NEAR(once[0], q[0], 0.5e-7 + 1e-14);
     EXPECT_TRUE(same_bits(rounded(once), once));
   }
 }
 
-TEST(Rounded, TextHasAtMostNineDecimals) {
+TEST(Rounded, StaysWithinLimitsThatAreNoMultiples) {
+  Random random(5);
+  for (int n = 0; n < 100000; ++n) {
+    const double lower = random.between(-7, 7), upper = lower + random.between(1e-7, 2e-7);
+    const double value = n % 3 == 0 ? lower : n % 3 == 1 ? upper : random.between(lower, upper);
+    const auto one = [](double x) { return Configuration::Constant(1, x); };
+    const double stored = rounded(one(value), one(lower), one(upper))[0];
+    EXPECT_GE(stored, lower);
+    EXPECT_LE(stored, upper);
+    EXPECT_LT(std::abs(stored - value), 1e-7 + 1e-14);
+    EXPECT_EQ(rounded(one(stored))[0], stored);
+  }
+}
+
+TEST(Rounded, ALimitThatIsAMultipleCanBeReached) {
+  const auto one = [](double x) { return Configuration::Constant(1, x); };
+  EXPECT_EQ(rounded(one(-2.8973), one(-2.8973), one(2.8973))[0], -2.8973);
+  EXPECT_EQ(rounded(one(2.8973), one(-2.8973), one(2.8973))[0], 2.8973);
+  EXPECT_EQ(rounded(one(M_PI), one(-M_PI), one(M_PI))[0], 3.1415926);
+}
+
+TEST(Rounded, TextHasAtMostSevenDecimals) {
   Random random(4);
   const TrajectoryHeader header = sample_header();
   for (int n = 0; n < 1000; ++n) {
     const Keyframe keyframe{rounded(Configuration::Constant(3, random.between(1, 7))), false, {}, {}};
     const std::string text = write_text(header, {keyframe});
     const std::size_t at = text.find("\"q\":[") + 5;
-    EXPECT_LE(text.find(',', at) - at, 11u) << text.substr(at, 30);
+    EXPECT_LE(text.find(',', at) - at, 9u) << text.substr(at, 30);
   }
 }
 
