@@ -4,6 +4,7 @@
 
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
+#include "core/collision/clearance.hpp"
 #include "core/material/cavities.hpp"
 #include "core/motion/random_configuration.hpp"
 #include "core/motion/tool_axes.hpp"
@@ -12,11 +13,39 @@ namespace sculpt {
 namespace {
 
 constexpr int seeds_an_axis = 8;
+constexpr double holder_margin_m = 2e-4;  // what Scene keeps between links and material
+
+/// What of the tool's link is round about the tool's axis: its holder, wherever the joints turn it.
+std::vector<Body> find_holder(const Chain& chain) {
+  std::vector<Body> holder;
+  for (const Shape& shape : chain.robot().links[static_cast<std::size_t>(chain.tool_link())].shapes) {
+    if (shape.kind != ShapeKind::cylinder || !shape.pose.linear().isIdentity() ||
+        !shape.pose.translation().head<2>().isZero())
+      continue;
+    const Vec3 half(0, 0, shape.length_m / 2);
+    const Capsule hull{{shape.pose * Vec3(-half), shape.pose * half}, shape.radius_m};
+    holder.push_back({chain.tool_link(), true, {{shape, hull}}, hull});
+  }
+  return holder;
+}
+
+/// Ball, shank and holder with the ball at the voxel's centre; robot and spindle do not count.
+bool tool_fits(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, const Vec3& axis) {
+  const Vec3 ball = scene.grid().centre(voxel);
+  if (!scene.tool_fits({ball, axis}, voxel)) return false;
+  Frame link = Frame::Identity();
+  link.translation() = ball + scene.tool().stickout_m * axis;
+  link.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axis).toRotationMatrix();
+  return std::none_of(holder.begin(), holder.end(), [&](const Body& section) {
+    return near_material(section, link, scene.material(), scene.grid(), holder_margin_m);
+  });
+}
 
 /// The farthest that a tool axis gets at this voxel, from these starting points of IK.
-Reason explain_axis(const Scene& scene, Voxel voxel, const Vec3& axis, const std::vector<Configuration>& seeds) {
+Reason explain_axis(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, const Vec3& axis,
+                    const std::vector<Configuration>& seeds) {
   const Vec3 ball = scene.grid().centre(voxel);
-  if (!scene.tool_fits({ball, axis}, voxel)) return Reason::tool_cannot_reach;
+  if (!tool_fits(scene, holder, voxel, axis)) return Reason::tool_cannot_reach;
   Reason farthest = Reason::out_of_reach;
   for (const Configuration& seed : seeds) {
     if (const auto q = solve_ik(scene.chain(), {ball, axis}, seed)) {
@@ -31,12 +60,12 @@ Reason explain_axis(const Scene& scene, Voxel voxel, const Vec3& axis, const std
   return farthest;
 }
 
-Reason explain(const Scene& scene, Voxel voxel, std::uint64_t seed) {
+Reason explain(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, std::uint64_t seed) {
   Random random(mix(seed, scene.material().solid().index(voxel)));
   std::vector<Configuration> seeds;
   for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
   Reason farthest = Reason::tool_cannot_reach;
-  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, voxel, axis, seeds));
+  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, holder, voxel, axis, seeds));
   return farthest;
 }
 
@@ -65,6 +94,7 @@ const char* name(Reason reason) {
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
                                      const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
+  const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
   const int n = voxels.n();
   for (int k = 0; k < n; ++k)
@@ -73,7 +103,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
         const Voxel v{i, j, k};
         if (!scene.material().contains(v) || voxels.label(v) != Label::remove) continue;
         if (watch.stop.stop_requested()) throw Cancelled{};
-        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, v, seed)});
+        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, holder, v, seed)});
       }
   return residue;
 }

@@ -34,6 +34,18 @@ TEST(Residue, UnderARoofTheToolCannotReach) {
   EXPECT_EQ(residue[0].reason, Reason::tool_cannot_reach);
 }
 
+TEST(Residue, DownADeepShaftOnlyAToolWithoutHolderReaches) {
+  const auto reason_at = [](const char* cell, int bottom) {
+    VoxelSet keep(16, true);
+    for (int k = bottom; k < 16; ++k) keep.erase({8, 8, k});
+    const auto residue = explain(parse_cell(shipped_cell(cell)), keep, {8, 8, bottom});
+    return residue.size() == 1 ? name(residue[0].reason) : "none";
+  };
+  EXPECT_STREQ(reason_at("panda-turntable", 4), "no transit");
+  EXPECT_STREQ(reason_at("panda-turntable-6mm", 4), "tool cannot reach") << "144 mm down, the holder ends 80 mm above";
+  EXPECT_STREQ(reason_at("panda-turntable-6mm", 10), "no transit") << "69 mm down";
+}
+
 TEST(Residue, ShutInIsEnclosed) {
   VoxelSet keep(8, true);
   keep.erase({4, 4, 4});
