@@ -88,17 +88,19 @@ std::vector<MovingJoint> LinkMotion::joints_between(int from, int to) const {
   return moving;
 }
 
-// From the far end inwards: `moved` bounds the point's motion seen from beyond each joint; a turn by `step` about an
-// axis at distance d adds at most step * (d + moved), a shift adds step (cf. Schwarzer, Saha, Latombe, WAFR 2002).
+std::vector<double> lever_arms(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                               const Vec3& centre, double radius) {
+  std::vector<double> arms;
+  arms.reserve(joints.size());
+  for (const MovingJoint& joint : joints)
+    arms.push_back(joint.turns ? axis_distance(joint, poses, centre) + radius : 0);
+  return arms;
+}
+
 double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
                     const Vec3& centre, double radius) {
-  double moved = 0;
-  for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
-    const double step = std::abs(joint->rate * steps[joint->coordinate]);
-    if (step == 0) continue;
-    moved += joint->turns ? step * (axis_distance(*joint, poses, centre) + radius + moved) : step;
-  }
-  return moved;
+  return motion_limit(joints, lever_arms(joints, poses, centre, radius),
+                      [&](int coordinate) { return std::abs(steps[coordinate]); });
 }
 
 // The second derivative by two joints is the turn of the nearer one applied to the velocity that the farther one gives,

@@ -1,6 +1,7 @@
 // The replay's own kinematics: where every link is, and how far things move meanwhile. Millimetres, stock frame.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -46,8 +47,25 @@ class LinkMotion {
   std::vector<Step> steps_;
 };
 
-/// Bound on how far a point within `radius` of `centre` (fixed to the far end of `joints`) moves, seen from their near
-/// end, while each coordinate moves by no more than `steps` from where `poses` are.
+/// Distance of `centre` from the axis of each joint, grown by `radius`; 0 for joints that shift.
+std::vector<double> lever_arms(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                               const Vec3& centre, double radius);
+
+/// Bound on how far a point within the radius of the centre that `arms` were measured for (fixed to the far end of
+/// `joints`) moves, seen from their near end, while coordinate c moves by no more than `step_of(c)` from there.
+/// From the far end inwards: `moved` bounds the point's motion seen from beyond each joint; a turn by `step` about an
+/// axis at distance d adds at most step * (d + moved), a shift adds step (cf. Schwarzer, Saha, Latombe, WAFR 2002).
+template <typename StepOf>
+double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<double>& arms, StepOf&& step_of) {
+  double moved = 0;
+  for (std::size_t at = joints.size(); at-- > 0;) {
+    const double step = std::abs(joints[at].rate) * step_of(joints[at].coordinate);
+    moved += joints[at].turns ? step * (arms[at] + moved) : step;
+  }
+  return moved;
+}
+
+/// The same, from where `poses` are.
 double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
                     const Vec3& centre, double radius);
 

@@ -41,19 +41,15 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
              second_is_mesh = second != nullptr && second->kind == ShapeKind::mesh;
   if (first_is_mesh && second != nullptr && !second_is_mesh)
     return add_pair(*second, &first);  // the first one is grown, a mesh cannot
-  Pair pair{&first, second, {}, {}, first_is_mesh};
-  const int from = second == nullptr ? cell_.stock_link : second->link;
-  pair.joints = motion_.joints_between(from, first.link);
-  pair.back = motion_.joints_between(first.link, from);
-  if (second != nullptr && pair.joints.empty())
+  const Around around{first.link, first.pose.translation(), first.radius};
+  if (second == nullptr) {
+    pairs_.push_back({&first, nullptr, {motion_, around, {cell_.stock_link, Vec3::Zero(), -1}}, first_is_mesh});
+    return;
+  }
+  if (motion_.joints_between(second->link, first.link).empty())
     return;  // they never move against each other: the cell's matter, not the plan's
-  pairs_.push_back(std::move(pair));
-}
-
-double LinkReplay::approach_limit(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps) const {
-  const double limit = motion_limit(pair.joints, poses, steps, centre_of(*pair.first, poses), pair.first->radius);
-  if (pair.second == nullptr) return limit;
-  return std::min(limit, motion_limit(pair.back, poses, steps, centre_of(*pair.second, poses), pair.second->radius));
+  const Around other{second->link, second->pose.translation(), second->radius};
+  pairs_.push_back({&first, second, {motion_, around, other}, first_is_mesh});
 }
 
 double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
@@ -87,9 +83,9 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
   });
 }
 
-bool LinkReplay::unsettled(Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,
-                           const OnContact& on_contact) {
-  const double travel = approach_limit(pair, poses, steps);
+bool LinkReplay::unsettled(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,
+                           const OnContact& on_contact) const {
+  const double travel = pair.clearance.approach(poses, steps);
   if (!near(pair, poses, travel + slack_mm)) return false;
   const auto& links = cell_.robot.links;
   const std::string names =
@@ -106,7 +102,7 @@ bool LinkReplay::unsettled(Pair& pair, const std::vector<Frame>& poses, const Co
 }
 
 void LinkReplay::certify(const JointMotion& motion, double middle, double half, const std::vector<Pair*>& open,
-                         const OnContact& on_contact) {
+                         const OnContact& on_contact) const {
   std::vector<Frame> poses;
   motion_.place_links(motion.at(middle), poses);
   std::vector<Pair*> left;
@@ -117,37 +113,29 @@ void LinkReplay::certify(const JointMotion& motion, double middle, double half, 
   certify(motion, middle + half / 2, half / 2, left, on_contact);
 }
 
-void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, double travel) {
-  pair.clearance = std::max(0.0, sphere_gap(pair, poses));
-  for (double times : {64, 16, 4}) {
-    if (pair.clearance >= times * travel) return;
+// Where the motion ended. Worth its cost if it lasts for several motions as long as this one.
+void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, const JointMotion& motion) const {
+  KeptClearance& kept = pair.clearance;
+  kept.move_anchor(motion.at(1), poses);
+  const double travel = kept.approach(motion), gap = sphere_gap(pair, poses);
+  if (gap > 0) kept.prove(gap);
+  for (double times : {256, 64, 16, 4}) {
+    if (kept.proved() >= times * travel) return;
     if (near(pair, poses, times * travel + slack_mm)) continue;
-    pair.clearance = times * travel;
+    kept.prove(times * travel);
     return;
   }
 }
 
-void LinkReplay::forget() {
-  for (Pair& pair : pairs_) pair.clearance = 0;
-}
-
 void LinkReplay::replay(const JointMotion& motion, const OnContact& on_contact) {
-  if (motion.step.isZero(0)) return;
-  std::vector<Frame> poses;
-  motion_.place_links(motion.from, poses);
-  std::vector<std::pair<Pair*, double>> uncovered;  // with the travel over the whole motion
   std::vector<Pair*> open;
-  for (Pair& pair : pairs_) {
-    const double travel = approach_limit(pair, poses, motion.step);
-    pair.clearance -= travel;
-    if (pair.clearance >= 0) continue;
-    uncovered.emplace_back(&pair, travel);
-    open.push_back(&pair);
-  }
+  for (Pair& pair : pairs_)
+    if (pair.clearance.moved_by(motion) && !pair.clearance.covers(motion)) open.push_back(&pair);
   if (open.empty()) return;
   certify(motion, 0.5, 0.5, open, on_contact);
+  std::vector<Frame> poses;
   motion_.place_links(motion.at(1), poses);
-  for (const auto& [pair, travel] : uncovered) renew_clearance(*pair, poses, travel);
+  for (Pair* pair : open) renew_clearance(*pair, poses, motion);
 }
 
 }  // namespace sculpt

@@ -1,9 +1,17 @@
 #include "core/verify/standing_voxels.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "core/verify/solid_body.hpp"
 
 namespace sculpt {
 namespace {
+
+// Nothing as near to a voxel as this counts as clear of it.
+constexpr double edge_mm = 1e-6;
+constexpr int most_rows = 4096;
 
 // The tree's keys 32768 and up are its positive octant, so the material lies in one octant and its corner at 0.
 octomap::OcTreeKey key_of(Voxel v) {
@@ -17,6 +25,7 @@ octomap::OcTreeKey key_of(Voxel v) {
 StandingVoxels::StandingVoxels(const VoxelSet& standing, double voxel_mm)
     : voxels_(standing),
       count_(standing.size()),
+      voxel_mm_(voxel_mm),
       side_mm_(standing.n() * voxel_mm),
       tree_(std::make_shared<octomap::OcTree>(voxel_mm)) {
   const int n = standing.n();
@@ -38,9 +47,42 @@ void StandingVoxels::remove(Voxel v) {
   tree_->setNodeValue(key_of(v), tree_->getClampingThresMinLog(), false);
 }
 
+void StandingVoxels::put_back(Voxel v) {
+  if (voxels_.contains(v)) return;
+  voxels_.insert(v);
+  ++count_;
+  tree_->setNodeValue(key_of(v), tree_->getClampingThresMaxLog(), false);
+}
+
+// Looks at the bits of all voxels that the box touches, row by row. False also where that would take longer than the
+// walk through the tree.
+bool StandingVoxels::known_empty(const Vec3& low, const Vec3& high) const {
+  const int n = voxels_.n();
+  std::array<int, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(axis);
+    // In doubles: a joint that is far out gives numbers that no integer holds.
+    first[at] = static_cast<int>(std::clamp(std::floor((low[axis] - edge_mm) / voxel_mm_), 0.0, n - 1.0));
+    last[at] = static_cast<int>(std::clamp(std::floor((high[axis] + edge_mm) / voxel_mm_), 0.0, n - 1.0));
+  }
+  if ((last[1] - first[1] + 1) * (last[2] - first[2] + 1) > most_rows) return false;
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j) {
+      const std::size_t begin = voxels_.index({first[0], j, k}), end = voxels_.index({last[0], j, k});
+      for (std::size_t word = begin >> 6; word <= end >> 6; ++word) {
+        std::uint64_t bits = voxels_.words()[word];
+        if (word == begin >> 6) bits &= ~std::uint64_t{0} << (begin & 63);
+        if (word == end >> 6) bits &= ~std::uint64_t{0} >> (63 - (end & 63));
+        if (bits != 0) return false;
+      }
+    }
+  return true;
+}
+
 bool StandingVoxels::touches(const fcl::CollisionGeometryd& geometry, const Frame& pose, const Vec3& low,
                              const Vec3& high) const {
   if (count_ == 0 || (high.array() < 0).any() || (low.array() > side_mm_).any()) return false;
+  if (known_empty(low, high)) return false;
   return solids_touch(*solid_, Frame::Identity(), geometry, pose);
 }
 

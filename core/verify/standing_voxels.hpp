@@ -18,13 +18,18 @@ class StandingVoxels {
   double side_mm() const { return side_mm_; }
   bool contains(Voxel v) const { return voxels_.contains(v); }
   void remove(Voxel v);
-  /// `low`, `high`: any box around the placed geometry; it spares most calls the walk through the tree.
+  /// Undoes a removal.
+  void put_back(Voxel v);
+  /// `low`, `high`: any box that holds what the placed geometry stands for; where no voxel of that box stands, nothing
+  /// else is asked.
   bool touches(const fcl::CollisionGeometryd& geometry, const Frame& pose, const Vec3& low, const Vec3& high) const;
 
  private:
+  bool known_empty(const Vec3& low, const Vec3& high) const;
+
   VoxelSet voxels_;
   std::size_t count_;
-  double side_mm_;
+  double voxel_mm_, side_mm_;
   std::shared_ptr<octomap::OcTree> tree_;
   std::unique_ptr<fcl::OcTreed> solid_;
 };

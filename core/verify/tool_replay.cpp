@@ -31,16 +31,21 @@ ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& mot
       ball_(mm * tool.ball_radius_m),
       shank_(mm * tool.shank_radius_m),
       stickout_(mm * tool.stickout_m) {
+  const Around around{cell.tool_link, Vec3(0, 0, stickout_ / 2), stickout_ / 2 + std::max(ball_, shank_)};
   const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
+  const Around block{cell.stock_link, Vec3::Zero(), -1};
   targets_.push_back({nullptr, grid, cell.stock_link, motion.joints_between(cell.stock_link, cell.tool_link),
-                      Vec3::Zero(), Vec3::Constant(material.side_mm())});
+                      Vec3::Zero(), Vec3::Constant(material.side_mm()), KeptClearance(motion, around, block)});
   for (const SolidBody& body : bodies) {
-    Target target{&body, body.pose, body.link, motion.joints_between(body.link, cell.tool_link), -body.half, body.half};
+    const Around other{body.link, body.pose.translation(), body.radius};
+    Target target{&body,
+                  body.pose,
+                  body.link,
+                  motion.joints_between(body.link, cell.tool_link),
+                  -body.half,
+                  body.half,
+                  KeptClearance(motion, around, other)};
     if (!target.joints.empty()) targets_.push_back(std::move(target));  // else it moves with the tool
-  }
-  for (const Target& target : targets_) {
-    tasks_.push_back({&target, false});
-    if (shank_ > 0 && stickout_ > 0) tasks_.push_back({&target, true});
   }
 }
 
@@ -159,12 +164,35 @@ void ToolReplay::certify(const JointMotion& motion, double from, double to, cons
   certify(motion, t, to, middle, end, left, on_contact);
 }
 
-void ToolReplay::replay(const JointMotion& motion, const OnContact& on_contact) const {
+// Where the motion ended, of a capsule around ball and shank.
+void ToolReplay::renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const {
+  KeptClearance& kept = target.clearance;
+  kept.move_anchor(motion.at(1), poses);
+  const double travel = kept.approach(motion), thickest = std::max(ball_, shank_);
+  const Line line = line_in(target, poses);
+  for (double times : {256, 64, 16, 4}) {
+    if (ball_meets(target, line.ball, line.top, thickest - ball_ + times * travel + slack_mm)) continue;
+    kept.prove(times * travel);
+    return;
+  }
+}
+
+void ToolReplay::replay(const JointMotion& motion, const OnContact& on_contact) {
   if (motion.step.isZero(0)) return;
+  std::vector<Task> open;
+  std::vector<Target*> uncovered;
+  for (Target& target : targets_) {
+    const bool is_link = target.body != nullptr;
+    if (is_link && (!target.clearance.moved_by(motion) || target.clearance.covers(motion))) continue;
+    if (is_link) uncovered.push_back(&target);
+    open.push_back({&target, false});
+    if (shank_ > 0 && stickout_ > 0) open.push_back({&target, true});
+  }
   std::vector<Frame> start, end;
   motion_.place_links(motion.from, start);
   motion_.place_links(motion.at(1), end);
-  certify(motion, 0, 1, start, end, tasks_, on_contact);
+  certify(motion, 0, 1, start, end, open, on_contact);
+  for (Target* target : uncovered) renew_clearance(*target, end, motion);
 }
 
 }  // namespace sculpt

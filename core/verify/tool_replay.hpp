@@ -1,7 +1,7 @@
 // Ball and shank against material and links along a motion. Internal to verify/.
 #pragma once
 
-#include "core/verify/link_motion.hpp"
+#include "core/verify/kept_clearance.hpp"
 #include "core/verify/replay_finding.hpp"
 #include "core/verify/solid_body.hpp"
 #include "core/verify/standing_voxels.hpp"
@@ -9,7 +9,7 @@
 namespace sculpt {
 
 /// Millimetres. Where a link could be grown by its motion, the tool is swept instead: it may pass a wall at a twentieth
-/// of a voxel.
+/// of a voxel. A clearance from a link, once proved, spares it the motions that stay near.
 class ToolReplay {
  public:
   /// All arguments must outlive the replay.
@@ -17,7 +17,7 @@ class ToolReplay {
              const StandingVoxels& material, double voxel_mm);
 
   /// Tells at most one contact for each part of the tool and each thing it can touch.
-  void replay(const JointMotion& motion, const OnContact& on_contact) const;
+  void replay(const JointMotion& motion, const OnContact& on_contact);
 
   /// The ball's centre in the stock frame.
   Vec3 ball_at(const Configuration& q) const;
@@ -29,6 +29,7 @@ class ToolReplay {
     int link;
     std::vector<MovingJoint> joints;  // from the target to the tool
     Vec3 low, high;                   // box around it in its own frame
+    KeptClearance clearance;          // of the whole tool; not kept for the material
   };
   struct Task {
     const Target* target;
@@ -49,6 +50,7 @@ class ToolReplay {
   bool ball_meets(const Target& target, const Vec3& from, const Vec3& to, double grow) const;
   bool shank_meets(const Target& target, const Line& line, double grow, double longer) const;
   bool swept_shank_meets(const Target& target, const Sweep& sweep) const;
+  void renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const;
   Finding settle(const Task& task, const std::vector<Frame>& start, const std::vector<Frame>& middle,
                  const std::vector<Frame>& end, const Configuration& steps) const;
   void certify(const JointMotion& motion, double from, double to, const std::vector<Frame>& start,
@@ -59,7 +61,6 @@ class ToolReplay {
   const StandingVoxels& material_;
   double voxel_, ball_, shank_, stickout_;
   std::vector<Target> targets_;
-  std::vector<Task> tasks_;
 };
 
 }  // namespace sculpt

@@ -140,7 +140,7 @@ class Replay {
     const LinkMotion motion(cell_.robot, joints_, cell_.rest, cell_.stock_link);
     const std::vector<SolidBody> bodies = make_solid_bodies(cell_.robot);
     StandingVoxels material(voxels_.stock, voxel_mm);
-    const ToolReplay tool(cell_, make_tool(cell_.tool, grid.voxel_m), motion, bodies, material, voxel_mm);
+    ToolReplay tool(cell_, make_tool(cell_.tool, grid.voxel_m), motion, bodies, material, voxel_mm);
     LinkReplay links(cell_, motion, bodies, material, voxel_mm);
 
     find_broken_limits(header().home);
@@ -154,11 +154,10 @@ class Replay {
     verdict_.left = material.voxels();
   }
 
-  void replay_motion(const JointMotion& whole, const Keyframe& keyframe, const ToolReplay& tool, LinkReplay& links,
+  void replay_motion(const JointMotion& whole, const Keyframe& keyframe, ToolReplay& tool, LinkReplay& links,
                      StandingVoxels& material) {
     // Out of its limits a joint can be anywhere: the finding is made, and a replay could take for ever.
     const bool possible = within_limits(whole.from) && within_limits(keyframe.q);
-    if (!possible) links.forget();
     const int parts = std::max(1, run_length(keyframe));
     for (int part = 0; part < parts; ++part) {
       watch_.step(Stage::verify, reader_.line() - 2, std::max(lines_, reader_.line()) - 1);
