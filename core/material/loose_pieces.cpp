@@ -1,0 +1,121 @@
+#include "core/material/loose_pieces.hpp"
+
+#include <algorithm>
+
+#include "core/material/flood.hpp"
+
+namespace sculpt {
+namespace {
+
+/// From one voxel of the line to the next, from `from` to `to`.
+Voxel step_between(Voxel from, Voxel to) {
+  const auto sign = [](int value) { return (value > 0) - (value < 0); };
+  return {sign(to.i - from.i), sign(to.j - from.j), sign(to.k - from.k)};
+}
+
+/// Erases the voxels of `set` that face-connected paths inside it join to a neighbour of `start`; returns how many.
+std::uint64_t erase_beside(VoxelSet& set, Voxel start, std::vector<Voxel>& stack) {
+  const Grid bounds{set.n(), 1, Vec3::Zero()};
+  std::uint64_t erased = 0;
+  stack.assign(1, start);
+  while (!stack.empty()) {
+    const Voxel here = stack.back();
+    stack.pop_back();
+    for (Voxel step : face_steps) {
+      const Voxel beside = here + step;
+      if (!bounds.contains(beside) || !set.contains(beside)) continue;
+      set.erase(beside);
+      ++erased;
+      stack.push_back(beside);
+    }
+  }
+  return erased;
+}
+
+/// The carving run backwards: material comes back voxel by voxel. What is held then stays held, so a voxel turns from
+/// loose to held at most once, and all of it costs one flood.
+class Refill {
+ public:
+  explicit Refill(const VoxelSet& left)
+      : bounds_{left.n(), 1, Vec3::Zero()}, standing_(left), loose_(find_loose(left)) {
+    pieces_.most = loose_count_ = loose_.size();
+  }
+
+  void add(const VoxelLine& line, std::size_t number) {
+    const Voxel step = step_between(line.last, line.first);
+    const int steps = l1(line.first, line.last);
+    bool held = false;  // so is all that follows in the line: its neighbour is
+    for (int at = 0; at <= steps; ++at) {
+      const Voxel voxel = line.last + step * at;
+      standing_.insert(voxel);
+      held = held || is_held(voxel);
+      if (!held) {
+        loose_.insert(voxel);
+        pieces_.most = std::max(pieces_.most, ++loose_count_);
+      } else if (loose_count_ > 0) {
+        const std::uint64_t freed = erase_beside(loose_, voxel, stack_);
+        if (freed > 0) pieces_.loosenings.push_back({number, voxel, freed});
+        loose_count_ -= freed;
+      }
+    }
+  }
+
+  LoosePieces finish() {
+    pieces_.at_start = loose_count_;
+    std::reverse(pieces_.loosenings.begin(), pieces_.loosenings.end());
+    return std::move(pieces_);
+  }
+
+ private:
+  bool is_held(Voxel voxel) const {
+    if (voxel.k == 0) return true;
+    return std::any_of(face_steps.begin(), face_steps.end(), [&](Voxel step) {
+      const Voxel beside = voxel + step;
+      return bounds_.contains(beside) && standing_.contains(beside) && !loose_.contains(beside);
+    });
+  }
+
+  Grid bounds_;
+  VoxelSet standing_, loose_;
+  std::uint64_t loose_count_ = 0;
+  LoosePieces pieces_;
+  std::vector<Voxel> stack_;
+};
+
+}  // namespace
+
+VoxelSet find_loose(const VoxelSet& standing) {
+  VoxelSet loose = flood(standing, FloodFrom::floor);
+  for (std::size_t at = 0; at < loose.words().size(); ++at)
+    loose.words()[at] = standing.words()[at] & ~loose.words()[at];
+  return loose;
+}
+
+std::uint64_t count_pieces(const VoxelSet& voxels) {
+  VoxelSet rest = voxels;
+  const auto n = static_cast<std::size_t>(rest.n());
+  std::vector<Voxel> stack;
+  std::uint64_t pieces = 0;
+  for (std::size_t word = 0; word < rest.words().size(); ++word)
+    while (rest.words()[word] != 0) {
+      const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(rest.words()[word]));
+      const Voxel start{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
+      rest.erase(start);
+      erase_beside(rest, start, stack);
+      ++pieces;
+    }
+  return pieces;
+}
+
+LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines) {
+  VoxelSet left = stock;
+  for (const VoxelLine& line : lines) {
+    const Voxel step = step_between(line.first, line.last);
+    for (int at = l1(line.first, line.last); at >= 0; --at) left.erase(line.first + step * at);
+  }
+  Refill refill(left);
+  for (std::size_t number = lines.size(); number-- > 0;) refill.add(lines[number], number);
+  return refill.finish();
+}
+
+}  // namespace sculpt

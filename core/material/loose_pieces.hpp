@@ -1,0 +1,40 @@
+// Which pieces of material hang on nothing. The stock is clamped to the table from below: what a face-connected path of
+// standing voxels joins to layer k = 0 is held, everything else would fall.
+#pragma once
+
+#include <cstddef>
+
+#include "core/material/voxel_grid.hpp"
+
+namespace sculpt {
+
+/// The standing voxels that hang on nothing.
+VoxelSet find_loose(const VoxelSet& standing);
+
+/// Face-connected pieces of a set.
+std::uint64_t count_pieces(const VoxelSet& voxels);
+
+/// Voxels in a straight line along one axis, removed one after the other from `first` to `last`.
+struct VoxelLine {
+  Voxel first, last;
+};
+
+/// The removal of `removed` (of line number `line`) leaves `freed` voxels hanging on nothing that hung on something.
+struct Loosening {
+  std::size_t line;
+  Voxel removed;
+  std::uint64_t freed;
+};
+
+struct LoosePieces {
+  std::uint64_t at_start = 0;         ///< voxels that hang on nothing before the first removal
+  std::uint64_t most = 0;             ///< voxels that hang on nothing when most do, at the start and the end too
+  std::vector<Loosening> loosenings;  ///< in the order of removal; empty: nothing that was held is ever freed
+};
+
+/// What falls when `lines` are removed from `stock` in this order; each voxel is in `stock` and in one line. Counts
+/// what is never removed (keep, residue) and what is still to be removed, the rest of the same line included. Two
+/// grids of bits and about 5 ns a voxel.
+LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines);
+
+}  // namespace sculpt
