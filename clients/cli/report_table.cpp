@@ -40,6 +40,10 @@ void voxel_rows(std::string& table, const Json& report) {
   if (!report.contains("voxels")) return;
   const Json& voxels = report["voxels"];
   rows(table, voxels, {{"total", "voxels"}, {"air", "  air"}, {"keep", "  keep"}, {"remove", "  remove"}});
+  if (const auto loose = voxels.value("loose_keep", std::uint64_t{0}); loose > 0)
+    row(table, "  loose keep",
+        std::to_string(loose) + "  (warning: hangs on nothing and will fall; pieces: " +
+            voxels.value("loose_keep_pieces", Json()).dump() + ")");
   if (!voxels.contains("removed") || !voxels.contains("residue") || !voxels.contains("remove")) return;
   row(table, "  removed", percent(voxels["removed"], voxels["remove"]));
   row(table, "  residue", percent(voxels["residue"], voxels["remove"]));

@@ -5,7 +5,8 @@
 
 namespace sculpt {
 
-/// The remove voxels that no face-connected path of voxels outside `keep` joins to the outside of the grid. The floor (below k = 0) is no entrance.
+/// The remove voxels that no face-connected path of voxels outside `keep` joins to the outside of the grid. The floor
+/// (below k = 0) is no entrance.
 VoxelSet find_enclosed(const VoxelGrid& voxels);
 
 }  // namespace sculpt

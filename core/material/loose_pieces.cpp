@@ -36,8 +36,8 @@ std::uint64_t erase_beside(VoxelSet& set, Voxel start, std::vector<Voxel>& stack
 /// loose to held at most once, and all of it costs one flood.
 class Refill {
  public:
-  explicit Refill(const VoxelSet& left)
-      : bounds_{left.n(), 1, Vec3::Zero()}, standing_(left), loose_(find_loose(left)) {
+  explicit Refill(VoxelSet left)
+      : bounds_{left.n(), 1, Vec3::Zero()}, loose_(find_loose(left)), standing_(std::move(left)) {
     pieces_.most = loose_count_ = loose_.size();
   }
 
@@ -76,7 +76,7 @@ class Refill {
   }
 
   Grid bounds_;
-  VoxelSet standing_, loose_;
+  VoxelSet loose_, standing_;
   std::uint64_t loose_count_ = 0;
   LoosePieces pieces_;
   std::vector<Voxel> stack_;
@@ -113,7 +113,7 @@ LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine
     const Voxel step = step_between(line.first, line.last);
     for (int at = l1(line.first, line.last); at >= 0; --at) left.erase(line.first + step * at);
   }
-  Refill refill(left);
+  Refill refill(std::move(left));
   for (std::size_t number = lines.size(); number-- > 0;) refill.add(lines[number], number);
   return refill.finish();
 }

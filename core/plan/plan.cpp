@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "core/material/loose_pieces.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
@@ -119,6 +120,9 @@ void count_voxels(Report& report, const VoxelGrid& voxels, const Octree& octree)
   report.voxels.air = report.voxels.total - stock;
   report.voxels.keep = voxels.keep.size();
   report.voxels.remove = stock - report.voxels.keep;
+  const VoxelSet loose = find_loose(voxels.keep);
+  report.voxels.loose_keep = loose.size();
+  report.voxels.loose_keep_pieces = count_pieces(loose);
   report.octree.leaves = octree.leaves.size();
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) ++report.octree.remove_leaves;

@@ -49,6 +49,8 @@ struct Report {
   int resolution = 0, threads = 1;
   struct {
     std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0;
+    std::uint64_t loose_keep = 0;         ///< of keep: what hangs on nothing once all around it is gone
+    std::uint64_t loose_keep_pieces = 0;  ///< in how many pieces
   } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
   struct {

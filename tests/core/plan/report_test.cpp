@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/plan/plan.hpp"
+#include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {
 namespace {
@@ -18,6 +18,8 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"resolution\":",
                             "\"voxels\":{\"total\":",
                             "\"removed\":",
+                            "\"loose_keep\":",
+                            "\"loose_keep_pieces\":",
                             "\"residue\":[{\"reason\":\"tool cannot reach\",\"voxels\":3}]",
                             "\"octree\":{\"leaves\":",
                             "\"remove_leaves\":",
@@ -35,6 +37,18 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"collisions\":",
                             "\"voxels_checked\":"})
     EXPECT_NE(json.find(field), std::string::npos) << field << "\n" << json;
+}
+
+TEST(Report, KeepThatHangsOnNothingIsCounted) {
+  VoxelSet target(8);
+  for (int k = 0; k < 3; ++k) target.insert({1, 1, k});
+  for (int i = 4; i < 7; ++i) target.insert({i, 5, 5});
+  target.insert({2, 2, 3});  // touches the post along an edge only
+  const ScratchFile file;
+  const Report report = run_job(make_job(shipped_cell("gantry"), target), file.path(), {}).report;
+  EXPECT_EQ(report.voxels.keep, 7u);
+  EXPECT_EQ(report.voxels.loose_keep, 4u);
+  EXPECT_EQ(report.voxels.loose_keep_pieces, 2u);
 }
 
 TEST(Report, ResidueIsALineAVoxel) {
