@@ -14,7 +14,6 @@
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/progress_line.hpp"
 #include "clients/cpp/client.hpp"
-#include "core/trajectory/export.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
@@ -53,20 +52,10 @@ Json to_json(const VerifyOptions& options, const Verdict& verdict) {
           {"findings", findings}};
 }
 
-/// The trajectory as ndjson text, from either form.
-std::string read_trajectory(const std::string& path) {
-  std::string bytes = read_input(path, "trajectory");
-  if (extension_of(path) != "sct") return bytes;
-  std::istringstream sct(std::move(bytes));
-  std::ostringstream ndjson;
-  import_binary(sct, ndjson);
-  return std::move(ndjson).str();
-}
-
 int verify_file(const VerifyOptions& options) {
   if (options.mesh.empty() || options.robot.empty())
     throw Failure(exit_usage, "usage", options.subject + " is a file: say --mesh and --robot too, to replay it here");
-  const std::string trajectory = read_trajectory(options.subject);
+  const std::string trajectory = read_input(options.subject, "trajectory");
   Job job;
   job.mesh = read_mesh_file(options.mesh, "mesh");
   job.stock = read_stock(options.placement);
@@ -74,8 +63,8 @@ int verify_file(const VerifyOptions& options) {
   job.memory_cap_bytes = options.placement.memory_cap_bytes;
   const Cell cell = parse_cell(read_cell(options.robot));
   {
-    std::istringstream lines(trajectory);
-    job.resolution = options.resolution.value_or(TrajectoryReader(lines).header().grid.n);
+    std::istringstream in(trajectory);
+    job.resolution = options.resolution.value_or(TrajectoryReader(in).header().grid.n);
   }
 
   std::stop_source stop;
@@ -84,8 +73,8 @@ int verify_file(const VerifyOptions& options) {
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   check_resolution(job.resolution);
   const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
-  std::istringstream lines(trajectory);
-  const Verdict verdict = verify_trajectory(lines, cell, voxels, watch);
+  std::istringstream in(trajectory);
+  const Verdict verdict = verify_trajectory(in, cell, voxels, watch);
   progress.clear();
   return print_verdict(options, to_json(options, verdict));
 }

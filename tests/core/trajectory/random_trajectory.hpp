@@ -1,12 +1,15 @@
 // Made-up trajectories for the tests of this folder: valid lines, meaningless motion.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/base/random.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
@@ -41,10 +44,18 @@ inline double random_value(Random& random) {
   }
 }
 
-inline Keyframe random_keyframe(Random& random, const TrajectoryHeader& header) {
+// Multiples of the quantum of any size, with zeros among them.
+inline double random_stored_value(Random& random) {
+  const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % (most_quanta + 1);
+  return from_quanta(random.next() % 2 == 0 ? quanta : -quanta);
+}
+
+enum class Values { any, stored };
+
+inline Keyframe random_keyframe(Random& random, const TrajectoryHeader& header, Values values = Values::any) {
   Keyframe keyframe;
   keyframe.q.resize(header.home.size());
-  for (double& value : keyframe.q) value = random_value(random);
+  for (double& value : keyframe.q) value = values == Values::any ? random_value(random) : random_stored_value(random);
   keyframe.cut = random.next() % 2 == 0;
   if (!keyframe.cut) return keyframe;
   const int n = header.grid.n;
@@ -62,10 +73,39 @@ inline std::string write_text(const TrajectoryHeader& header, const std::vector<
   return out.str();
 }
 
-inline std::vector<Keyframe> random_keyframes(std::uint64_t seed, const TrajectoryHeader& header) {
+inline std::vector<Keyframe> random_keyframes(std::uint64_t seed, const TrajectoryHeader& header,
+                                              Values values = Values::any) {
   Random random(seed);
   std::vector<Keyframe> keyframes(random.next() % 200);
-  for (Keyframe& keyframe : keyframes) keyframe = random_keyframe(random, header);
+  for (Keyframe& keyframe : keyframes) keyframe = random_keyframe(random, header, values);
+  return keyframes;
+}
+
+// Rows to and fro with a keyframe every `spacing` voxels, layer after layer, joints moving as smoothly as those of an
+// arm do.
+inline std::vector<Keyframe> smooth_rows(const TrajectoryHeader& header, int layers, int spacing) {
+  std::vector<Keyframe> keyframes;
+  const int n = header.grid.n;
+  Voxel at{0, 0, n - 1};
+  const auto cut = [&](Voxel first, Voxel last) {
+    const Vec3 there = header.grid.centre(last);
+    Configuration q(header.home.size());
+    for (Eigen::Index joint = 0; joint < q.size(); ++joint)
+      q[joint] = std::sin(1.3 * there.x() + 0.4 * static_cast<double>(joint)) + std::cos(2.1 * there.y()) * there.z() +
+                 0.7 * there.y();
+    keyframes.push_back({rounded(q), true, first, last});
+    at = last;
+  };
+  cut(at, at);
+  int side = 1, onward = 1;
+  for (int layer = 0; layer < layers; ++layer, onward = -onward) {
+    if (layer > 0) cut(at + Voxel{0, 0, -1}, at + Voxel{0, 0, -1});
+    for (int row = 0; row < n; ++row, side = -side) {
+      if (row > 0) cut(at + Voxel{onward, 0, 0}, at + Voxel{onward, 0, 0});
+      for (int left = n - 1; left > 0; left -= spacing)
+        cut(at + Voxel{0, side, 0}, at + Voxel{0, side * std::min(left, spacing), 0});
+    }
+  }
   return keyframes;
 }
 
