@@ -5,27 +5,13 @@
 #include <istream>
 #include <ostream>
 
-#include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
+#include "core/trajectory/binary_frame.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/trajectory_source.hpp"
 
 namespace sculpt {
-namespace {
-
-// No line of a trajectory comes near: 64 joints take 2 KiB. It bounds the memory that hostile input can take.
-constexpr std::size_t longest_line = 1 << 20;
-
-std::string line_name(std::uint64_t line) {
-  return "trajectory line " + std::to_string(line);
-}
-
-[[noreturn]] void refuse(std::uint64_t line, const std::string& what) {
-  throw InputError("trajectory_invalid", line_name(line) + ": " + what + "; fetch or plan the trajectory again");
-}
-
-}  // namespace
-
 int run_length(const Keyframe& keyframe) {
   return keyframe.cut ? l1(keyframe.first, keyframe.last) + 1 : 0;
 }
@@ -99,75 +85,24 @@ TrajectoryEnd TrajectoryWriter::finish() {
 }
 
 struct TrajectoryReader::Impl {
-  explicit Impl(std::istream& stream) : in(stream), buffer(longest_line) {}
-
-  // The next line without its newline; empty optional at the end of the input.
-  std::optional<std::string_view> read() {
-    ++line;
-    in.getline(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    const auto taken = static_cast<std::size_t>(in.gcount());
-    if (in.eof() && taken == 0) return std::nullopt;
-    if (in.bad()) refuse(line, "the file cannot be read");
-    if (in.fail()) refuse(line, "longer than " + std::to_string(longest_line) + " bytes");
-    return std::string_view(buffer.data(), in.eof() ? taken : taken - 1);
-  }
-
-  void absorb(std::string_view text) {
-    hash.add(text);
-    hash.add("\n");
-  }
-
-  void check_end(const TrajectoryEnd& end) {
-    if (end.keyframes != keyframes)
-      refuse(line, "the end line counts " + std::to_string(end.keyframes) + " keyframes, there are " +
-                       std::to_string(keyframes));
-    if (end.removed != removed)
-      refuse(line, "the end line counts " + std::to_string(end.removed) + " removed voxels, there are " +
-                       std::to_string(removed));
-    if (end.sha256 != hash.hex()) refuse(line, "the hash does not match the lines before it");
-    if (read()) refuse(line, "there is text after the end line");
-  }
-
-  std::istream& in;
-  std::vector<char> buffer;
-  std::uint64_t line = 0;
-  std::uint64_t keyframes = 0, removed = 0;
-  bool finished = false;
-  Sha256 hash;
-  TrajectoryHeader header;
+  std::unique_ptr<TrajectorySource> source;
 };
 
-TrajectoryReader::TrajectoryReader(std::istream& in) : impl_(std::make_unique<Impl>(in)) {
-  const auto text = impl_->read();
-  if (!text) refuse(1, "the file is empty");
-  impl_->header = parse_header_line(*text, line_name(1));
-  impl_->absorb(*text);
-}
+TrajectoryReader::TrajectoryReader(std::istream& in)
+    : impl_(new Impl{in.peek() == binary_magic.front() ? open_binary(in) : open_text(in)}) {}
 
 TrajectoryReader::~TrajectoryReader() = default;
 
 const TrajectoryHeader& TrajectoryReader::header() const {
-  return impl_->header;
+  return impl_->source->header();
 }
 
 std::uint64_t TrajectoryReader::line() const {
-  return impl_->line;
+  return impl_->source->keyframes() + 1;  // the first line is the header
 }
 
 std::optional<Keyframe> TrajectoryReader::next() {
-  if (impl_->finished) return std::nullopt;
-  const auto text = impl_->read();
-  if (!text) refuse(impl_->line, "the end line is missing, the file is cut short");
-  TrajectoryLine line = parse_line(*text, impl_->header, line_name(impl_->line));
-  if (line.is_end) {
-    impl_->check_end(line.end);
-    impl_->finished = true;
-    return std::nullopt;
-  }
-  impl_->absorb(*text);
-  ++impl_->keyframes;
-  impl_->removed += static_cast<std::uint64_t>(run_length(line.keyframe));
-  return std::move(line.keyframe);
+  return impl_->source->next();
 }
 
 }  // namespace sculpt

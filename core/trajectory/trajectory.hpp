@@ -60,16 +60,17 @@ class TrajectoryWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads what TrajectoryWriter wrote, a keyframe at a time. Throws InputError `trajectory_invalid` with the line
-/// number, also for a missing end line, wrong counts or a wrong hash.
+/// Reads what TrajectoryWriter or BinaryWriter wrote, a keyframe at a time; it sees from the first byte which of them
+/// it was. Throws InputError `trajectory_invalid` with the line or byte, also for a missing end, wrong counts or a
+/// wrong hash.
 class TrajectoryReader {
  public:
   explicit TrajectoryReader(std::istream& in);
   ~TrajectoryReader();
   const TrajectoryHeader& header() const;
-  /// The next keyframe, or nothing after the end line was read and its counts and hash agreed.
+  /// The next keyframe, or nothing after the end was read and its counts and hash agreed.
   std::optional<Keyframe> next();
-  /// 1-based line of the keyframe that `next` gave last.
+  /// 1-based line of the keyframe that `next` gave last, in the text form.
   std::uint64_t line() const;
 
  private:
