@@ -8,12 +8,15 @@ As a module it is a connection that is used one call at a time:
         job = client.submit({"mesh": client.upload_file("head.stl"), "robot": "gantry", "resolution": 16})["job"]
         client.wait(job)
         print(client.call("job.report", job=job)["voxels"])
+and a reader of .sct trajectories:
+    header, *keyframes = sculpt.read_sct("head.sct")
 The protocol is described in proto/PROTOCOL.md.
 """
 
 import argparse
 import collections
 import hashlib
+import itertools
 import json
 import math
 import os
@@ -212,6 +215,164 @@ def find_mesh(reference, cell_folder, urdf_path, packages):
             return (folder / rest).read_bytes()
     raise Failure(REFUSED, "file_missing", f"mesh {reference} was not found: add \"packages\": {{\"{package}\": \"folder\"}} "
                   "to the cell file, or put the package's folder into ROS_PACKAGE_PATH")
+
+
+# Trajectories in the .sct form; docs/trajectory.md describes the bytes
+
+def read_sct(path):
+    """Yields the header and then each keyframe, as json.loads gives the lines of the .ndjson form.
+
+    Raises Failure (REFUSED) as soon as something does not fit; all is well only once the last keyframe was followed by no Failure.
+    """
+    with open(path, "rb") as file:
+        yield from SctReader(file)
+
+
+class SctReader:
+    """An .sct file from its start to its end, a segment at a time."""
+
+    def __init__(self, file):
+        self.file, self.hash, self.offset = file, hashlib.sha256(), 0
+
+    def __iter__(self):
+        header = self._read_preamble()
+        yield header
+        segments, keyframes, removed = [], 0, 0
+        while True:
+            offset, head = self.offset, self._take(1)
+            if head != b"\1":
+                break
+            segments.append((offset, keyframes, removed))
+            for keyframe in self._read_segment(head, header, removed):
+                yield keyframe
+                keyframes += 1
+                if keyframe["type"] == "cut":
+                    first, last = keyframe["voxels"]
+                    removed += 1 + sum(abs(b - a) for a, b in zip(first, last))
+        index = b"\2" + len(segments).to_bytes(4, "little")
+        index += b"".join(number.to_bytes(8, "little") for number in (*itertools.chain(*segments), keyframes, removed, offset))
+        if head + self._take(len(index) - 1) != index or self._take_number(4) != zlib.crc32(index):
+            self._refuse("the index does not fit the segments")
+        expected = self.hash.hexdigest().encode()
+        if self.file.read() != expected:
+            self._refuse("the hash does not match the bytes before it")
+
+    def _refuse(self, what):
+        raise Failure(REFUSED, "trajectory_invalid",
+                      f"binary trajectory byte {self.offset}: {what}; fetch or plan the trajectory again") from None
+
+    def _take(self, size):
+        data = self.file.read(size)
+        if len(data) != size:
+            self._refuse("the file is cut short")
+        self.hash.update(data)
+        self.offset += size
+        return data
+
+    def _take_number(self, size):
+        return int.from_bytes(self._take(size), "little")
+
+    def _read_preamble(self):
+        start = self._take(16)
+        if not start.startswith(b"SCULPTRJ\2\0\0\0"):
+            self._refuse("not an .sct file of version 2")
+        size = int.from_bytes(start[12:], "little")
+        if size > 1 << 20:
+            self._refuse("the header is too long")
+        line = self._take(size)
+        if self._take_number(4) != zlib.crc32(start + line):
+            self._refuse("the header's checksum is wrong")
+        try:
+            header = json.loads(line)
+            if isinstance(header["joints"], list) and isinstance(header["resolution"], int):
+                return header
+        except (ValueError, KeyError, TypeError):
+            pass
+        self._refuse("the header is not that of a trajectory")
+
+    def _read_segment(self, head, header, removed):
+        head += self._take(16)
+        count, first_removed, size = (int.from_bytes(head[a:b], "little") for a, b in ((1, 5), (5, 13), (13, 17)))
+        joints = len(header["joints"])
+        if not 1 <= count <= 4096 or size > count * (9 + 10 * joints) + 2 * joints or first_removed != removed:
+            self._refuse("a segment's head is wrong")
+        crc, body = self._take_number(4), self._take(size)
+        if crc != zlib.crc32(head + body):
+            self._refuse("the segment's checksum is wrong")
+        numbers = varints(body)
+        try:
+            cuts = read_tokens(numbers, count, header["resolution"])
+            columns = [read_column(numbers, count) for _ in range(joints)]
+        except (StopIteration, ValueError) as error:
+            self._refuse(str(error) or "the segment is too short for its keyframes")
+        if next(numbers, None) is not None:
+            self._refuse("there is more than the segment's keyframes need")
+        for q, voxels in zip(zip(*columns), cuts):
+            yield {"type": "cut", "q": list(q), "voxels": voxels} if voxels else {"type": "move", "q": list(q)}
+
+
+def varints(body):
+    value = shift = 0
+    for byte in body:
+        value |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            if value >> 64:
+                raise ValueError("a number has more than 64 bits")
+            yield value
+            value = shift = 0
+    if shift:
+        raise ValueError("a number does not end")
+
+
+def signed(varint):
+    return varint >> 1 ^ -(varint & 1)
+
+
+def read_tokens(numbers, count, resolution):
+    """First and last voxel of each cut, None of each move."""
+    end, direction, length, cuts = [0, 0, 0], 0, 1, []
+    for _ in range(count):
+        token = next(numbers)
+        if token == 0:
+            cuts.append(None)
+            continue
+        start = direction
+        if token > 1:
+            rest, start = divmod(token - 2, 7)
+            length, direction = rest // 6 + 1, rest % 6
+        first = [a + signed(next(numbers)) for a in end] if start == 6 else step(end, start, 1)
+        end = step(first, direction, length - 1)
+        if not all(0 <= index < resolution for index in first + end):
+            raise ValueError("a cut leaves the grid")
+        cuts.append([first, end])
+    return cuts
+
+
+def step(voxel, direction, count):
+    """The voxel `count` steps on in direction 0 to 5: -i +i -j +j -k +k."""
+    on = voxel[:]
+    on[direction // 2] += count if direction % 2 else -count
+    return on
+
+
+def read_column(numbers, count):
+    """The values of one joint, in rad or m."""
+    order, values = next(numbers), []
+    while len(values) < count:
+        values.append(signed(next(numbers)))
+        if values[-1] == 0:
+            zeros = next(numbers)
+            if zeros > count - len(values):
+                raise ValueError("a run of zeros is longer than the segment")
+            values += [0] * zeros
+    if order > 3:
+        raise ValueError("a joint's order of differences is no number from 0 to 3")
+    for _ in range(order):
+        values = list(itertools.accumulate(values))
+    if max(map(abs, values)) > 10**15:
+        raise ValueError("a joint value is out of range")
+    return [value / 10**7 for value in values]
 
 
 # Commands: each gets the parsed options and gives the exit code
