@@ -20,15 +20,24 @@ void KeptClearance::move_anchor(const Configuration& at, const std::vector<Frame
   }
 }
 
+double KeptClearance::approach(const Side& side, const JointMotion& motion) const {
+  return motion_limit(side.joints, side.arms, [&](int coordinate) {
+    const double start = motion.from[coordinate] - anchor_[coordinate];
+    return std::max(std::abs(start), std::abs(start + motion.step[coordinate]));
+  });
+}
+
 // What either one sees of the other bounds the approach; the smaller bound holds.
 double KeptClearance::approach(const JointMotion& motion) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Side& side : sides_)
-    least = std::min(least, motion_limit(side.joints, side.arms, [&](int coordinate) {
-                       const double start = motion.from[coordinate] - anchor_[coordinate];
-                       return std::max(std::abs(start), std::abs(start + motion.step[coordinate]));
-                     }));
+  for (const Side& side : sides_) least = std::min(least, approach(side, motion));
   return least;
+}
+
+bool KeptClearance::covers(const JointMotion& motion) const {
+  if (clearance_ <= 0) return false;
+  return std::any_of(sides_.begin(), sides_.end(),
+                     [&](const Side& side) { return approach(side, motion) <= clearance_; });
 }
 
 double KeptClearance::approach(const std::vector<Frame>& poses, const Configuration& steps) const {

@@ -32,7 +32,7 @@ class KeptClearance {
   double approach(const JointMotion& motion) const;
   /// The same, for coordinates that move by no more than `steps` from where `poses` are.
   double approach(const std::vector<Frame>& poses, const Configuration& steps) const;
-  bool covers(const JointMotion& motion) const { return clearance_ > 0 && approach(motion) <= clearance_; }
+  bool covers(const JointMotion& motion) const;
 
   /// Whether the motion moves one of the two against the other.
   bool moved_by(const JointMotion& motion) const;
@@ -43,6 +43,8 @@ class KeptClearance {
     std::vector<MovingJoint> joints;  // from the other thing to this one
     std::vector<double> arms;         // at the anchor
   };
+
+  double approach(const Side& side, const JointMotion& motion) const;
 
   std::vector<Side> sides_;
   Configuration anchor_;

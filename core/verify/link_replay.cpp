@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/collision/link_pairs.hpp"
-
 namespace sculpt {
 namespace {
 
@@ -26,11 +24,12 @@ bool joined_rigidly(const Robot& robot, int a, int b) {
 }  // namespace
 
 LinkReplay::LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
-                       const StandingVoxels& material, double voxel_mm)
+                       const std::vector<std::pair<int, int>>& link_pairs, const StandingVoxels& material,
+                       double voxel_mm)
     : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(voxel_mm) {
   for (const SolidBody& body : bodies)
     if (!joined_rigidly(cell.robot, cell.stock_link, body.link)) add_pair(body, nullptr);
-  for (const auto& [a, b] : find_link_pairs(cell.robot))
+  for (const auto& [a, b] : link_pairs)
     for (const SolidBody& first : bodies)
       for (const SolidBody& second : bodies)
         if (first.link == a && second.link == b) add_pair(first, &second);
@@ -125,6 +124,10 @@ void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, co
     kept.prove(times * travel);
     return;
   }
+}
+
+void LinkReplay::forget() {
+  for (Pair& pair : pairs_) pair.clearance.forget();
 }
 
 void LinkReplay::replay(const JointMotion& motion, const OnContact& on_contact) {

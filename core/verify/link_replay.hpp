@@ -1,6 +1,9 @@
 // Links against material and against each other along a motion. Internal to verify/.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "core/verify/kept_clearance.hpp"
 #include "core/verify/replay_finding.hpp"
 #include "core/verify/solid_body.hpp"
@@ -12,13 +15,16 @@ namespace sculpt {
 /// shrink between motions.
 class LinkReplay {
  public:
-  /// All arguments must outlive the replay.
+  /// All arguments but `link_pairs` (what must be kept apart) must outlive the replay.
   LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
-             const StandingVoxels& material, double voxel_mm);
+             const std::vector<std::pair<int, int>>& link_pairs, const StandingVoxels& material, double voxel_mm);
 
   /// Tells at most one contact a pair. Certified between its ends, except between two meshes and between a mesh and the
   /// material where their covers overlap: there they are tried each quarter of a voxel.
   void replay(const JointMotion& motion, const OnContact& on_contact);
+
+  /// Keeps no clearance from before.
+  void forget();
 
  private:
   struct Pair {

@@ -20,6 +20,50 @@ octomap::OcTreeKey key_of(Voxel v) {
           static_cast<octomap::key_type>(middle + v.k)};
 }
 
+// Full, empty or mixed: is every voxel of the cube like its first one?
+bool uniform(const VoxelSet& voxels, Voxel corner, int side) {
+  const bool first = voxels.contains(corner);
+  for (int k = 0; k < side; ++k)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i)
+        if (voxels.contains(corner + Voxel{i, j, k}) != first) return false;
+  return true;
+}
+
+// Built from the root: setting voxel by voxel would first make a node of every one.
+class BlockTree : public octomap::OcTree {
+ public:
+  BlockTree(const VoxelSet& voxels, double voxel_mm) : octomap::OcTree(voxel_mm) {
+    if (voxels.size() == 0) return;
+    root = new octomap::OcTreeNode;
+    ++tree_size;
+    size_changed = true;
+    root->setLogOdds(getClampingThresMaxLog());
+    // The first octant holds the material, at the corner towards the middle.
+    octomap::OcTreeNode* node = add_child(root, 7);
+    int side = 32768;
+    for (; side > voxels.n(); side /= 2) node = add_child(node, 0);
+    fill(node, voxels, {0, 0, 0}, side);
+  }
+
+ private:
+  octomap::OcTreeNode* add_child(octomap::OcTreeNode* node, unsigned int index) {
+    octomap::OcTreeNode* child = createNodeChild(node, index);
+    child->setLogOdds(getClampingThresMaxLog());
+    return child;
+  }
+
+  void fill(octomap::OcTreeNode* node, const VoxelSet& voxels, Voxel corner, int side) {
+    if (uniform(voxels, corner, side)) return;
+    const int half = side / 2;
+    for (int index = 0; index < 8; ++index) {
+      const Voxel at = corner + Voxel{index & 1, index >> 1 & 1, index >> 2 & 1} * half;
+      if (!voxels.contains(at) && uniform(voxels, at, half)) continue;
+      fill(add_child(node, static_cast<unsigned int>(index)), voxels, at, half);
+    }
+  }
+};
+
 }  // namespace
 
 StandingVoxels::StandingVoxels(const VoxelSet& standing, double voxel_mm)
@@ -27,16 +71,8 @@ StandingVoxels::StandingVoxels(const VoxelSet& standing, double voxel_mm)
       count_(standing.size()),
       voxel_mm_(voxel_mm),
       side_mm_(standing.n() * voxel_mm),
-      tree_(std::make_shared<octomap::OcTree>(voxel_mm)) {
-  const int n = standing.n();
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        if (voxels_.contains({i, j, k})) tree_->setNodeValue(key_of({i, j, k}), tree_->getClampingThresMaxLog(), true);
-  tree_->updateInnerOccupancy();
-  tree_->prune();
-  solid_ = std::make_unique<fcl::OcTreed>(tree_);
-}
+      tree_(std::make_shared<BlockTree>(standing, voxel_mm)),
+      solid_(std::make_unique<fcl::OcTreed>(tree_)) {}
 
 // The node becomes a free one and merges with free neighbours. (octomap 1.9's deleteNode leaves empty child arrays
 // behind, and a root without children would count as one huge occupied leaf.)

@@ -164,6 +164,41 @@ void ToolReplay::certify(const JointMotion& motion, double from, double to, cons
   certify(motion, t, to, middle, end, left, on_contact);
 }
 
+// What still stands of the run lies beyond the plane between the voxel being cut and the next one.
+bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxel last, double tolerance_mm) const {
+  const Target& material = targets_.front();
+  const auto point = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
+  const int parts = l1(first, last) + 1;
+  const Vec3 way = point(last - first) / (parts - 1);
+  std::vector<Frame> poses;
+  motion_.place_links(motion.at(0.5), poses);
+  const Frame tool = poses[static_cast<std::size_t>(cell_.tool_link)];
+  const auto bend_at = [&](const Vec3& at) { return bend_limit(material.joints, poses, motion.step / 2, at); };
+  const double whole_bend = std::max(bend_at(tool * Vec3(0, 0, stickout_)), bend_at(tool.translation()));
+  const double room =
+      whole_bend / (parts * parts) + slack_mm;  // a part has the same second derivative, and 1/n the time
+
+  std::vector<Frame> ends;
+  motion_.place_links(motion.from, ends);
+  Line before = line_in(material, ends);
+  for (int part = 0; part < parts; ++part) {
+    motion_.place_links(motion.at(static_cast<double>(part + 1) / parts), ends);
+    const Line after = line_in(material, ends);
+    const Vec3 centre = voxel_ * (point(first) + part * way + Vec3::Constant(0.5));
+    if (!((after.ball - centre).norm() <= tolerance_mm)) return false;
+    const double ball = std::max(way.dot(before.ball), way.dot(after.ball));
+    const double shank = std::max({ball, way.dot(before.top), way.dot(after.top)});
+    const double reach = std::max(ball + ball_, shank + shank_) + room;
+    if (part + 1 < parts && !(reach <= way.dot(centre) + voxel_ / 2)) return false;
+    before = after;
+  }
+  return true;
+}
+
+void ToolReplay::forget() {
+  for (Target& target : targets_) target.clearance.forget();
+}
+
 // Where the motion ended, of a capsule around ball and shank.
 void ToolReplay::renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const {
   KeptClearance& kept = target.clearance;

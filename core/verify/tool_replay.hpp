@@ -19,6 +19,13 @@ class ToolReplay {
   /// Tells at most one contact for each part of the tool and each thing it can touch.
   void replay(const JointMotion& motion, const OnContact& on_contact);
 
+  /// Whether this is proved of a cut of a straight run, of two voxels or more: it removes each within the tolerance
+  /// of its centre, and until then stays clear of it. Only ends and planes between the voxels are looked at.
+  bool keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxel last, double tolerance_mm) const;
+
+  /// Keeps no clearance from before.
+  void forget();
+
   /// The ball's centre in the stock frame.
   Vec3 ball_at(const Configuration& q) const;
 

@@ -1,0 +1,179 @@
+#include "core/verify/piece_replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/collision/link_pairs.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t listed_findings = 100;
+constexpr double joint_slack = 1e-9;
+constexpr double length_slack_m = 1e-9;
+
+std::string text(Voxel v) {
+  return "(" + std::to_string(v.i) + ", " + std::to_string(v.j) + ", " + std::to_string(v.k) + ")";
+}
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+// The voxels of a cut, in order.
+std::vector<Voxel> run_of(const Keyframe& keyframe) {
+  const auto sign = [](int value) { return (value > 0) - (value < 0); };
+  const Voxel run = keyframe.last - keyframe.first, way{sign(run.i), sign(run.j), sign(run.k)};
+  std::vector<Voxel> voxels;
+  for (int part = 0; part < run_length(keyframe); ++part) voxels.push_back(keyframe.first + way * part);
+  return voxels;
+}
+
+}  // namespace
+
+ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, const TrajectoryHeader& the_header,
+                         std::vector<int> the_joints)
+    : cell(the_cell),
+      voxels(the_voxels),
+      header(the_header),
+      joints(std::move(the_joints)),
+      grid(cell.grid(voxels.n())),
+      tool(make_tool(cell.tool, grid.voxel_m)),
+      motion(cell.robot, joints, cell.rest, cell.stock_link),
+      bodies(make_solid_bodies(cell.robot)),
+      link_pairs(find_link_pairs(cell.robot)) {}
+
+void PieceFindings::find(std::uint64_t line, std::string sentence) {
+  ++collisions;
+  if (findings.size() < listed_findings) findings.push_back({line, std::move(sentence)});
+}
+
+void PieceFindings::add(PieceFindings&& next) {
+  collisions += next.collisions;
+  voxels_checked += next.voxels_checked;
+  for (Finding& finding : next.findings)
+    if (findings.size() < listed_findings) findings.push_back(std::move(finding));
+}
+
+void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::uint64_t line, PieceFindings& found) {
+  for (std::size_t at = 0; at < scene.joints.size(); ++at) {
+    const Joint& joint = scene.cell.robot.joints[static_cast<std::size_t>(scene.joints[at])];
+    const double value = q[static_cast<Eigen::Index>(at)];
+    if (value < joint.lower - joint_slack || value > joint.upper + joint_slack)
+      found.find(line, "joint " + joint.name + " at " + text(value) + " is outside its limits " + text(joint.lower) +
+                           " to " + text(joint.upper));
+  }
+}
+
+PieceReplay::PieceReplay(const ReplayScene& scene)
+    : scene_(scene),
+      voxel_mm_(1000 * scene.grid.voxel_m),
+      material_(scene.voxels.stock, voxel_mm_),
+      tool_(scene.cell, scene.tool, scene.motion, scene.bodies, material_, voxel_mm_),
+      links_(scene.cell, scene.motion, scene.bodies, scene.link_pairs, material_, voxel_mm_) {}
+
+void PieceReplay::skip(const TrajectoryPiece& piece) {
+  for (const Keyframe& keyframe : piece.keyframes)
+    for (const Voxel voxel : run_of(keyframe)) material_.remove(voxel);
+}
+
+PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::function<void()>& step) {
+  found_ = {};
+  step_ = &step;
+  line_ = piece.first_line;
+  // What this worker proved before depends on which pieces it got.
+  links_.forget();
+  tool_.forget();
+  const Configuration* from = &piece.from;
+  for (const Keyframe& keyframe : piece.keyframes) {
+    find_broken_limits(scene_, keyframe.q, line_, found_);
+    replay_keyframe(*from, keyframe);
+    from = &keyframe.q;
+    ++line_;
+  }
+  return std::move(found_);
+}
+
+bool PieceReplay::within_limits(const Configuration& q) const {
+  for (std::size_t at = 0; at < scene_.joints.size(); ++at) {
+    const Joint& joint = scene_.cell.robot.joints[static_cast<std::size_t>(scene_.joints[at])];
+    const double value = q[static_cast<Eigen::Index>(at)];
+    if (value < joint.lower - joint_slack || value > joint.upper + joint_slack) return false;
+  }
+  return true;
+}
+
+void PieceReplay::replay_keyframe(const Configuration& from, const Keyframe& keyframe) {
+  // Out of its limits a joint can be anywhere: the finding is made, and a replay could take for ever.
+  const bool possible = within_limits(from) && within_limits(keyframe.q);
+  const JointMotion whole{from, keyframe.q - from};
+  if (possible && run_length(keyframe) > 1) {
+    (*step_)();
+    if (run_is_free(whole, keyframe)) return;
+  }
+  replay_parts(whole, keyframe, possible);
+}
+
+// A run of voxels at once. The links are tried against all of it, the tool against what is left of the material after
+// it; in between, the tool must keep off what it has yet to cut. Where this cannot be proved nothing is said: the parts
+// of the run then decide.
+bool PieceReplay::run_is_free(const JointMotion& motion, const Keyframe& keyframe) {
+  const std::vector<Voxel> run = run_of(keyframe);
+  for (const Voxel voxel : run)
+    if (scene_.voxels.label(voxel) != Label::remove || !material_.contains(voxel)) return false;
+  if (!tool_.keeps_off_the_rest(motion, keyframe.first, keyframe.last, 1000 * scene_.header.tolerance_m)) return false;
+  bool free = true;
+  const auto on_contact = [&free](const std::string&, double) { free = false; };
+  links_.replay(motion, on_contact);
+  if (!free) return false;
+  for (const Voxel voxel : run) material_.remove(voxel);
+  tool_.replay(motion, on_contact);
+  if (free) {
+    found_.voxels_checked += run.size();
+  } else {
+    for (const Voxel voxel : run) material_.put_back(voxel);
+  }
+  return free;
+}
+
+void PieceReplay::replay_parts(const JointMotion& whole, const Keyframe& keyframe, bool possible) {
+  const std::vector<Voxel> run = run_of(keyframe);
+  const std::size_t parts = std::max<std::size_t>(1, run.size());
+  for (std::size_t part = 0; part < parts; ++part) {
+    (*step_)();
+    const double begin = static_cast<double>(part) / static_cast<double>(parts),
+                 end = static_cast<double>(part + 1) / static_cast<double>(parts);
+    const JointMotion motion{whole.at(begin), whole.at(end) - whole.at(begin)};
+    const auto on_contact = [&](const std::string& what, double t) {
+      find(what + " at " + text(100 * (begin + t * (end - begin))) + " % of the motion to this keyframe");
+    };
+    if (possible)
+      links_.replay(motion, on_contact);  // links may not even touch the voxel that the tool is about to cut
+    if (keyframe.cut) remove_voxel(run[part], whole.at(end));
+    if (possible) tool_.replay(motion, on_contact);
+  }
+}
+
+void PieceReplay::remove_voxel(Voxel voxel, const Configuration& q) {
+  ++found_.voxels_checked;
+  const double miss_m = (tool_.ball_at(q) / 1000 - scene_.grid.centre(voxel)).norm();
+  if (!(miss_m <= scene_.header.tolerance_m + length_slack_m))
+    find("the ball is " + text(miss_m / scene_.header.grid.voxel_m) + " voxels from the centre of voxel " +
+         text(voxel) + " that it removes");
+  switch (scene_.voxels.label(voxel)) {
+    case Label::air:
+      find("voxel " + text(voxel) + " is removed but was air from the start");
+      break;
+    case Label::keep:
+      find("voxel " + text(voxel) + " is removed but belongs to the target");
+      break;
+    case Label::remove:
+      if (!material_.contains(voxel)) find("voxel " + text(voxel) + " is removed a second time");
+  }
+  material_.remove(voxel);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,75 @@
+// A piece of a trajectory -> what is wrong with it. Internal to verify/.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/material/voxel_grid.hpp"
+#include "core/verify/link_replay.hpp"
+#include "core/verify/tool_replay.hpp"
+#include "core/verify/trajectory_pieces.hpp"
+#include "core/verify/verify.hpp"
+
+namespace sculpt {
+
+/// What all workers of a replay share; nobody changes it.
+struct ReplayScene {
+  ReplayScene(const Cell& cell, const VoxelGrid& voxels, const TrajectoryHeader& header, std::vector<int> joints);
+
+  const Cell& cell;
+  const VoxelGrid& voxels;
+  const TrajectoryHeader& header;
+  std::vector<int> joints;  ///< robot joint of each coordinate
+  Grid grid;                ///< of the cell, not of the header
+  Tool tool;
+  LinkMotion motion;
+  std::vector<SolidBody> bodies;
+  std::vector<std::pair<int, int>> link_pairs;
+};
+
+/// Findings of one piece.
+struct PieceFindings {
+  std::uint64_t collisions = 0, voxels_checked = 0;
+  std::vector<Finding> findings;  ///< the first 100
+
+  void find(std::uint64_t line, std::string sentence);
+  /// Those of the piece after.
+  void add(PieceFindings&& next);
+};
+
+/// Finds the joints of `q` outside their limits.
+void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::uint64_t line, PieceFindings& found);
+
+/// A worker with a material of its own. Not shared between threads.
+class PieceReplay {
+ public:
+  /// The scene must outlive this.
+  explicit PieceReplay(const ReplayScene& scene);
+
+  /// Applies the removals of a piece that somebody else replays.
+  void skip(const TrajectoryPiece& piece);
+
+  /// `step` is called before every motion or part of one; what it throws passes through.
+  PieceFindings replay(const TrajectoryPiece& piece, const std::function<void()>& step);
+
+  const VoxelSet& left() const { return material_.voxels(); }
+
+ private:
+  bool within_limits(const Configuration& q) const;
+  void replay_keyframe(const Configuration& from, const Keyframe& keyframe);
+  bool run_is_free(const JointMotion& motion, const Keyframe& keyframe);
+  void replay_parts(const JointMotion& whole, const Keyframe& keyframe, bool possible);
+  void remove_voxel(Voxel voxel, const Configuration& q);
+  void find(std::string sentence) { found_.find(line_, std::move(sentence)); }
+
+  const ReplayScene& scene_;
+  double voxel_mm_;
+  StandingVoxels material_;
+  ToolReplay tool_;
+  LinkReplay links_;
+  PieceFindings found_;
+  std::uint64_t line_ = 0;
+  const std::function<void()>* step_ = nullptr;
+};
+
+}  // namespace sculpt
