@@ -1,6 +1,7 @@
 // A tool with a holder, from the cell file to the replay.
 #include <gtest/gtest.h>
 
+#include "core/collision/body.hpp"
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"
@@ -24,6 +25,34 @@ VoxelSet shaft() {
     for (int j : {7, 8})
       for (int i : {7, 8}) target.erase({i, j, k});
   return target;
+}
+
+TEST(Holder, NeverComesNearTheLinkBeforeTheLastJointWhichIsNotCheckedAgainstIt) {
+  const Cell cell = parse_cell(shipped_cell("panda-turntable-6mm"));
+  const Chain chain = cell.chain();
+  const auto bodies = make_bodies(cell, make_tool(cell.tool, 0.0125));
+  const int link6 = cell.robot.find_link("link6");
+  Configuration q = cell.home(chain);
+  int compared = 0;
+  for (q[chain.dof() - 1] = -2.8; q[chain.dof() - 1] < 2.8; q[chain.dof() - 1] += 0.2) {
+    std::vector<Frame> at;
+    chain.link_poses(q, at);
+    const auto placed = [&](const Body& body, const Segment& line) {
+      const Frame& pose = at[static_cast<std::size_t>(body.link)];
+      return Segment{pose * line.a, pose * line.b};
+    };
+    for (const Body& holder : bodies)
+      for (const Body& link : bodies) {
+        if (holder.link != cell.tool_link || holder.tool || link.link != link6) continue;
+        for (const Piece& a : holder.pieces)
+          for (const Piece& b : link.pieces) {
+            const double gap_m = distance(placed(holder, a.hull.core), placed(link, b.hull.core));
+            EXPECT_GT(gap_m - a.hull.radius_m - b.hull.radius_m, 0.01);
+            ++compared;
+          }
+      }
+  }
+  EXPECT_GT(compared, 100);
 }
 
 TEST(Holder, BustIsCarvedWithTheSixMillimetreTool) {
