@@ -1,11 +1,13 @@
 // sculpt verify: a job by its server, or a file by the replay in this process.
 #include "core/verify/verify.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <thread>
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -24,6 +26,7 @@ struct VerifyOptions {
   std::string subject;  ///< a job or a file
   std::string mesh, robot;
   std::optional<int> resolution;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool json = false;
   PlacementOptions placement;
 };
@@ -52,20 +55,27 @@ Json to_json(const VerifyOptions& options, const Verdict& verdict) {
           {"findings", findings}};
 }
 
+/// A plan of a fine block is long: it is read from the file as it is needed.
+std::unique_ptr<std::istream> open_trajectory(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored))
+    if (auto file = std::make_unique<std::ifstream>(path, std::ios::binary); *file) return file;
+  return std::make_unique<std::istringstream>(read_input(path, "trajectory"));  // a pipe, or says what is wrong
+}
+
 int verify_file(const VerifyOptions& options) {
   if (options.mesh.empty() || options.robot.empty())
     throw Failure(exit_usage, "usage", options.subject + " is a file: say --mesh and --robot too, to replay it here");
-  const std::string trajectory = read_input(options.subject, "trajectory");
+  const std::unique_ptr<std::istream> trajectory = open_trajectory(options.subject);
   Job job;
   job.mesh = read_mesh_file(options.mesh, "mesh");
   job.stock = read_stock(options.placement);
   job.placement = to_placement(options.placement);
   job.memory_cap_bytes = options.placement.memory_cap_bytes;
   const Cell cell = parse_cell(read_cell(options.robot));
-  {
-    std::istringstream in(trajectory);
-    job.resolution = options.resolution.value_or(TrajectoryReader(in).header().grid.n);
-  }
+  job.resolution = options.resolution.value_or(TrajectoryReader(*trajectory).header().grid.n);
+  trajectory->clear();
+  trajectory->seekg(0);
 
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
@@ -73,8 +83,7 @@ int verify_file(const VerifyOptions& options) {
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   check_resolution(job.resolution);
   const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
-  std::istringstream in(trajectory);
-  const Verdict verdict = verify_trajectory(in, cell, voxels, watch);
+  const Verdict verdict = verify_trajectory(*trajectory, cell, voxels, watch, options.threads);
   progress.clear();
   return print_verdict(options, to_json(options, verdict));
 }
@@ -107,6 +116,10 @@ void add_verify(CLI::App& app, Invocation& invocation) {
   command.add_option("--robot", options->robot, "FILE only: the cell that it was planned for")->type_name("CELL");
   command.add_option("--resolution", options->resolution, "FILE only: default is what the file's header says")
       ->type_name("N");
+  command.add_option("--threads", options->threads, "FILE only: worker threads; the verdict is the same at any number")
+      ->type_name("T")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   command.add_flag("--json", options->json, "Print the verdict as one JSON document");
   add_placement_options(command, options->placement);
   add_memory_cap(command, options->placement.memory_cap_bytes);
