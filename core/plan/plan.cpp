@@ -149,7 +149,7 @@ void count_residue(Report& report, const std::vector<Residue>& residue) {
 void replay(Report& report, const std::filesystem::path& trajectory, const Cell& cell, const VoxelGrid& voxels,
             const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
-  const Verdict verdict = verify_trajectory(in, cell, voxels, watch);
+  const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads);
   report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
