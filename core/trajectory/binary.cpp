@@ -67,7 +67,7 @@ BinaryWriter::BinaryWriter(std::ostream& out, const TrajectoryHeader& header)
 BinaryWriter::~BinaryWriter() = default;
 
 void BinaryWriter::add(const Keyframe& keyframe) {
-  if (keyframe.cut)
+  if (keyframe.cut && !is_run(keyframe, impl_->grid))
     check_run(keyframe, impl_->grid, "keyframe " + std::to_string(impl_->keyframes + impl_->pending.size()));
   impl_->pending.push_back(keyframe);
   if (impl_->pending.size() == most_segment_keyframes) impl_->end_segment();

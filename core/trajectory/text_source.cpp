@@ -3,6 +3,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
+#include "core/trajectory/plain_line.hpp"
 #include "core/trajectory/trajectory_line.hpp"
 #include "core/trajectory/trajectory_source.hpp"
 
@@ -33,15 +34,19 @@ class TextSource : public TrajectorySource {
     if (finished_) return std::nullopt;
     const auto text = read();
     if (!text) refuse(line_, "the end line is missing, the file is cut short");
-    TrajectoryLine line = parse_line(*text, header_, line_name(line_));
-    if (line.is_end) {
-      check_end(line.end);
-      finished_ = true;
-      return std::nullopt;
+    auto keyframe = read_plain_line(*text, header_);
+    if (!keyframe) {
+      TrajectoryLine line = parse_line(*text, header_, line_name(line_));
+      if (line.is_end) {
+        check_end(line.end);
+        finished_ = true;
+        return std::nullopt;
+      }
+      keyframe = std::move(line.keyframe);
     }
     absorb(*text);
-    count(line.keyframe);
-    return std::move(line.keyframe);
+    count(*keyframe);
+    return keyframe;
   }
 
  private:

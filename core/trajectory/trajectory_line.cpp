@@ -225,11 +225,17 @@ TrajectoryHeader parse_header_line(std::string_view text, const std::string& whe
   return header;
 }
 
-void check_run(const Keyframe& keyframe, const Grid& grid, const std::string& where) {
-  if (!grid.contains(keyframe.first) || !grid.contains(keyframe.last))
-    refuse(where, "a voxel is outside the grid of " + std::to_string(grid.n));
+bool is_run(const Keyframe& keyframe, const Grid& grid) {
   const Voxel run = keyframe.last - keyframe.first;
-  if ((run.i != 0) + (run.j != 0) + (run.k != 0) > 1) refuse(where, "the voxels of a cut do not lie along one axis");
+  return grid.contains(keyframe.first) && grid.contains(keyframe.last) &&
+         (run.i != 0) + (run.j != 0) + (run.k != 0) <= 1;
+}
+
+void check_run(const Keyframe& keyframe, const Grid& grid, const std::string& where) {
+  if (is_run(keyframe, grid)) return;
+  if (grid.contains(keyframe.first) && grid.contains(keyframe.last))
+    refuse(where, "the voxels of a cut do not lie along one axis");
+  refuse(where, "a voxel is outside the grid of " + std::to_string(grid.n));
 }
 
 TrajectoryLine parse_line(std::string_view text, const TrajectoryHeader& header, const std::string& where) {

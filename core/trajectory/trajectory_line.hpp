@@ -31,7 +31,9 @@ struct TrajectoryLine {
 TrajectoryHeader parse_header_line(std::string_view text, const std::string& where);
 TrajectoryLine parse_line(std::string_view text, const TrajectoryHeader& header, const std::string& where);
 
-/// Throws unless the run lies in the grid along one axis.
+/// Does the run lie in the grid along one axis?
+bool is_run(const Keyframe& keyframe, const Grid& grid);
+/// Throws unless it does.
 void check_run(const Keyframe& keyframe, const Grid& grid, const std::string& where);
 
 }  // namespace sculpt

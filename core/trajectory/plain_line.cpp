@@ -1,0 +1,93 @@
+#include "core/trajectory/plain_line.hpp"
+
+#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/trajectory_line.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int fraction_digits = 7, most_whole_digits = 8;
+static_assert(quanta_per_unit == 1e7);
+
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : rest_(text) {}
+
+  bool skip(std::string_view text) {
+    if (!rest_.starts_with(text)) return false;
+    rest_.remove_prefix(text.size());
+    return true;
+  }
+
+  bool at_end() const { return rest_.empty(); }
+
+  // A decimal with up to 7 digits after the point: a multiple of the quantum.
+  bool read_value(double& value) {
+    const bool negative = skip("-");
+    std::int64_t quanta = 0;
+    if (!read_whole(most_whole_digits, quanta)) return false;
+    int digits = 0;
+    if (skip(".")) {
+      for (; digits < fraction_digits && next_is_digit(); ++digits) quanta = 10 * quanta + take_digit();
+      if (digits == 0) return false;
+    }
+    for (; digits < fraction_digits; ++digits) quanta *= 10;
+    if (negative && quanta == 0) return false;
+    value = from_quanta(negative ? -quanta : quanta);
+    return true;
+  }
+
+  bool read_voxel(Voxel& voxel) {
+    std::int64_t i = 0, j = 0, k = 0;
+    if (!skip("[") || !read_whole(4, i) || !skip(",") || !read_whole(4, j) || !skip(",") || !read_whole(4, k) ||
+        !skip("]"))
+      return false;
+    voxel = {static_cast<int>(i), static_cast<int>(j), static_cast<int>(k)};
+    return true;
+  }
+
+ private:
+  bool next_is_digit() const { return !rest_.empty() && rest_.front() >= '0' && rest_.front() <= '9'; }
+
+  int take_digit() {
+    const int digit = rest_.front() - '0';
+    rest_.remove_prefix(1);
+    return digit;
+  }
+
+  // JSON has no leading zeros.
+  bool read_whole(int most_digits, std::int64_t& value) {
+    if (!next_is_digit()) return false;
+    value = take_digit();
+    if (value == 0) return !next_is_digit();
+    for (int digits = 1; next_is_digit(); ++digits) {
+      if (digits == most_digits) return false;
+      value = 10 * value + take_digit();
+    }
+    return true;
+  }
+
+  std::string_view rest_;
+};
+
+}  // namespace
+
+std::optional<Keyframe> read_plain_line(std::string_view text, const TrajectoryHeader& header) {
+  Scanner scanner(text);
+  Keyframe keyframe;
+  keyframe.cut = scanner.skip(R"({"type":"cut","q":[)");
+  if (!keyframe.cut && !scanner.skip(R"({"type":"move","q":[)")) return {};
+  keyframe.q.resize(static_cast<Eigen::Index>(header.joints.size()));
+  for (Eigen::Index joint = 0; joint < keyframe.q.size(); ++joint)
+    if ((joint > 0 && !scanner.skip(",")) || !scanner.read_value(keyframe.q[joint])) return {};
+  if (keyframe.cut) {
+    if (!scanner.skip(R"(],"voxels":[)") || !scanner.read_voxel(keyframe.first) || !scanner.skip(",") ||
+        !scanner.read_voxel(keyframe.last))
+      return {};
+    if (!is_run(keyframe, header.grid)) return {};
+  }
+  if (!scanner.skip("]}") || !scanner.at_end()) return {};
+  return keyframe;
+}
+
+}  // namespace sculpt
