@@ -21,7 +21,7 @@ class Scanner {
 
   bool at_end() const { return rest_.empty(); }
 
-  // A decimal with up to 7 digits after the point: a multiple of the quantum.
+  // A multiple of the quantum as a decimal, with up to 7 digits after the point.
   bool read_value(double& value) {
     const bool negative = skip("-");
     std::int64_t quanta = 0;
@@ -30,6 +30,11 @@ class Scanner {
     if (skip(".")) {
       for (; digits < fraction_digits && next_is_digit(); ++digits) quanta = 10 * quanta + take_digit();
       if (digits == 0) return false;
+    }
+    if (skip("e-0")) {  // small values are written so
+      if (!next_is_digit()) return false;
+      digits += take_digit();
+      if (digits > fraction_digits) return false;
     }
     for (; digits < fraction_digits; ++digits) quanta *= 10;
     if (negative && quanta == 0) return false;
