@@ -37,11 +37,12 @@ TrajectoryPieces::Piece TrajectoryPieces::read() {
   return piece;
 }
 
-bool TrajectoryPieces::may_go_on(std::size_t worker) const {
+bool TrajectoryPieces::may_go_on() const {
   if (abandoned_) return true;
   if (all_read_) return std::find(busy_.begin(), busy_.end(), true) == busy_.end();
+  // Who is not busy waits here too, and takes what it has not seen as soon as it goes on.
   for (std::size_t other = 0; other < unseen_.size(); ++other)
-    if (other != worker && unseen_[other].size() >= most_unseen) return false;
+    if (busy_[other] && unseen_[other].size() >= most_unseen) return false;
   return true;
 }
 
@@ -52,7 +53,7 @@ TrajectoryPieces::Piece TrajectoryPieces::next(std::size_t worker, std::vector<P
   Piece piece;
   while (!piece) {
     changed_.notify_all();
-    while (!changed_.wait_for(lock, idle_every, [&] { return may_go_on(worker); })) idle();
+    while (!changed_.wait_for(lock, idle_every, [this] { return may_go_on(); })) idle();
     if (abandoned_ || all_read_) break;
     piece = read();
   }

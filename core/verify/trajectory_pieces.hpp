@@ -43,7 +43,7 @@ class TrajectoryPieces {
 
  private:
   Piece read();
-  bool may_go_on(std::size_t worker) const;
+  bool may_go_on() const;
 
   TrajectoryReader& reader_;
   Configuration at_;
