@@ -1,4 +1,4 @@
-// Rows carved by the shipped arm with its turntable, one configuration a voxel; then the same with faults.
+// Rows carved by the shipped arm with its turntable, a configuration every voxel or four; then the same with faults.
 #include <gtest/gtest.h>
 
 #include "core/cell/ik.hpp"
@@ -7,7 +7,6 @@
 namespace sculpt {
 namespace {
 
-constexpr int n = 16;
 constexpr int layers = 2;
 
 Cell panda_turntable() {
@@ -15,6 +14,7 @@ Cell panda_turntable() {
 }
 
 struct ArmProgram {
+  int n, rows, stride;  // rows a layer, voxels a cut
   Cell cell = panda_turntable();
   Chain chain = cell.chain();
   Grid grid = cell.grid(n);
@@ -23,18 +23,19 @@ struct ArmProgram {
   std::vector<Keyframe> keyframes;
   Configuration q = rounded(cell.home(chain));
 
-  ArmProgram() {
+  explicit ArmProgram(int resolution = 16, int rows_a_layer = 16, int voxels_a_cut = 1)
+      : n(resolution), rows(rows_a_layer), stride(voxels_a_cut) {
     header.joints = chain.names();
     header.home = q;
     header.grid = grid;
     header.tool = make_tool(cell.tool, grid.voxel_m);
-    header.tolerance_m = 0.02 * grid.voxel_m;
+    header.tolerance_m = (stride > 1 ? 0.04 : 0.02) * grid.voxel_m;
     header.cell = cell.name;
     move(Vec3(-2, 0.5, n + 1));
     for (int k = n - 1; k >= n - layers; --k) {
       move(Vec3(-0.5, 0.5, k + 1.5));
-      for (int j = 0; j < n; ++j) add_row(j, k);
-      for (int step = 0; step <= 4; ++step) move(Vec3(-0.5, (n - 0.5) * (4 - step) / 4, k + 1.5));
+      for (int j = 0; j < rows; ++j) add_row(j, k);
+      for (int step = 0; step <= 4; ++step) move(Vec3(-0.5, (rows - 0.5) * (4 - step) / 4, k + 1.5));
     }
     move(Vec3(-2, 0.5, n + 1));
     keyframes.push_back({header.home, false, {}, {}});
@@ -43,10 +44,11 @@ struct ArmProgram {
   void add_row(int j, int k) {
     const bool forth = j % 2 == 0;
     move(Vec3(forth ? -0.5 : n + 0.5, j + 0.5, k + 0.5));
-    for (int step = 0; step < n; ++step) {
-      const Voxel voxel{forth ? step : n - 1 - step, j, k};
-      reach(Vec3(voxel.i + 0.5, j + 0.5, k + 0.5));
-      keyframes.push_back({q, true, voxel, voxel});
+    for (int step = 0; step < n; step += stride) {
+      const int last = step + stride - 1;
+      const Voxel from{forth ? step : n - 1 - step, j, k}, to{forth ? last : n - 1 - last, j, k};
+      reach(Vec3(to.i + 0.5, j + 0.5, k + 0.5));
+      keyframes.push_back({q, true, from, to});
     }
     move(Vec3(forth ? n + 0.5 : -0.5, j + 0.5, k + 0.5));
   }
@@ -74,8 +76,8 @@ TEST(ArmReplay, LayersCarvedRowByRowAreClean) {
   const ArmProgram program;
   const Verdict verdict = program.verdict();
   EXPECT_TRUE(verdict.clean) << sentences(verdict);
-  EXPECT_EQ(verdict.voxels_checked, static_cast<std::uint64_t>(layers * n * n));
-  EXPECT_EQ(verdict.left.size(), static_cast<std::size_t>((n - layers) * n * n));
+  EXPECT_EQ(verdict.voxels_checked, static_cast<std::uint64_t>(layers * 16 * 16));
+  EXPECT_EQ(verdict.left.size(), static_cast<std::size_t>((16 - layers) * 16 * 16));
 }
 
 TEST(ArmReplay, OneKeyframeOffByATenthOfAVoxelIsFound) {
@@ -94,9 +96,43 @@ TEST(ArmReplay, OneKeyframeOffByATenthOfAVoxelIsFound) {
   }
 }
 
+TEST(ArmReplay, RunsAreCleanAndTheirFaultsAreFound) {
+  const ArmProgram good(64, 6, 4);
+  const Verdict clean = good.verdict();
+  EXPECT_TRUE(clean.clean) << sentences(clean);
+  EXPECT_EQ(clean.voxels_checked, static_cast<std::uint64_t>(layers * 6 * 64));
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ArmProgram program = good;
+    Random random(seed);
+    std::size_t at = 0;
+    while (!program.keyframes[at].cut) at = static_cast<std::size_t>(random.next() % program.keyframes.size());
+    Keyframe& keyframe = program.keyframes[at];
+    switch (seed % 4) {
+      case 0: {
+        program.q = keyframe.q;
+        const Vec3 aside = Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)).normalized();
+        program.reach(Vec3(keyframe.last.i + 0.5, keyframe.last.j + 0.5, keyframe.last.k + 0.5) + 0.1 * aside);
+        keyframe.q = program.q;
+        break;
+      }
+      case 1:
+        keyframe.first.k -= 1;
+        keyframe.last.k -= 1;
+        break;
+      case 2:
+        std::swap(keyframe, program.keyframes[at + (program.keyframes[at + 1].cut ? 1 : 4)]);
+        break;
+      default:
+        program.keyframes.insert(program.keyframes.begin() + static_cast<std::ptrdiff_t>(at), Keyframe(keyframe));
+    }
+    EXPECT_FALSE(program.verdict().clean);
+  }
+}
+
 TEST(ArmReplay, TwoLayersSwappedAreFound) {
   ArmProgram program;
-  const std::ptrdiff_t layer = 1 + n * (n + 2) + 5;
+  const std::ptrdiff_t layer = 1 + program.n * (program.n + 2) + 5;
   std::rotate(program.keyframes.begin() + 1, program.keyframes.begin() + 1 + layer,
               program.keyframes.begin() + 1 + 2 * layer);
   EXPECT_TRUE(found(program.verdict(), {"shank", "material"}));
@@ -106,17 +142,17 @@ TEST(ArmReplay, ADroppedWayAroundTheBlockIsFound) {
   ArmProgram program;
   // From the end of the last layer straight to a row below it, through the block.
   program.keyframes.resize(program.keyframes.size() - 2);
-  program.move(Vec3(-0.5, 0.5, n - 4.5));
-  program.move(Vec3(n + 0.5, n - 0.5, n - 4.5));
+  program.move(Vec3(-0.5, 0.5, program.n - 4.5));
+  program.move(Vec3(program.n + 0.5, program.n - 0.5, program.n - 4.5));
   EXPECT_TRUE(found(program.verdict(), {"ball", "material"}));
 }
 
 TEST(ArmReplay, ASpindleLoweredIntoTheTableIsFound) {
   ArmProgram program;
   program.keyframes.resize(1);
-  program.move(Vec3(-2, n / 2.0, 1));
-  program.move(Vec3(-2, n / 2.0, -6));
-  program.move(Vec3(-2, n / 2.0, 1));
+  program.move(Vec3(-2, program.n / 2.0, 1));
+  program.move(Vec3(-2, program.n / 2.0, -6));
+  program.move(Vec3(-2, program.n / 2.0, 1));
   EXPECT_FALSE(program.verdict().clean);
 }
 
