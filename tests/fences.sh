@@ -31,10 +31,11 @@ forbid "the server never includes a client" "$(include 'clients/')" -- server
 forbid "base is the first" "$(include 'core/(material|cell|collision|search|motion|trajectory|verify|plan)/')" -- core/base
 forbid "material comes before cells" "$(include 'core/(cell|collision|search|motion|trajectory|verify|plan)/')" -- core/material
 forbid "cells come before collision" "$(include 'core/(collision|search|motion|trajectory|verify|plan)/')" -- core/cell
-forbid "collision comes before planning" "$(include 'core/(search|motion|trajectory|verify|plan)/')" -- core/collision
+forbid "collision comes before planning" "$(include 'core/(search|motion|sweep|trajectory|verify|plan)/')" -- core/collision
+forbid "sweep comes after motion" "$(include 'core/(verify|plan)/')" -- core/sweep
 forbid "search knows no arm" "$(include 'core/(cell|collision|motion|trajectory|verify|plan)/')" -- core/search
-forbid "verify shares nothing with the planners" "$(include 'core/(search|motion|plan)/')" -- core/verify
-forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify
+forbid "verify shares nothing with the planners" "$(include 'core/(search|motion|sweep|plan)/')" -- core/verify
+forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
 fcl_headers='collision/fcl_shape|verify/solid_body|verify/standing_voxels|verify/tool_replay'

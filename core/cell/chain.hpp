@@ -43,6 +43,15 @@ class Chain {
   /// Both at once; `jacobian` is resized where needed, so that a caller who keeps it pays no allocation.
   ToolPose tool_pose(const Configuration& q, Eigen::Matrix<double, 6, Eigen::Dynamic>& jacobian) const;
 
+  /// How fast the tool can turn, per unit of each coordinate (rad): more than 1 where mimic joints add to it.
+  Eigen::VectorXd turn_rates() const;
+  /// Ball's centre and the shank's other end.
+  struct ToolEnds {
+    Vec3 ball_m, top_m;
+  };
+  /// Second derivatives by t, at t = 0, of the tool along q + t * rate (m).
+  ToolEnds tool_acceleration(const Configuration& q, const Configuration& rate) const;
+
   const Robot& robot() const { return *robot_; }
   int stock_link() const { return stock_link_; }
   int tool_link() const { return tool_link_; }

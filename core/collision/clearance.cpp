@@ -1,5 +1,10 @@
 #include "core/collision/clearance.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include "core/collision/fcl_shape.hpp"
 
 namespace sculpt {
@@ -13,17 +18,28 @@ bool near(const Capsule& a, const Capsule& b, double reach_m) {
   return distance(a.core, b.core) <= a.radius_m + b.radius_m + reach_m;
 }
 
-/// `hull` against a piece's own shape where that is a box, which a capsule may hold badly.
-bool near_box(const Piece& piece, const Frame& pose, const Capsule& hull, double reach_m) {
-  if (piece.shape.kind != ShapeKind::box) return true;
+/// From `hull` to a piece's own shape where that is a box, which a capsule may hold badly.
+double distance_to_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
+  if (piece.shape.kind != ShapeKind::box) return 0;
   const Capsule local = placed((pose * piece.shape.pose).inverse(), hull);
-  return distance_to_box(local.core, -piece.shape.sides_m / 2, piece.shape.sides_m / 2) <= hull.radius_m + reach_m;
+  return distance_to_box(local.core, -piece.shape.sides_m / 2, piece.shape.sides_m / 2) - hull.radius_m;
+}
+
+double between(const Capsule& a, const Capsule& b) {
+  return distance(a.core, b.core) - a.radius_m - b.radius_m;
+}
+
+/// Lower bound of the distance between two pieces; looks no closer once it knows that it is `enough`.
+double least_distance(const Piece& a, const Frame& pose_a, const Piece& b, const Frame& pose_b, double enough_m) {
+  const Capsule hull_a = placed(pose_a, a.hull), hull_b = placed(pose_b, b.hull);
+  double least = between(hull_a, hull_b);
+  if (least < enough_m) least = std::max(least, distance_to_piece_box(a, pose_a, hull_b));
+  if (least < enough_m) least = std::max(least, distance_to_piece_box(b, pose_b, hull_a));
+  return least;
 }
 
 bool near_piece(const Piece& a, const Frame& pose_a, const Piece& b, const Frame& pose_b, double reach_m) {
-  const Capsule hull_a = placed(pose_a, a.hull), hull_b = placed(pose_b, b.hull);
-  if (!near(hull_a, hull_b, reach_m)) return false;
-  if (!near_box(a, pose_a, hull_b, reach_m) || !near_box(b, pose_b, hull_a, reach_m)) return false;
+  if (least_distance(a, pose_a, b, pose_b, std::nextafter(reach_m, 1.0)) > reach_m) return false;
   return fcl_touch(*make_fcl_geometry(a.shape, reach_m), to_fcl(pose_a * a.shape.pose), *make_fcl_geometry(b.shape, 0),
                    to_fcl(pose_b * b.shape.pose));
 }
@@ -77,6 +93,30 @@ bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& p
     for (const Piece& of_b : b.pieces)
       if (near_piece(of_a, pose_a, of_b, pose_b, reach_m)) return true;
   return false;
+}
+
+double least_distance(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double enough_m) {
+  const Capsule hull_a = placed(pose_a, a.hull), hull_b = placed(pose_b, b.hull);
+  if (between(hull_a, hull_b) >= enough_m) return enough_m;
+  double least = enough_m;
+  std::vector<const Piece*> of_b;  // those that matter
+  for (const Piece& piece : b.pieces)
+    if (between(hull_a, placed(pose_b, piece.hull)) < enough_m) of_b.push_back(&piece);
+  for (const Piece& piece : a.pieces) {
+    if (between(placed(pose_a, piece.hull), hull_b) >= least) continue;
+    for (const Piece* other : of_b) least = std::min(least, least_distance(piece, pose_a, *other, pose_b, least));
+  }
+  return std::max(least, 0.0);
+}
+
+double least_distance_to_grid(const Body& body, const Frame& pose, const Grid& grid) {
+  double least = std::numeric_limits<double>::max();
+  const Vec3 high_m = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
+  for (const Piece& piece : body.pieces) {
+    const Capsule hull = placed(pose, piece.hull);
+    least = std::min(least, distance_to_box(hull.core, grid.origin_m, high_m) - hull.radius_m);
+  }
+  return std::max(least, 0.0);
 }
 
 bool near_material(const Body& body, const Frame& pose, const Material& material, const Grid& grid, double reach_m) {

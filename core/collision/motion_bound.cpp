@@ -48,6 +48,20 @@ double step_length(const Robot& robot, const Passage& here, const Passage& next)
   return (a.origin.translation() - b.origin.translation()).norm() + travel(a) + travel(b);
 }
 
+/// The coordinate that moves a joint, or -1, and what it is multiplied by.
+struct Drive {
+  int coordinate;
+  double rate;
+};
+
+Drive drive_of(const Chain& chain, int index) {
+  const Joint& joint = chain.robot().joints[static_cast<std::size_t>(index)];
+  const int source = joint.mimic >= 0 ? joint.mimic : index;
+  const auto found = std::find(chain.joints().begin(), chain.joints().end(), source);
+  if (found == chain.joints().end() || joint.kind == JointKind::fixed) return {-1, 0};
+  return {static_cast<int>(found - chain.joints().begin()), joint.mimic >= 0 ? joint.mimic_multiplier : 1};
+}
+
 }  // namespace
 
 Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double extent_m) {
@@ -62,16 +76,40 @@ Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double e
     } else if (way[at].up) {
       reach += joint.origin.translation().norm() + travel(joint);
     }
-    const bool follows = joint.mimic >= 0;
-    const int source = follows ? joint.mimic : way[at].joint;
-    for (int c = 0; c < chain.dof(); ++c) {
-      if (chain.joints()[static_cast<std::size_t>(c)] != source) continue;
-      const double rate = follows ? std::abs(joint.mimic_multiplier) : 1;
-      if (joint.kind == JointKind::revolute) bound[c] += rate * reach;
-      if (joint.kind == JointKind::prismatic) bound[c] += rate;
-    }
+    const Drive drive = drive_of(chain, way[at].joint);
+    if (drive.coordinate >= 0)
+      bound[drive.coordinate] += std::abs(drive.rate) * (joint.kind == JointKind::revolute ? reach : 1);
   }
   return bound;
+}
+
+Eigen::VectorXd turn_bound(const Chain& chain, int fixed, int moving) {
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(chain.dof());
+  for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
+    const Drive drive = drive_of(chain, passage.joint);
+    const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
+    if (drive.coordinate >= 0 && joint.kind == JointKind::revolute) bound[drive.coordinate] += std::abs(drive.rate);
+  }
+  return bound;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> relative_twist(const Chain& chain, int fixed, int moving,
+                                                        const std::vector<Frame>& poses) {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> twist = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, chain.dof());
+  for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
+    const Drive drive = drive_of(chain, passage.joint);
+    if (drive.coordinate < 0) continue;
+    const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
+    const Frame& child = poses[static_cast<std::size_t>(joint.child_link)];
+    const Vec3 axis = (passage.up ? -drive.rate : drive.rate) * (child.linear() * joint.axis);
+    if (joint.kind == JointKind::prismatic) {
+      twist.col(drive.coordinate).head<3>() += axis;
+    } else {
+      twist.col(drive.coordinate).head<3>() += child.translation().cross(axis);
+      twist.col(drive.coordinate).tail<3>() += axis;
+    }
+  }
+  return twist;
 }
 
 }  // namespace sculpt

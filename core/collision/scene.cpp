@@ -1,6 +1,7 @@
 #include "core/collision/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/collision/clearance.hpp"
@@ -19,7 +20,9 @@ struct Pair {
   int first, second;
   double margin_m;  // kept between the two; intervals on which they move less than half of it are not split further
   Eigen::VectorXd speed_first,
-      speed_second;  // motion bounds of one seen from the other; either alone bounds their approach
+      speed_second;             // motion bounds of one seen from the other; either alone bounds their approach
+  bool tool_and_fixed = false;  // the tool and what stands still in the stock's frame
+  bool never_touch = false;     // moved against each other by one joint only, and free all along its range
 
   double motion(const Eigen::VectorXd& joint_steps) const {
     const double of_first = speed_first.dot(joint_steps);
@@ -39,8 +42,10 @@ struct Scene::Impl {
     add_pairs(cell);
     const double h = grid.voxel_m;
     tool_speed = motion_bound(chain, cell.stock_link, cell.tool_link, tool.stickout_m) / h;
+    turn_rates = chain.turn_rates();
     radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
     for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
+    find_never_touching();
   }
 
   void add_pairs(const Cell& cell) {
@@ -53,6 +58,8 @@ struct Scene::Impl {
       if (a.tool != b.tool) return group_of(a.tool ? b : a) != tool_group;
       return !a.tool && std::binary_search(link_pairs.begin(), link_pairs.end(), std::make_pair(a.link, b.link));
     };
+    for (const Body& body : bodies)
+      if (!body.tool && group_of(body) == stock_group) fixed.push_back(&body);
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
       const Body& first = bodies[static_cast<std::size_t>(a)];
       if (!first.tool && group_of(first) != stock_group)
@@ -65,6 +72,7 @@ struct Scene::Impl {
         Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, first.hull.extent()),
                   motion_bound(chain, first.link, second.link, second.hull.extent())};
         if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
+        pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
         pairs.push_back(std::move(pair));
       }
     }
@@ -87,6 +95,56 @@ struct Scene::Impl {
     if (pair.second < 0) return near_material(a, pose_a, material, grid, reach_m);
     const Body& b = bodies[static_cast<std::size_t>(pair.second)];
     return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
+  }
+
+  /// A distance (m) that the two are surely apart beyond their margin, looked for as far as `enough`; 0 if they may be
+  /// nearer than the shortest one tried. FCL is asked only where the closed form says little.
+  double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
+    static constexpr std::array reaches{0.001, 0.002, 0.004, 0.008, 0.012, 0.018, 0.025, 0.035};
+    const Body& a = bodies[static_cast<std::size_t>(pair.first)];
+    const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
+    double apart = 0;
+    if (pair.second < 0) {
+      apart = least_distance_to_grid(a, pose_a, grid);
+    } else {
+      const Body& b = bodies[static_cast<std::size_t>(pair.second)];
+      apart = least_distance(a, pose_a, b, at[static_cast<std::size_t>(b.link)], enough + pair.margin_m);
+    }
+    apart = std::max(0.0, apart - pair.margin_m);
+    auto reach = std::upper_bound(reaches.begin(), reaches.end(), apart);
+    while (apart < enough && reach != reaches.end() && !near(pair, at, *reach + pair.margin_m)) apart = *reach++;
+    return apart;
+  }
+
+  /// Of the two the one that moves less seen from the other, as it approaches. What the first derivative leaves out is
+  /// at most half of (turning times travel), both summed over the joints: the second derivative of any point is (see
+  /// tool_bend).
+  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
+                            double gap_m) const {
+    const bool first_moves = pair.second < 0 || pair.speed_first.dot(half) <= pair.speed_second.dot(half);
+    const Body& mover = bodies[static_cast<std::size_t>(first_moves ? pair.first : pair.second)];
+    const int other = pair.second < 0 ? chain.stock_link()
+                                      : bodies[static_cast<std::size_t>(first_moves ? pair.second : pair.first)].link;
+    const auto twist = relative_twist(chain, other, mover.link, at);
+    const Frame& pose = at[static_cast<std::size_t>(mover.link)];
+    const auto motion_of = [&](const Vec3& point) {
+      Eigen::Matrix<double, 3, Eigen::Dynamic> motion = twist.topRows<3>();
+      for (int c = 0; c < chain.dof(); ++c) motion.col(c) += Vec3(twist.col(c).tail<3>()).cross(point);
+      return motion;
+    };
+    const double travel = (first_moves ? pair.speed_first : pair.speed_second).dot(half);
+    const double rest = 0.5 * turn_bound(chain, other, mover.link).dot(half) * travel;
+    return {motion_of(pose * mover.hull.core.a), motion_of(pose * mover.hull.core.b), twist.bottomRows<3>(),
+            mover.hull.radius_m, gap_m - rest};
+  }
+
+  /// Marks the pairs that one joint moves and that it can move as it likes. Material only shrinks, so that stays true.
+  void find_never_touching() {
+    for (Pair& pair : pairs) {
+      if ((pair.speed_first.array() > 0).count() != 1) continue;
+      const Configuration range = chain.upper() - chain.lower();
+      pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
+    }
   }
 
   static Contact kind(const Pair& pair) { return pair.second < 0 ? Contact::link_material : Contact::link_link; }
@@ -113,15 +171,13 @@ struct Scene::Impl {
 
   /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
   /// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
-  /// anywhere, so then the faster one does.
+  /// anywhere, so then all turns are applied to all motions.
   double tool_bend(const Configuration& step) const {
-    if (chain.translating()) return 0;
+    if (has_mimic) return turn_rates.dot(step.cwiseAbs()) * tool_speed.dot(step.cwiseAbs());
     double sum = 0;
     for (int i = 0; i < step.size(); ++i)
-      for (int j = 0; j <= i; ++j) {
-        const double speed = has_mimic ? std::max(tool_speed[i], tool_speed[j]) : tool_speed[i];
-        sum += (i == j ? 1 : 2) * std::abs(step[i] * step[j]) * speed;
-      }
+      for (int j = 0; j <= i; ++j)
+        sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];
     return sum;
   }
 
@@ -130,8 +186,10 @@ struct Scene::Impl {
   Tool tool;
   Material material;
   std::vector<Body> bodies;
+  std::vector<const Body*> fixed;  // those that stand still in the stock's frame
   std::vector<Pair> pairs;
   Eigen::VectorXd tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
+  Eigen::VectorXd turn_rates;  // rad per unit of each coordinate
   ToolRadii radii;             // voxel edges
   bool has_mimic = false;
   mutable std::uint64_t checks = 0;
@@ -193,6 +251,36 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
   return Contact::none;
 }
 
+Bubble Scene::bubble(const Configuration& q, const Configuration& half) const {
+  ++impl_->checks;
+  std::vector<Frame> at;
+  impl_->chain.link_poses(q, at);
+  std::vector<Bubble::Approach> approaches;
+  for (const Pair& pair : impl_->pairs) {
+    if (pair.tool_and_fixed || pair.never_touch) continue;
+    const double enough = pair.motion(half) + 1e-9;
+    const double gap = impl_->gap(pair, at, enough);
+    if (gap >= enough) continue;  // free in all of the box
+    approaches.push_back(impl_->approach(pair, at, half, gap));
+    if (approaches.back().room_m <= 0) return {};
+  }
+  return {q, half, approaches};
+}
+
+bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {
+  std::vector<Frame> at;
+  impl_->chain.link_poses(Configuration::Zero(impl_->chain.dof()), at);
+  Shape box;
+  box.sides_m = high_m - low_m;
+  box.pose.translation() = (low_m + high_m) / 2;
+  const Vec3& middle = box.pose.translation();
+  const Capsule hull{{middle, middle}, box.sides_m.norm() / 2};
+  const Body region{impl_->chain.stock_link(), false, {{box, hull}}, hull};
+  return std::none_of(impl_->fixed.begin(), impl_->fixed.end(), [&](const Body* body) {
+    return near_body(region, Frame::Identity(), *body, at[static_cast<std::size_t>(body->link)], 0);
+  });
+}
+
 Contact Scene::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(from) || !impl_->chain.within_limits(to)) return Contact::limits;
   const Configuration step = to - from;
@@ -203,7 +291,8 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
   if (!tool_sweep_is_free(impl_->material, line_at, impl_->tool_bend(step), impl_->radii, tool_margin_voxels, exempt))
     return Contact::tool_material;
   std::vector<const Pair*> open;
-  for (const Pair& pair : impl_->pairs) open.push_back(&pair);
+  for (const Pair& pair : impl_->pairs)
+    if (!pair.never_touch) open.push_back(&pair);
   return impl_->certify_links(from, step, 0.5, 0.5, open);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/cell/cell.hpp"
+#include "core/collision/bubble.hpp"
 #include "core/collision/material.hpp"
 
 namespace sculpt {
@@ -40,6 +41,14 @@ class Scene {
 
   /// The first contact at q as a person would say it, e.g. "'link5' touches 'link7'"; empty if there is none.
   std::string describe_contact(const Configuration& q) const;
+
+  /// Of the configurations within `half` of `q`, joint by joint, those at which surely no link touches the material,
+  /// the room or another link, nor the tool a link that can move against the stock. Tool against material and against
+  /// what stands still in the stock's frame is not in it, nor are limits. Stays true while material is removed.
+  Bubble bubble(const Configuration& q, const Configuration& half) const;
+
+  /// Is the box [low_m, high_m] of the stock's frame clear of all links that stand still in that frame?
+  bool room_is_clear(const Vec3& low_m, const Vec3& high_m) const;
 
   /// Certifies the joint-linear edge from `from` to `to` at every point between, not at samples: `none` only if it is
   /// free. May refuse an edge that passes closer than the margins (0.2 mm for links, 0.005 voxel for the tool). The

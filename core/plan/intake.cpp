@@ -111,8 +111,8 @@ VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
 
 void check_job(const Job& job, const Watch& watch) {
   check_resolution(job.resolution);
-  if (job.search != "octree" && job.search != "voxel")
-    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree or voxel");
+  if (job.search != "octree" && job.search != "voxel" && job.search != "sweep")
+    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree, sweep or voxel");
   if (job.threads < 1)
     throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
   check_memory(job);

@@ -11,13 +11,14 @@
 #include "core/motion/gantry.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
+#include "core/sweep/sweep.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr int most_effort = 2;
-constexpr double tolerance_voxels = 0.02;
+constexpr double tolerance_voxels = 0.02, sweep_tolerance_voxels = 0.04;
 
 class Stopwatch {
  public:
@@ -100,15 +101,21 @@ void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph,
   report.quality.ompl_solved = arm.ompl_solved();
 }
 
-TrajectoryHeader make_header(const Job& job, const Cell& cell, const Chain& chain, const Grid& grid) {
+/// A translating robot has one tool direction only; what `sweep` is for an arm, `octree` is for it.
+std::string search_for(const Job& job, const Chain& chain) {
+  return chain.translating() && job.search == "sweep" ? "octree" : job.search;
+}
+
+TrajectoryHeader make_header(const Job& job, const std::string& search, const Cell& cell, const Chain& chain,
+                             const Grid& grid) {
   TrajectoryHeader header;
   header.joints = chain.names();
   header.home = rounded(cell.home(chain), chain.lower(), chain.upper());
   header.grid = grid;
   header.tool = make_tool(cell.tool, grid.voxel_m);
-  header.tolerance_m = tolerance_voxels * grid.voxel_m;
+  header.tolerance_m = (search == "sweep" ? sweep_tolerance_voxels : tolerance_voxels) * grid.voxel_m;
   header.cell = cell.name;
-  header.search = job.search;
+  header.search = search;
   header.seed = job.seed;
   return header;
 }
@@ -163,7 +170,6 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   Report& report = result.report;
   report.mesh = job.mesh.name;
   report.robot = job.cell.name;
-  report.search = job.search;
   report.seed = job.seed;
   report.resolution = job.resolution;
   report.threads = job.threads;
@@ -186,20 +192,30 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   report.seconds.octree = building.seconds();
 
   Stopwatch planning;
-  Scene scene(cell, result.grid, result.voxels.stock);
-  const Chain& chain = scene.chain();
-  const TrajectoryHeader header = make_header(job, cell, chain, result.grid);
-  if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
+  auto scene = std::make_unique<Scene>(cell, result.grid, result.voxels.stock);
+  const Chain chain = scene->chain();
+  report.search = search_for(job, chain);
+  const TrajectoryHeader header = make_header(job, report.search, cell, chain, result.grid);
+  if (const std::string contact = scene->describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
   Output output(trajectory, header, chain, report.voxels.remove, watch);
-  if (chain.translating())
-    carve_with_gantry(scene, result.voxels, octree, graph, header.home, job.search, output, watch);
-  else
-    carve_with_arm(scene, octree, graph, header.home, job.seed, output, report, watch);
+  std::uint64_t checks = 0;
+  if (chain.translating()) {
+    carve_with_gantry(*scene, result.voxels, octree, graph, header.home, report.search, output, watch);
+  } else if (report.search == "sweep") {
+    const VoxelSet left = carve_by_sweeps(
+        *scene, result.voxels, header.home, job.seed, [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
+    checks = scene->checks();
+    scene = std::make_unique<Scene>(cell, result.grid, left);
+    const Octree rest = build_octree({left, result.voxels.keep}, watch);
+    carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
+  } else {
+    carve_with_arm(*scene, octree, graph, header.home, job.seed, output, report, watch);
+  }
   report.plan_sha256 = output.finish(trajectory).sha256;
-  count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
-  result.residue = explain_residue(scene, result.voxels, job.seed, watch);
+  count_path(report, output.figures(), result.grid.voxel_m, checks + scene->checks());
+  result.residue = explain_residue(*scene, result.voxels, job.seed, watch);
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();
 

@@ -34,7 +34,7 @@ struct Job {
   MeshFile mesh;
   CellFiles cell;
   int resolution = 0;  ///< power of two, 8 to 1024
-  std::string search = "octree";
+  std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
   std::uint64_t seed = 0;
   int threads = 1;  ///< the plan is the same at any number
   Placement placement;

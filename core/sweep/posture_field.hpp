@@ -1,0 +1,88 @@
+// One configuration for every ball position of a tool direction: smooth, within limits, and with links certified free.
+#pragma once
+
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
+#include "core/sweep/tool_view.hpp"
+
+namespace sculpt {
+
+/// Configurations at the nodes of a lattice over the grid and two voxels above it, found from one node outwards;
+/// between nodes they are guessed by trilinear interpolation and made exact (find_posture). Every cell of the lattice
+/// that may be used lies in a bubble: there no link touches anything, whatever is carved. Reads are safe from several
+/// threads.
+class PostureField {
+ public:
+  /// `start`: a configuration to begin with, at about the middle of the top. `scene` only has to live during the call.
+  PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Watch& watch);
+
+  /// Tries again, in finer parts, where no bubble was found. Slow where there is none.
+  void refine(const Scene& scene, const Watch& watch);
+
+  /// The configuration that it grew from.
+  const Configuration& start() const { return start_; }
+  /// Lattice cells that may be used, of all.
+  std::size_t usable_cells() const { return usable_; }
+  static std::size_t all_cells() { return static_cast<std::size_t>(fine) * fine * fine; }
+
+  /// May the ball's centre be there (cells of the view, centres at whole numbers)?
+  bool usable(const Vec3& cell) const { return bubble_[fine_cell(cell)] >= 0; }
+
+  /// The configuration with the ball at `cell`; nothing where the field is not usable.
+  std::optional<Configuration> at(const Vec3& cell) const;
+
+  /// Is the joint-linear edge free of contacts between links, room, stock and each other? `from_cell`, `to_cell`: where
+  /// the ball is at its ends.
+  bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
+                      const Configuration& to) const;
+
+  /// Is the tool clear of what stands still in the stock's frame even half a voxel off any line between the two?
+  bool may_stray(const Vec3& from_cell, const Vec3& to_cell) const {
+    return roomy_.contains(from_cell) && roomy_.contains(to_cell);
+  }
+
+  const Chain& chain() const { return chain_; }
+  const ToolView& view() const { return view_; }
+  Vec3 ball_m(const Vec3& cell) const { return view_.ball_m(grid_, cell); }
+
+ private:
+  static constexpr int cells = 16;  ///< of the lattice along each edge
+  static constexpr int nodes = cells + 1;
+  static constexpr int parts = 2;  ///< of a cell along each edge, each with a bubble of its own if need be
+  static constexpr int fine = cells * parts;
+
+  std::size_t node_index(int i, int j, int k) const { return static_cast<std::size_t>((k * nodes + j) * nodes + i); }
+  /// Place of a corner of the fine lattice, in cells of the view.
+  Vec3 corner_cell(Voxel corner) const;
+  std::optional<Configuration> corner_configuration(Voxel corner) const;
+  bool has_nodes(Voxel corner, int size) const;
+  std::optional<Bubble> find_bubble(const Scene& scene, Voxel corner, int size) const;
+  std::size_t fine_cell(const Vec3& cell) const;
+  void grow(const Configuration& start, const Watch& watch);
+  std::size_t index_of(Voxel corner) const {
+    return static_cast<std::size_t>((corner.k * fine + corner.j) * fine + corner.i);
+  }
+  void cover(const Scene& scene, Voxel corner, int size, int smallest, const Watch& watch);
+  void close_upwards();
+  /// For ball positions in a box of cells, off by `stray` voxel edges.
+  bool room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double stray) const;
+  void find_roomy(const Scene& scene);
+  bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
+                      int splits) const;
+  std::optional<Configuration> interpolate(const Vec3& cell) const;
+
+  Chain chain_;
+  Grid grid_;
+  ToolView view_;
+  Configuration start_;
+  Vec3 low_, span_;                   ///< of the lattice, in cells of the view
+  std::vector<Configuration> nodes_;  ///< size 0 where there is none
+  std::vector<std::int32_t> bubble_;  ///< per cell of the fine lattice: index into bubbles_, or -1
+  std::vector<Bubble> bubbles_;
+  std::size_t usable_ = 0;
+  Eigen::AlignedBox3d roomy_;  ///< cells; empty by default
+};
+
+}  // namespace sculpt

@@ -1,0 +1,20 @@
+// The `sweep` planner: tool directions are chosen, rows are cut layer by layer, every edge is certified
+// (docs/planner.md).
+#pragma once
+
+#include <functional>
+
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
+#include "core/material/voxel_grid.hpp"
+#include "core/trajectory/trajectory.hpp"
+
+namespace sculpt {
+
+/// Carves what the tool reaches along the axes of the grid, from home and back to home; returns what stands then.
+/// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
+/// `emit` gets is certified. Deterministic. Throws Cancelled.
+VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
+                         const std::function<void(const Keyframe&)>& emit, const Watch& watch);
+
+}  // namespace sculpt

@@ -1,0 +1,108 @@
+#include "core/collision/bubble.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/collision/motion_bound.hpp"
+#include "core/collision/scene.hpp"
+#include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/collision/small_arm.hpp"
+
+namespace sculpt {
+namespace {
+
+Configuration any_configuration(const Chain& chain, Random& random) {
+  Configuration q(chain.dof());
+  for (Eigen::Index c = 0; c < q.size(); ++c) q[c] = random.between(chain.lower()[c], chain.upper()[c]);
+  return q;
+}
+
+bool is_of_links(Contact contact) {
+  return contact == Contact::link_link || contact == Contact::link_material;
+}
+
+/// Many bubbles, each tried at random places that it says it holds.
+void expect_held_is_free(const Cell& cell, std::uint64_t seeds, double widest) {
+  const Grid grid = cell.grid(8);
+  const Scene scene(cell, grid, VoxelSet(8, true));
+  int held = 0, refused = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Configuration q = any_configuration(scene.chain(), random);
+    const Configuration half = Configuration::Constant(q.size(), random.between(0.001, widest));
+    const Bubble bubble = scene.bubble(q, half);
+    if (bubble.empty()) continue;
+    for (int place = 0; place < 40; ++place) {
+      Configuration other = q;
+      for (Eigen::Index c = 0; c < q.size(); ++c) other[c] += random.between(-1, 1) * half[c];
+      if (!scene.chain().within_limits(other)) continue;
+      if (!bubble.holds(other)) {
+        ++refused;
+        continue;
+      }
+      ++held;
+      // The tool comes first in contact_at, and is not the bubble's matter where the material or the table is in its
+      // way.
+      const Contact contact = scene.contact_at(other);
+      if (contact == Contact::tool_material) continue;
+      if (!is_of_links(contact)) continue;
+      const std::string what = scene.describe_contact(other);
+      EXPECT_NE(what.find("the tool"), std::string::npos) << what;
+    }
+  }
+  EXPECT_GT(held, 500);
+  EXPECT_GT(refused, 20) << "no bubble ends anywhere";
+}
+
+TEST(Bubble, WhatASmallArmsBubblesHoldIsFree) {
+  expect_held_is_free(make_test_cell(), 400, 0.3);
+}
+
+TEST(Bubble, WhatThePandasBubblesHoldIsFree) {
+  expect_held_is_free(shipped_cell("panda-turntable"), 300, 0.15);
+}
+
+TEST(Bubble, AnEmptyOneHoldsNothing) {
+  EXPECT_TRUE(Bubble().empty());
+  EXPECT_FALSE(Bubble().holds(Configuration::Zero(3)));
+}
+
+TEST(Bubble, RelativeTwistsAreTheDifferencesOfPoses) {
+  for (const SampleChain& sample : {arm_on_rail(), mimic_machine()}) {
+    SCOPED_TRACE(sample.title);
+    const Chain chain = sample.chain();
+    const auto links = static_cast<int>(chain.robot().links.size());
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      Random random(seed);
+      const Configuration q = random_configuration(chain, random, 0.1);
+      std::vector<Frame> here, there;
+      chain.link_poses(q, here);
+      for (int fixed = 0; fixed < links; ++fixed)
+        for (int moving = 0; moving < links; ++moving) {
+          const auto twist = relative_twist(chain, fixed, moving, here);
+          const Eigen::VectorXd turn = turn_bound(chain, fixed, moving),
+                                reach = motion_bound(chain, fixed, moving, 0.1);
+          for (int c = 0; c < chain.dof(); ++c) {
+            const double step = 1e-6;
+            chain.link_poses(q + step * Configuration::Unit(chain.dof(), c), there);
+            const auto in_fixed = [&](const std::vector<Frame>& poses) {
+              return poses[static_cast<std::size_t>(fixed)].inverse() * poses[static_cast<std::size_t>(moving)] *
+                     Vec3(0.1, 0, 0);
+            };
+            const Vec3 moved =
+                here[static_cast<std::size_t>(fixed)].linear() * (in_fixed(there) - in_fixed(here)) / step;
+            const Vec3 point = here[static_cast<std::size_t>(moving)] * Vec3(0.1, 0, 0);
+            const Vec3 turning = twist.col(c).tail<3>(), velocity = Vec3(twist.col(c).head<3>()) + turning.cross(point);
+            EXPECT_LT((moved - velocity).norm(), 1e-4);
+            EXPECT_LE(turning.norm(), turn[c] + 1e-12);
+            EXPECT_LE(velocity.norm(), reach[c] + 1e-9);
+          }
+        }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sculpt
