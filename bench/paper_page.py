@@ -1,10 +1,6 @@
 """The page of bench/paper: finished runs -> what paper.json holds -> Markdown."""
 
-import os
-import pathlib
-import platform
-import re
-
+from figures import figure, machine, markdown_table, percent, residue, verdict
 from paper_rows import PAPER_LEAVES, PAPER_MINUTES, PAPER_SECONDS, ROWS, Run, SearchRun
 
 BUILD_SEARCH_BENCH = "cmake --preset release -DBENCH=ON && cmake --build --preset release --target bench_search"
@@ -67,35 +63,7 @@ def make_document(results):
     for row, runs in ROWS.items():
         table = row.partition(":")[0]
         tables[table] += [make_row(row, run, results) for run in runs if table == "G" or isinstance(run, Run)]
-    return {"mesh": results.mesh, "machine": machine(), "tables": tables}
-
-
-def machine():
-    model = "processor unknown"
-    try:
-        found = re.search(r"^model name\s*:\s*(.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
-        model = found.group(1) if found else platform.machine()
-    except OSError:
-        model = platform.processor() or model
-    return f"{model}, {os.cpu_count()} cores"
-
-
-def figure(value, digits=3):
-    """At least `digits` significant digits, no exponent."""
-    if value is None:
-        return "-"
-    if isinstance(value, int) or abs(value) >= 10 ** digits:
-        return f"{value:.0f}"
-    return f"{float(f'{value:.{digits}g}'):.10f}".rstrip("0").rstrip(".")
-
-
-def percent(part, whole):
-    return f"{100 * part / whole:.1f} %"
-
-
-def markdown_table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+    return {"mesh": results.identity["mesh"], "machine": machine(), "tables": tables}
 
 
 def ratio(entry):
@@ -191,15 +159,6 @@ def table_quality(entries):
     return "## Path quality\n\n" + markdown_table(head, rows) + (
         "\nA move is one voxel edge of the ball's path (chords between keyframes, from home and back), so 1 move a voxel is the floor. The paper gives none "
         "of these figures. Checks are configurations tested. Verify is the replay of the written trajectory by a second checker.\n")
-
-
-def residue(report):
-    reasons = ", ".join(f"{r['reason']} {r['voxels']}" for r in report["residue"])
-    return str(report["voxels"]["residue"]) + (f" ({reasons})" if reasons else "")
-
-
-def verdict(report):
-    return "clean" if report["verify"]["clean"] else f"NOT CLEAN ({report['verify']['collisions']} collisions)"
 
 
 def measured_reports(document):
