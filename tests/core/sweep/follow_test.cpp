@@ -1,0 +1,187 @@
+#include "core/sweep/follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "tests/core/sweep/panda_field.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int n = 16;
+const Vec3 hub(8, 8, 17);
+
+Vec3 centre(Voxel cell) {
+  return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
+}
+
+/// Lines to random places and cuts along the axes, all within usable cells: what Columns makes is of this kind. The
+/// view's cells are the grid's voxels.
+std::vector<Stroke> random_strokes(const PostureField& field, Random& random) {
+  const auto whole = [&](int below) { return static_cast<int>(random.next() % static_cast<unsigned>(below)); };
+  std::vector<Stroke> strokes;
+  while (strokes.size() < 12) {
+    const Voxel from{whole(n), whole(n), whole(n)};
+    const double stray = random.unit() < 0.5 ? 0.04 : 0.5;
+    if (!field.usable(centre(from))) continue;
+    strokes.push_back({centre(from), 0, stray, {}, {}});
+    const int axis = whole(3), way = random.unit() < 0.5 ? 1 : -1;
+    const Voxel step{axis == 0 ? way : 0, axis == 1 ? way : 0, axis == 2 ? way : 0};
+    const int count = 1 + whole(n);
+    const Voxel last = from + step * count;
+    if (!Grid{n, 1, Vec3::Zero()}.contains(last) || !field.usable(centre(last))) continue;
+    strokes.push_back({centre(last), count, 0.04, from + step, last});
+  }
+  return strokes;
+}
+
+/// Samples the joint-linear edge: `ball_at(t)` is where the ball should be, in cells.
+template <typename BallAt>
+void expect_near(const Configuration& from, const Configuration& to, double ball, double shank, const BallAt& ball_at) {
+  const PandaField& panda = PandaField::get();
+  const Chain& chain = panda.field.chain();
+  const double h = panda.grid.voxel_m, stickout = chain.stickout_m();
+  constexpr int samples = 40;
+  for (int s = 0; s <= samples; ++s) {
+    const double t = static_cast<double>(s) / samples;
+    const ToolPose pose = chain.tool_pose(from + t * (to - from));
+    const Vec3 off = pose.ball_m - panda.field.ball_m(ball_at(t, pose));
+    const Vec3 top_off = off + stickout * (pose.axis - panda.field.view().axis());
+    ASSERT_LE(off.norm() / h, ball);
+    ASSERT_LE(top_off.norm() / h, shank);
+  }
+}
+
+/// Plays keyframes against the strokes that they were made of.
+class Player {
+ public:
+  explicit Player(const Stray& stray) : stray_(stray), here_(hub), q_(*PandaField::get().field.at(hub)) {}
+
+  /// One stroke, from keyframe `at` (updated) on.
+  void play(const Stroke& stroke, const std::vector<Keyframe>& keyframes, std::size_t& at) {
+    const Vec3 from = here_;
+    int cut = 0;
+    for (bool done = false; !done; ++at) {
+      ASSERT_LT(at, keyframes.size()) << "the keyframes end within a stroke";
+      const Keyframe& keyframe = keyframes[at];
+      ASSERT_EQ(keyframe.cut, stroke.count > 0);
+      if (keyframe.cut) {
+        ASSERT_NO_FATAL_FAILURE(play_cut(stroke, keyframe, from, cut));
+      } else {
+        ASSERT_NO_FATAL_FAILURE(play_move(stroke, keyframe, from));
+      }
+      q_ = keyframe.q;
+      done = keyframe.cut ? cut == stroke.count : ball_is_at(stroke.to);
+    }
+    ASSERT_TRUE(ball_is_at(stroke.to));
+    here_ = stroke.to;
+  }
+
+ private:
+  void play_cut(const Stroke& stroke, const Keyframe& keyframe, const Vec3& from, int& cut) const {
+    const Vec3 along = (stroke.to - from) / stroke.count;
+    const Voxel step{static_cast<int>(along.x()), static_cast<int>(along.y()), static_cast<int>(along.z())};
+    const int length = run_length(keyframe), before = cut;
+    ASSERT_EQ(keyframe.first, stroke.first + step * before) << "each voxel once and in order";
+    ASSERT_EQ(keyframe.last, keyframe.first + step * (length - 1));
+    cut += length;
+    ASSERT_LE(cut, stroke.count);
+    // Beside material the allowance is the tool's own, and the ball is where it should be at each moment.
+    expect_near(q_, keyframe.q, stray_.ball, stray_.shank,
+                [&](double t, const ToolPose&) { return Vec3(from + along * (before + t * length)); });
+  }
+
+  void play_move(const Stroke& stroke, const Keyframe& keyframe, const Vec3& from) const {
+    const PandaField& panda = PandaField::get();
+    const Vec3 line = (stroke.to - from).normalized();
+    const double length = (stroke.to - from).norm();
+    expect_near(q_, keyframe.q, std::max(stroke.stray, stray_.ball), std::max(stroke.stray, stray_.shank),
+                [&](double, const ToolPose& pose) {
+                  const Vec3 cell = (pose.ball_m - panda.grid.origin_m) / panda.grid.voxel_m - Vec3::Constant(0.5);
+                  return Vec3(from + line * std::clamp(line.dot(cell - from), 0.0, length));
+                });
+  }
+
+  bool ball_is_at(const Vec3& cell) const {
+    const PostureField& field = PandaField::get().field;
+    return (field.chain().tool_pose(q_).ball_m - field.ball_m(cell)).norm() < 1e-6;
+  }
+
+  Stray stray_;
+  Vec3 here_;
+  Configuration q_;
+};
+
+TEST(Follow, KeepsBallAndShankNearTheLineAndNamesEachVoxelOnceAndInOrder) {
+  const PandaField& panda = PandaField::get();
+  const Stray stray = stray_of(panda.scene.tool(), panda.grid.voxel_m);
+  std::size_t followed_strokes = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::vector<Stroke> strokes = random_strokes(panda.field, random);
+    const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+    ASSERT_LE(followed.strokes, strokes.size());
+    followed_strokes += followed.strokes;
+    all += strokes.size();
+    Player player(stray);
+    std::size_t at = 0;
+    for (std::size_t stroke = 0; stroke < followed.strokes; ++stroke) {
+      SCOPED_TRACE("stroke " + std::to_string(stroke));
+      if (stroke > 0 && strokes[stroke].to == strokes[stroke - 1].to) continue;
+      ASSERT_NO_FATAL_FAILURE(player.play(strokes[stroke], followed.keyframes, at));
+    }
+    ASSERT_EQ(at, followed.keyframes.size()) << "nothing of a stroke that failed is left";
+  }
+  EXPECT_GT(followed_strokes, all * 3 / 4);
+}
+
+TEST(Follow, GivesTheSameKeyframesAgain) {
+  const PandaField& panda = PandaField::get();
+  for (std::uint64_t seed = 100; seed < 110; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::vector<Stroke> strokes = random_strokes(panda.field, random);
+    const Followed once = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+    const Followed again = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+    ASSERT_EQ(once.strokes, again.strokes);
+    ASSERT_EQ(once.keyframes.size(), again.keyframes.size());
+    for (std::size_t at = 0; at < once.keyframes.size(); ++at) {
+      const Keyframe &a = once.keyframes[at], &b = again.keyframes[at];
+      ASSERT_TRUE(a.q == b.q && a.cut == b.cut);
+      ASSERT_TRUE(!a.cut || (a.first == b.first && a.last == b.last));
+    }
+  }
+}
+
+TEST(Follow, KeyframesAreWhatIsStored) {
+  const PandaField& panda = PandaField::get();
+  Random random(7);
+  const Followed followed =
+      follow(panda.field, panda.scene.tool(), panda.grid, hub, random_strokes(panda.field, random));
+  ASSERT_FALSE(followed.keyframes.empty());
+  for (const Keyframe& keyframe : followed.keyframes) ASSERT_EQ(keyframe.q, rounded(keyframe.q));
+}
+
+TEST(Follow, LeavesOutAStrokeThatEndsWhereTheFieldIsNotUsable) {
+  const PandaField& panda = PandaField::get();
+  Vec3 nowhere(-40, 8, 8);  // far outside the grid, where clamping to a cell of the lattice gives no posture
+  const std::vector<Stroke> strokes{{{8, 8, 15}, 0, 0.04, {}, {}}, {nowhere, 0, 0.04, {}, {}}};
+  const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+  EXPECT_EQ(followed.strokes, 1u);
+  EXPECT_LT((panda.field.chain().tool_pose(followed.keyframes.back().q).ball_m - panda.field.ball_m({8, 8, 15})).norm(),
+            1e-6);
+}
+
+TEST(Follow, StrayIsWhatIsLeftOfAVoxelBesideTheTool) {
+  Tool tool{};
+  tool.ball_radius_m = 0.45e-3;
+  tool.shank_radius_m = 0.40e-3;
+  EXPECT_NEAR(stray_of(tool, 1e-3).ball, 0.04, 1e-12) << "no more than the trajectory's tolerance";
+  EXPECT_NEAR(stray_of(tool, 1e-3).shank, 0.095, 1e-12);
+  tool.ball_radius_m = 0.48e-3;
+  EXPECT_NEAR(stray_of(tool, 1e-3).ball, 0.015, 1e-12);
+}
+
+}  // namespace
+}  // namespace sculpt

@@ -1,0 +1,140 @@
+#include "core/sweep/posture_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "tests/core/sweep/clamped_cell.hpp"
+#include "tests/core/sweep/panda_field.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double top = 17.4;  // cells: half a voxel below the top of the lattice
+
+Vec3 random_cell(Random& random) {
+  return {random.between(0, 15), random.between(0, 15), random.between(0, top)};
+}
+
+TEST(PostureField, CoversMostOfTheGrid) {
+  const PostureField& field = PandaField::get().field;
+  EXPECT_GT(field.usable_cells(), PostureField::all_cells() * 3 / 4);
+}
+
+TEST(PostureField, HasTheBallWhereItSaysWithTheToolAlongTheDirection) {
+  const PostureField& field = PandaField::get().field;
+  Random random(1);
+  int found = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Vec3 cell = random_cell(random);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial << ", cell " << cell.transpose());
+    const auto q = field.at(cell);
+    if (!q) continue;
+    ++found;
+    ASSERT_TRUE(field.usable(cell));
+    ASSERT_TRUE(field.chain().within_limits(*q));
+    const ToolPose pose = field.chain().tool_pose(*q);
+    ASSERT_LT((pose.ball_m - field.ball_m(cell)).norm(), 1e-6);
+    ASSERT_LT(pose.axis.cross(field.view().axis()).norm(), 1e-5);
+    ASSERT_GT(pose.axis.dot(field.view().axis()), 0);
+  }
+  EXPECT_GT(found, 2000);
+}
+
+TEST(PostureField, NeighbouringPositionsHaveNeighbouringConfigurations) {
+  const PostureField& field = PandaField::get().field;
+  Random random(2);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 cell = random_cell(random), beside = cell + Vec3(1e-3, -1e-3, 1e-3);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial << ", cell " << cell.transpose());
+    const auto q = field.at(cell), r = field.at(beside);
+    if (!q || !r) continue;
+    ASSERT_LT((*q - *r).cwiseAbs().maxCoeff(), 1e-3);
+  }
+}
+
+TEST(PostureField, WhatCanBeComeToCanBeLeftUpwards) {
+  const PostureField& field = PandaField::get().field;
+  for (int b = 0; b < 16; ++b)
+    for (int a = 0; a < 16; ++a)
+      for (double c = 0; c + 0.25 < top; c += 0.25)
+        ASSERT_TRUE(!field.usable(Vec3(a, b, c)) || field.usable(Vec3(a, b, c + 0.25))) << a << ' ' << b << ' ' << c;
+}
+
+/// Ball and shank for ball positions between two cells, off by `stray` voxel edges on all sides.
+bool tool_is_clear(const Scene& scene, const PostureField& field, const Vec3& from, const Vec3& to, double stray) {
+  const Tool& tool = scene.tool();
+  const Vec3 a = field.ball_m(from), b = field.ball_m(to), reach = tool.stickout_m * field.view().axis();
+  const Vec3 around = Vec3::Constant(tool.ball_radius_m + stray * scene.grid().voxel_m);
+  const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  return scene.room_is_clear(low.cwiseMin(low + reach) - around, high.cwiseMax(high + reach) + around);
+}
+
+TEST(PostureField, KeepsTheToolOffWhatStandsBesideTheStock) {
+  const Cell cell = parse_cell(clamped_cell());
+  const Scene scene(cell, cell.grid(16), VoxelSet(16, true));
+  int in_the_way = 0;
+  for (int which : {0, 2}) {
+    const ToolView view = tool_views(16)[static_cast<std::size_t>(which)];
+    const PostureField field = make_field(scene, cell.home(scene.chain()), view);
+    for (int trial = 0; trial < 2000; ++trial) {
+      Random random(mix(5, static_cast<std::uint64_t>(trial)));
+      const Vec3 from = random_cell(random), to = random_cell(random);
+      SCOPED_TRACE(::testing::Message() << "direction " << which << ", trial " << trial);
+      const bool clear = tool_is_clear(scene, field, from, from, 0.04);
+      in_the_way += !clear;
+      ASSERT_TRUE(clear || !field.usable(from)) << from.transpose();
+      ASSERT_TRUE(!field.may_stray(from, to) || tool_is_clear(scene, field, from, to, 0.5));
+    }
+  }
+  EXPECT_GT(in_the_way, 20);
+}
+
+TEST(PostureField, EdgesWithFreeLinksAreCertifiedWithoutMaterialToo) {
+  const PandaField& panda = PandaField::get();
+  const Scene empty(panda.cell, panda.grid, VoxelSet(16));
+  Random random(3);
+  int free = 0, asked = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const Vec3 from = random_cell(random);
+    Vec3 to = from;
+    for (int axis = 0; axis < 3; ++axis) to[axis] += random.between(-1.5, 1.5);
+    to = to.cwiseMax(0).cwiseMin(Vec3(15, 15, top));
+    SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << from.transpose() << " to " << to.transpose());
+    const auto q = panda.field.at(from), r = panda.field.at(to);
+    if (!q || !r) continue;
+    ++asked;
+    if (!panda.field.links_are_free(from, *q, to, *r)) continue;
+    ++free;
+    // The other certificate: distances against motion bounds, by bisection. The plate is in it as well, and what comes
+    // as near to it as the lowest layer bends too much at this length.
+    if (std::min(from.z(), to.z()) < 1) continue;
+    ASSERT_EQ(empty.certify(*q, *r), Contact::none);
+  }
+  EXPECT_GT(asked, 400);
+  EXPECT_GT(free, asked * 9 / 10);
+}
+
+TEST(PostureField, LinksAreNotFreeAlongAnEdgeThatLeavesEveryBubble) {
+  const PandaField& panda = PandaField::get();
+  const auto q = panda.field.at({8, 8, 12});
+  ASSERT_TRUE(q);
+  Configuration through_the_stock = *q;
+  through_the_stock[2] += 0.8;  // the shoulder leans forward
+  ASSERT_NE(panda.scene.certify(*q, through_the_stock), Contact::none);
+  EXPECT_FALSE(panda.field.links_are_free({8, 8, 12}, *q, {8, 8, 12}, through_the_stock));
+}
+
+TEST(PostureField, RefiningTakesNothingAway) {
+  const PandaField& panda = PandaField::get();
+  PostureField refined = panda.field;
+  refined.refine(panda.scene, {});
+  EXPECT_GE(refined.usable_cells(), panda.field.usable_cells());
+  Random random(4);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 cell = random_cell(random);
+    ASSERT_TRUE(!panda.field.usable(cell) || refined.usable(cell)) << "trial " << trial;
+  }
+}
+
+}  // namespace
+}  // namespace sculpt
