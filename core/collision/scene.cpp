@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "core/collision/clearance.hpp"
@@ -147,13 +148,15 @@ struct Scene::Impl {
     }
   }
 
+  void count_check() const { checks.fetch_add(1, std::memory_order_relaxed); }
+
   static Contact kind(const Pair& pair) { return pair.second < 0 ? Contact::link_material : Contact::link_link; }
 
   /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const {
     std::vector<Frame> at;
-    ++checks;
+    count_check();
     chain.link_poses(from + middle * step, at);
     const Eigen::VectorXd joint_steps = half * step.cwiseAbs();
     std::vector<const Pair*> left;
@@ -192,7 +195,7 @@ struct Scene::Impl {
   Eigen::VectorXd turn_rates;  // rad per unit of each coordinate
   ToolRadii radii;             // voxel edges
   bool has_mimic = false;
-  mutable std::uint64_t checks = 0;
+  mutable std::atomic<std::uint64_t> checks = 0;
 };
 
 Scene::Scene(const Cell& cell, const Grid& grid, const VoxelSet& standing)
@@ -242,7 +245,7 @@ std::string Scene::describe_contact(const Configuration& q) const {
 
 Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) const {
   if (!impl_->chain.within_limits(q)) return Contact::limits;
-  ++impl_->checks;
+  impl_->count_check();
   if (impl_->tool_meets_material(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
@@ -252,7 +255,7 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
 }
 
 Bubble Scene::bubble(const Configuration& q, const Configuration& half) const {
-  ++impl_->checks;
+  impl_->count_check();
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
   std::vector<Bubble::Approach> approaches;
@@ -285,7 +288,7 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
   if (!impl_->chain.within_limits(from) || !impl_->chain.within_limits(to)) return Contact::limits;
   const Configuration step = to - from;
   const auto line_at = [&](double t) {
-    ++impl_->checks;
+    impl_->count_check();
     return impl_->tool_line(impl_->chain.tool_pose(from + t * step));
   };
   if (!tool_sweep_is_free(impl_->material, line_at, impl_->tool_bend(step), impl_->radii, tool_margin_voxels, exempt))

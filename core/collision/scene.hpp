@@ -14,8 +14,8 @@ namespace sculpt {
 /// What a configuration or an edge runs into; `limits` = outside the joint limits.
 enum class Contact { none, limits, tool_material, link_material, link_link };
 
-/// Owns a copy of the cell's kinematics and shapes and of the standing material. Const calls are safe from one thread
-/// at a time (scratch space inside); make one scene a thread.
+/// Owns a copy of the cell's kinematics and shapes and of the standing material. Const calls are safe from several
+/// threads, `remove` is not.
 class Scene {
  public:
   /// `cell` must outlive the scene.

@@ -9,6 +9,7 @@
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
+#include "core/motion/tool_reach.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/sweep.hpp"
@@ -205,10 +206,13 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
     carve_with_gantry(*scene, result.voxels, octree, graph, header.home, report.search, output, watch);
   } else if (report.search == "sweep") {
     const VoxelSet left = carve_by_sweeps(
-        *scene, result.voxels, header.home, job.seed, [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
+        *scene, result.voxels, header.home, job.seed, job.threads,
+        [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
     checks = scene->checks();
     scene = std::make_unique<Scene>(cell, result.grid, left);
-    const Octree rest = build_octree({left, result.voxels.keep}, watch);
+    VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, watch)};
+    for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
+    const Octree rest = build_octree(rest_voxels, watch);
     carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {
     carve_with_arm(*scene, octree, graph, header.home, job.seed, output, report, watch);

@@ -3,31 +3,29 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
-#include "core/cell/ik.hpp"
-#include "core/motion/random_configuration.hpp"
 #include "core/motion/transit.hpp"
+#include "core/sweep/find_field.hpp"
 #include "core/sweep/follow.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int random_guesses = 24;
-constexpr std::size_t most_fields = 3;
-constexpr double probe_half = 0.03;  // rad or m: what the joints do within a cell of a field
+constexpr std::size_t layers_at_once = 16;
 
 class Sweep {
  public:
-  Sweep(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
+  Sweep(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed, int threads,
         const std::function<void(const Keyframe&)>& emit, const Watch& watch)
       : scene_(scene),
         voxels_(voxels),
         home_(home),
         seed_(seed),
+        threads_(threads),
         emit_(emit),
         watch_(watch),
         standing_(voxels.stock),
@@ -35,93 +33,37 @@ class Sweep {
         views_(tool_views(voxels.n())) {}
 
   VoxelSet run() {
+    find_fields();
     while (const auto view = best_view()) carve_along(*view);
     if (!transit(home_)) move(way_home());
     return standing_;
   }
 
  private:
+  /// One field after the other for the first direction, whose start helps the others; those at the same time.
+  void find_fields() {
+    fields_[0] = find_field(scene_, views_[0], home_, {}, mix(seed_, 0), watch_);
+    const std::vector<Configuration> known{fields_[0]->start()};
+    for_each_index(threads_, fields_.size() - 1, [&](std::size_t other) {
+      const std::size_t view = other + 1;
+      fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), watch_);
+    });
+  }
+
   /// The direction along which most can be cut now, of those that are not used up.
-  std::optional<std::size_t> best_view() {
-    std::optional<std::size_t> best;
-    std::uint64_t most = 0;
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-      if (used_up_[view]) continue;
-      if (!fields_[view]) fields_[view] = find_field(view);
-      const std::uint64_t count = columns_of(view).count_cuttable();
-      if (count <= most) continue;
-      most = count;
-      best = view;
-    }
-    return best;
+  std::optional<std::size_t> best_view() const {
+    std::array<std::uint64_t, 5> counts{};
+    for_each_index(threads_, views_.size(), [&](std::size_t view) {
+      if (!used_up_[view]) counts[view] = columns_of(view).count_cuttable();
+    });
+    const auto most = std::max_element(counts.begin(), counts.end());
+    if (*most == 0) return std::nullopt;
+    return static_cast<std::size_t>(most - counts.begin());
   }
 
   Columns columns_of(std::size_t view) const {
     const PostureField* field = fields_[view].get();
     return {views_[view], standing_, voxels_.keep, [field](const Vec3& cell) { return field->usable(cell); }};
-  }
-
-  /// Configurations from which a field may grow: home, those of the other fields with one joint turned by quarters (a
-  /// turntable makes one side of the stock of another), then random ones.
-  std::vector<Configuration> find_guesses(std::size_t view) const {
-    const Chain& chain = scene_.chain();
-    std::vector<Configuration> guesses{home_};
-    for (const auto& field : fields_) {
-      if (!field) continue;
-      for (Eigen::Index joint = 0; joint < home_.size(); ++joint)
-        for (int quarters : {1, -1, 2, -2}) {
-          Configuration guess = field->start();
-          guess[joint] += quarters * std::numbers::pi / 2;
-          if (chain.within_limits(guess)) guesses.push_back(guess);
-        }
-    }
-    Random random(mix(seed_, view));
-    for (int guess = 0; guess < random_guesses; ++guess) guesses.push_back(random_configuration(chain, random));
-    return guesses;
-  }
-
-  /// At how many of some ball positions all over the grid the arm has room, if it comes there from `start`.
-  int count_free_probes(const ToolView& view, const Configuration& start) const {
-    const double last = voxels_.n() - 1;
-    int free = 0;
-    for (double a : {0.5, 0.05, 0.95})
-      for (double b : {0.5, 0.05, 0.95}) {
-        std::optional<Configuration> q = start;
-        for (double c : {0.95, 0.5, 0.05}) {
-          q = solve_ik(scene_.chain(), {view.ball_m(scene_.grid(), Vec3(a, b, c) * last), view.axis()}, *q);
-          if (!q) break;
-          free += !scene_.bubble(*q, Configuration::Constant(q->size(), probe_half)).empty();
-        }
-      }
-    return free;
-  }
-
-  /// The field that covers most, of those that grow from the most promising starts.
-  std::unique_ptr<PostureField> find_field(std::size_t which) const {
-    const ToolView& view = views_[which];
-    const double middle = (voxels_.n() - 1) / 2.0;
-    const IkGoal above{view.ball_m(scene_.grid(), {middle, middle, voxels_.n() + 1.0}), view.axis()};
-    struct Start {
-      Configuration q;
-      int free;
-    };
-    std::vector<Start> starts;
-    for (const Configuration& guess : find_guesses(which)) {
-      const auto q = solve_ik(scene_.chain(), above, guess);
-      if (!q || scene_.contact_at(*q) != Contact::none) continue;
-      const bool known = std::any_of(starts.begin(), starts.end(),
-                                     [&](const Start& other) { return (*q - other.q).cwiseAbs().maxCoeff() < 0.3; });
-      if (!known) starts.push_back({*q, count_free_probes(view, *q)});
-    }
-    std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.free > b.free; });
-    std::unique_ptr<PostureField> best;
-    for (std::size_t start = 0; start < std::min<std::size_t>(starts.size(), most_fields); ++start) {
-      auto field = std::make_unique<PostureField>(scene_, view, starts[start].q, watch_);
-      if (!best || field->usable_cells() > best->usable_cells()) best = std::move(field);
-      if (20 * best->usable_cells() >= 17 * best->all_cells()) break;
-    }
-    if (best && 2 * best->usable_cells() > best->all_cells()) best->refine(scene_, watch_);
-    return best ? std::move(best) : std::make_unique<PostureField>(scene_, view, home_, watch_);
   }
 
   /// Where the tool comes in: above the middle of the grid.
@@ -138,23 +80,62 @@ class Sweep {
       return;
     }
     Columns columns = columns_of(which);
-    const Stray stray = stray_of(scene_.tool(), scene_.grid().voxel_m);
+    const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
     for (int layer = voxels_.n() - 1; layer >= 0;) {
-      Vec3 end = at_;
-      const std::vector<Stroke> strokes = columns.cut_layer(layer, end, stray.ball);
-      const std::size_t done = make(strokes);
+      std::vector<Layer> layers = plan_layers(columns, layer, stray);
+      for_each_index(threads_, layers.size(), [&](std::size_t at) {
+        layers[at].followed = follow(*field_, scene_.tool(), scene_.grid(), layers[at].from, layers[at].strokes);
+      });
+      layer = commit(layers, columns, layer);
+    }
+    Vec3 end = at_;
+    const std::vector<Stroke> rise = columns.rise(end, stray);
+    const Followed up = follow(*field_, scene_.tool(), scene_.grid(), at_, rise);
+    if (commit(up, rise) < rise.size()) throw std::logic_error("the tool came down where it cannot go up again");
+    used_up_[which] = removed_ == before;
+  }
+
+  struct Layer {
+    int c;
+    Vec3 from;
+    std::vector<Stroke> strokes;
+    Followed followed;
+  };
+
+  /// What is to be done in the next layers from `c` down, as if nothing failed. Their number is the same at any number
+  /// of threads.
+  std::vector<Layer> plan_layers(Columns& columns, int c, double stray) const {
+    std::vector<Layer> layers;
+    Vec3 end = at_;
+    for (; c >= 0 && layers.size() < layers_at_once; --c) {
+      const Vec3 from = end;
+      layers.push_back({c, from, columns.cut_layer(c, end, stray), {}});
+    }
+    return layers;
+  }
+
+  /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
+  int commit(const std::vector<Layer>& layers, Columns& columns, int layer) {
+    for (std::size_t at = 0; at < layers.size(); ++at) {
+      const auto& strokes = layers[at].strokes;
+      const std::size_t done = commit(layers[at].followed, strokes);
+      layer = layers[at].c;
       if (done == strokes.size()) {
         --layer;
         continue;
       }
-      std::size_t failed = done;  // the cut that could not be come to or not be made
-      while (strokes[failed].count == 0) ++failed;
-      for (std::size_t s = strokes.size(); s-- > done;) columns.restore(strokes[s], s == failed);
+      for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, columns, false);
+      take_back(strokes, done, columns, true);
+      break;
     }
-    Vec3 end = at_;
-    const std::vector<Stroke> rise = columns.rise(end, stray.ball);
-    if (make(rise) < rise.size()) throw std::logic_error("the tool came down where it cannot go up again");
-    used_up_[which] = removed_ == before;
+    return layer;
+  }
+
+  /// Of a failed layer the first cut that could not be come to or not be made is given up.
+  static void take_back(const std::vector<Stroke>& strokes, std::size_t from, Columns& columns, bool failed) {
+    std::size_t given_up = failed ? from : strokes.size();
+    while (given_up < strokes.size() && strokes[given_up].count == 0) ++given_up;
+    for (std::size_t s = strokes.size(); s-- > from;) columns.restore(strokes[s], s == given_up);
   }
 
   /// Goes over to the hub of another direction, remembering how to get home from there.
@@ -201,9 +182,7 @@ class Sweep {
     }
   }
 
-  /// As many strokes as can be followed, from where the ball is; returns their number.
-  std::size_t make(const std::vector<Stroke>& strokes) {
-    const Followed followed = follow(*field_, scene_.tool(), scene_.grid(), at_, strokes);
+  std::size_t commit(const Followed& followed, const std::vector<Stroke>& strokes) {
     for (const Keyframe& keyframe : followed.keyframes) {
       emit_(keyframe);
       q_ = keyframe.q;
@@ -225,6 +204,7 @@ class Sweep {
   const VoxelGrid& voxels_;
   Configuration home_;
   std::uint64_t seed_, transits_ = 0, removed_ = 0;
+  int threads_;
   const std::function<void(const Keyframe&)>& emit_;
   const Watch& watch_;
   VoxelSet standing_;
@@ -240,8 +220,8 @@ class Sweep {
 }  // namespace
 
 VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         const std::function<void(const Keyframe&)>& emit, const Watch& watch) {
-  return Sweep(scene, voxels, home, seed, emit, watch).run();
+                         int threads, const std::function<void(const Keyframe&)>& emit, const Watch& watch) {
+  return Sweep(scene, voxels, home, seed, threads, emit, watch).run();
 }
 
 }  // namespace sculpt

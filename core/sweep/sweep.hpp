@@ -13,8 +13,8 @@ namespace sculpt {
 
 /// Carves what the tool reaches along the axes of the grid, from home and back to home; returns what stands then.
 /// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
-/// `emit` gets is certified. Deterministic. Throws Cancelled.
+/// `emit` gets, on the calling thread, is certified. Deterministic, also in `threads`. Throws Cancelled.
 VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         const std::function<void(const Keyframe&)>& emit, const Watch& watch);
+                         int threads, const std::function<void(const Keyframe&)>& emit, const Watch& watch);
 
 }  // namespace sculpt
