@@ -8,7 +8,10 @@
 #include "core/material/block_graph.hpp"
 #include "core/material/voxelize.hpp"
 #include "core/motion/line.hpp"
+#include "core/motion/transit.hpp"
 #include "core/plan/plan.hpp"
+#include "core/sweep/follow.hpp"
+#include "core/sweep/posture.hpp"
 
 namespace sculpt {
 namespace {
@@ -72,6 +75,139 @@ void tool_against_material(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(scene.tool_fits(pose, {}));
 }
 BENCHMARK(tool_against_material);
+
+/// The Panda above the full stock that the bust is carved from, coming down on it.
+struct Sweeping {
+  explicit Sweeping(int resolution)
+      : n(resolution),
+        job(sample_job("panda-turntable", n)),
+        cell(parse_cell(job.cell)),
+        grid(cell.grid(n)),
+        voxels(make_voxels(job, grid, {})),
+        scene(cell, grid, voxels.stock),
+        view(tool_views(n)[0]) {}
+
+  Vec3 hub() const { return {n / 2.0, n / 2.0, n + 1.0}; }
+  Configuration start() const {
+    return solve_ik(scene.chain(), {view.ball_m(grid, hub()), view.axis()}, cell.home(scene.chain())).value();
+  }
+  PostureField field() const { return {scene, view, start(), {}}; }
+
+  int n;
+  Job job;
+  Cell cell;
+  Grid grid;
+  VoxelGrid voxels;
+  Scene scene;
+  ToolView view;
+};
+
+void posture_one_voxel_on(benchmark::State& state) {
+  const Sweeping s(64);
+  const Configuration here = s.start();
+  const Vec3 beside = s.view.ball_m(s.grid, s.hub() + Vec3::UnitX());
+  for (auto _ : state) benchmark::DoNotOptimize(find_posture(s.scene.chain(), beside, s.view.axis(), here));
+}
+BENCHMARK(posture_one_voxel_on);
+
+void posture_of_the_field(benchmark::State& state) {
+  const Sweeping s(64);
+  const PostureField field = s.field();
+  const Vec3 between = s.hub() - Vec3(3.3, 2.2, 20.1);
+  for (auto _ : state) benchmark::DoNotOptimize(field.at(between));
+}
+BENCHMARK(posture_of_the_field);
+
+void posture_field_from_above(benchmark::State& state) {
+  const Sweeping s(64);
+  const Configuration start = s.start();
+  for (auto _ : state) benchmark::DoNotOptimize(PostureField(s.scene, s.view, start, {}));
+}
+BENCHMARK(posture_field_from_above)->Unit(benchmark::kMillisecond);
+
+Configuration bubble_half(const Configuration& q) {
+  return Configuration::Constant(q.size(), 0.03);  // about what the joints do in a cell of a field
+}
+
+void bubble_around_a_configuration(benchmark::State& state) {
+  const Sweeping s(64);
+  const Configuration here = s.start(), half = bubble_half(here);
+  for (auto _ : state) benchmark::DoNotOptimize(s.scene.bubble(here, half));
+}
+BENCHMARK(bubble_around_a_configuration)->Unit(benchmark::kMicrosecond);
+
+void bubble_holds_a_configuration(benchmark::State& state) {
+  const Sweeping s(64);
+  const Configuration here = s.start(), half = bubble_half(here);
+  const Bubble bubble = s.scene.bubble(here, half);
+  const Configuration inside = here + 0.3 * half;
+  if (!bubble.holds(inside)) return state.SkipWithError("there is no bubble here");
+  for (auto _ : state) benchmark::DoNotOptimize(bubble.holds(inside));
+}
+BENCHMARK(bubble_holds_a_configuration);
+
+void transit_from_home_to_above_the_stock(benchmark::State& state) {
+  const Sweeping s(64);
+  const Configuration home = s.cell.home(s.scene.chain()), start = s.start();
+  for (auto _ : state) {
+    const Transit transit = plan_transit(s.scene, home, start, 1, {});
+    if (transit.path.empty()) return state.SkipWithError("there is no transit");
+    benchmark::DoNotOptimize(transit);
+  }
+}
+BENCHMARK(transit_from_home_to_above_the_stock)->Unit(benchmark::kMicrosecond);
+
+void sweep_along_a_direction(benchmark::State& state) {
+  const Sweeping s(static_cast<int>(state.range(0)));
+  const PostureField field = s.field();
+  const Columns columns(s.view, s.voxels.stock, s.voxels.keep, [&](const Vec3& cell) { return field.usable(cell); });
+  for (auto _ : state) benchmark::DoNotOptimize(columns.count_cuttable());
+  state.SetItemsProcessed(state.iterations() * s.n * s.n * s.n);
+}
+BENCHMARK(sweep_along_a_direction)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
+
+/// The columns with all above the middle layer cut.
+Columns columns_down_to_the_middle(const Sweeping& s, const PostureField& field, double stray, Vec3& at) {
+  Columns columns(s.view, s.voxels.stock, s.voxels.keep, [&field](const Vec3& cell) { return field.usable(cell); });
+  for (int layer = s.n - 1; layer > s.n / 2; --layer) columns.cut_layer(layer, at, stray);
+  return columns;
+}
+
+void strokes_of_the_middle_layer(benchmark::State& state) {
+  const Sweeping s(static_cast<int>(state.range(0)));
+  const PostureField field = s.field();
+  const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
+  Vec3 above = s.hub();
+  const Columns columns = columns_down_to_the_middle(s, field, stray, above);
+  std::int64_t strokes = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Columns fresh = columns;
+    Vec3 at = above;
+    state.ResumeTiming();
+    strokes += static_cast<std::int64_t>(fresh.cut_layer(s.n / 2, at, stray).size());
+  }
+  state.SetItemsProcessed(strokes);
+}
+BENCHMARK(strokes_of_the_middle_layer)->Arg(64)->Arg(256)->Unit(benchmark::kMicrosecond);
+
+void keyframes_of_the_middle_layer(benchmark::State& state) {
+  const Sweeping s(static_cast<int>(state.range(0)));
+  const PostureField field = s.field();
+  const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
+  Vec3 above = s.hub();
+  Columns columns = columns_down_to_the_middle(s, field, stray, above);
+  Vec3 at = above;
+  const std::vector<Stroke> strokes = columns.cut_layer(s.n / 2, at, stray);
+  std::int64_t keyframes = 0;
+  for (auto _ : state) {
+    const Followed followed = follow(field, s.scene.tool(), s.grid, above, strokes);
+    if (followed.strokes == 0) return state.SkipWithError("no stroke could be followed");
+    keyframes += static_cast<std::int64_t>(followed.keyframes.size());
+  }
+  state.SetItemsProcessed(keyframes);
+}
+BENCHMARK(keyframes_of_the_middle_layer)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
 
 void voxelize_the_bust(benchmark::State& state) {
   const Job job = sample_job("gantry", static_cast<int>(state.range(0)));
