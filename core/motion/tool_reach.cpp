@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.hpp"
 #include "core/motion/tool_axes.hpp"
 
 namespace sculpt {
@@ -25,7 +26,7 @@ bool has_open_face(const Material& material, Voxel v) {
 
 }  // namespace
 
-VoxelSet find_out_of_tool_reach(const Scene& scene, const VoxelSet& keep, const Watch& watch) {
+VoxelSet find_out_of_tool_reach(const Scene& scene, const VoxelSet& keep, int threads, const Watch& watch) {
   Material material(scene.material().solid());
   VoxelSet left = material.solid();
   for (std::size_t w = 0; w < left.words().size(); ++w) left.words()[w] &= ~keep.words()[w];
@@ -41,15 +42,21 @@ VoxelSet find_out_of_tool_reach(const Scene& scene, const VoxelSet& keep, const 
              return !material.meets_capsule({ball, ball + length * axis}, radius, v);
            });
   };
-  for (std::size_t before = waiting.size() + 1; waiting.size() < before;) {
-    before = waiting.size();
-    std::erase_if(waiting, [&](Voxel v) {
-      if (!fits(v)) return false;
-      material.remove(v);
-      left.erase(v);
-      return true;
-    });
-  }
+  std::vector<char> fitting;
+  do {
+    fitting.assign(waiting.size(), 0);
+    for_each_index(threads, waiting.size(), [&](std::size_t at) { fitting[at] = fits(waiting[at]); });
+    std::vector<Voxel> still;
+    for (std::size_t at = 0; at < waiting.size(); ++at) {
+      if (!fitting[at]) {
+        still.push_back(waiting[at]);
+        continue;
+      }
+      material.remove(waiting[at]);
+      left.erase(waiting[at]);
+    }
+    waiting.swap(still);
+  } while (std::find(fitting.begin(), fitting.end(), 1) != fitting.end());
   return left;
 }
 

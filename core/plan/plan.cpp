@@ -210,7 +210,7 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
         [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
     checks = scene->checks();
     scene = std::make_unique<Scene>(cell, result.grid, left);
-    VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, watch)};
+    VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, job.threads, watch)};
     for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
     const Octree rest = build_octree(rest_voxels, watch);
     carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);

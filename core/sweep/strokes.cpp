@@ -23,41 +23,49 @@ int sign(int x) {
 Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep,
                  std::function<bool(const Vec3&)> reachable)
     : view_(view),
+      corner_(static_cast<std::ptrdiff_t>(standing.index(view.corner))),
       standing_(standing),
       keep_(keep),
       reachable_(std::move(reachable)),
       heights_(static_cast<std::size_t>(view.n) * view.n),
       given_up_(view.n) {
+  for (std::size_t along = 0; along < 3; ++along) {
+    const Voxel step = view.step[along];
+    stride_[along] = step.i + view.n * (step.j + static_cast<std::ptrdiff_t>(view.n) * step.k);
+  }
   for (int b = 0; b < view.n; ++b)
-    for (int a = 0; a < view.n; ++a) {
-      int c = view.n;
-      while (c > 0 && !stands({a, b, c - 1})) --c;
-      height(a, b) = c;
-    }
+    for (int a = 0; a < view.n; ++a) height(a, b) = top_below({a, b, view.n});
+}
+
+int Columns::top_below(Voxel cell) const {
+  int c = cell.k;
+  for (std::ptrdiff_t at = index(cell) - stride_[2]; c > 0 && !holds(standing_, at); at -= stride_[2]) --c;
+  return c;
 }
 
 bool Columns::can_cut(Voxel cell) const {
   if (height(cell.i, cell.j) != cell.k + 1) return false;
-  const Voxel voxel = view_.voxel(cell);
-  return !keep_.contains(voxel) && !given_up_.contains(voxel) && reachable_(centre(cell));
+  const std::ptrdiff_t at = index(cell);
+  return !holds(keep_, at) && !holds(given_up_, at) && reachable_(centre(cell));
 }
 
 std::uint64_t Columns::count_cuttable() const {
   std::uint64_t count = 0;
   for (int b = 0; b < view_.n; ++b)
-    for (int a = 0; a < view_.n; ++a)
-      for (int c = height(a, b) - 1; c >= 0; --c) {
-        if (!stands({a, b, c})) continue;
-        if (keep_.contains(view_.voxel({a, b, c})) || !reachable_(centre({a, b, c}))) break;
+    for (int a = 0; a < view_.n; ++a) {
+      std::ptrdiff_t at = index({a, b, height(a, b) - 1});
+      for (int c = height(a, b) - 1; c >= 0; --c, at -= stride_[2]) {
+        if (!holds(standing_, at)) continue;
+        if (holds(keep_, at) || !reachable_(centre({a, b, c}))) break;
         ++count;
       }
+    }
   return count;
 }
 
 void Columns::remove(Voxel cell) {
   standing_.erase(view_.voxel(cell));
-  int& h = height(cell.i, cell.j);
-  while (h > 0 && !stands({cell.i, cell.j, h - 1})) --h;
+  height(cell.i, cell.j) = top_below({cell.i, cell.j, height(cell.i, cell.j)});
 }
 
 void Columns::restore(const Stroke& stroke, bool give_up) {

@@ -1,6 +1,8 @@
 // What the ball does in one pass along one tool direction, cell by cell: no joints yet.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -46,7 +48,15 @@ class Columns {
 
   int& height(int a, int b) { return heights_[static_cast<std::size_t>(b * view_.n + a)]; }
   int height(int a, int b) const { return heights_[static_cast<std::size_t>(b * view_.n + a)]; }
-  bool stands(Voxel cell) const { return standing_.contains(view_.voxel(cell)); }
+  /// Index of a cell's voxel in the sets.
+  std::ptrdiff_t index(Voxel cell) const {
+    return corner_ + cell.i * stride_[0] + cell.j * stride_[1] + cell.k * stride_[2];
+  }
+  static bool holds(const VoxelSet& set, std::ptrdiff_t at) {
+    return set.words()[static_cast<std::size_t>(at) >> 6] >> (at & 63) & 1;
+  }
+  /// One above the topmost standing cell below `cell` in its column.
+  int top_below(Voxel cell) const;
   bool can_cut(Voxel cell) const;
   std::vector<std::vector<Run>> find_runs(int c) const;
   void remove(Voxel cell);
@@ -56,6 +66,8 @@ class Columns {
   void cut(Voxel first, Voxel last, Vec3& at, double stray, std::vector<Stroke>& strokes);
 
   ToolView view_;
+  std::ptrdiff_t corner_;                 ///< index of cell (0, 0, 0)
+  std::array<std::ptrdiff_t, 3> stride_;  ///< of the index, along a, b, c
   VoxelSet standing_, keep_;
   std::function<bool(const Vec3&)> reachable_;
   std::vector<int> heights_;  ///< per column: one above its topmost standing cell

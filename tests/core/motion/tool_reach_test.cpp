@@ -30,7 +30,8 @@ TEST(ToolReach, IsJustWhatTheArmsSearchLeaves) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const VoxelSet target = seed % 2 == 0 ? jar(seed) : random_target(8, seed);
     const Scene scene(cell, cell.grid(8), VoxelSet(8, true));
-    const VoxelSet never = find_out_of_tool_reach(scene, target, {});
+    const VoxelSet never = find_out_of_tool_reach(scene, target, 1, {});
+    EXPECT_TRUE(find_out_of_tool_reach(scene, target, 3, {}) == never);
     out_of_reach += static_cast<int>(never.size());
     Job job = make_job(files, target, seed);
     job.search = "octree";
@@ -47,7 +48,7 @@ TEST(ToolReach, StopsWhenAsked) {
   const Scene scene(cell, cell.grid(8), VoxelSet(8, true));
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(find_out_of_tool_reach(scene, VoxelSet(8), {stop.get_token(), {}}), Cancelled);
+  EXPECT_THROW(find_out_of_tool_reach(scene, VoxelSet(8), 2, {stop.get_token(), {}}), Cancelled);
 }
 
 }  // namespace
