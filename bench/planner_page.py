@@ -3,6 +3,7 @@
 from figures import figure, machine, markdown_table, percent, residue, verdict
 from planner_rows import GOALS, LARGEST_OCTREE, MESHES, MIB, ROBOT, SIZES, THREADS, row_name, runs_of
 
+BUSY_CORES = 0.2  # kept busy by other programs: from there on the page warns
 STAGES = ("load", "voxelize", "octree", "plan", "verify")
 
 
@@ -91,6 +92,15 @@ def judge(goal, value):
 
 # ---- Markdown
 
+def busy_note(rows):
+    """A warning where other programs took a good part of the machine."""
+    cores = {f"{row['row']} {key}": run["other_cores"] for row in rows for key, run in row["runs"].items() if (run["other_cores"] or 0) >= BUSY_CORES}
+    if not cores:
+        return ""
+    return (f"\n**Other programs kept up to {figure(max(cores.values()), 2)} cores busy** during {', '.join(cores)}: their seconds, and what is made of them, "
+            "say little. --again on an idle machine.\n")
+
+
 def table_goals(document):
     rows = []
     for goal in document["goals"]:
@@ -163,6 +173,7 @@ def make_page(document):
     faults = document["faults"]
     text += "\n**Faults**\n\n" + "".join(f"- {fault}\n" for fault in faults) if faults else (
         "\nEvery plan below replays clean, removed and residue add up to what is to be removed, and the number of threads changes no plan.\n" if rows else "")
+    text += busy_note(rows)
     if not rows:
         return text + "\nNothing was run yet.\n\n" + table_goals(document)
     return "\n".join((text, table_goals(document), table_seconds(rows), table_plans(rows), table_octree(rows)))

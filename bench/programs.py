@@ -3,6 +3,7 @@
 import collections
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import time
@@ -11,7 +12,8 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent
 SCULPT = SOURCE / "build/release/bin/sculpt"
 FINE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
-Ended = collections.namedtuple("Ended", "stdout stderr exit_code seconds")
+# `other_cores`: how many cores all other programs kept busy meanwhile, None where that is not known.
+Ended = collections.namedtuple("Ended", "stdout stderr exit_code seconds other_cores")
 
 
 class Failure(Exception):
@@ -46,12 +48,14 @@ class Program:
 
     def run(self, *arguments, look=None, every_s=0.2):
         """To its end. Meanwhile shows what `look` makes of the seconds since its start; if `look` raises, it is stopped."""
+        before = busy_seconds()
         process, started = self._start(arguments), time.monotonic()
         try:
             while True:
                 try:
                     stdout, stderr = process.communicate(timeout=every_s)
-                    return Ended(stdout, stderr, process.returncode, time.monotonic() - started)
+                    seconds = time.monotonic() - started
+                    return Ended(stdout, stderr, process.returncode, seconds, before and max(0.0, (busy_seconds() - before) / seconds))
                 except subprocess.TimeoutExpired:
                     elapsed = time.monotonic() - started
                     self.show.running(look(elapsed) if look else f"{elapsed:.0f} s")
@@ -64,6 +68,17 @@ class Program:
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         except OSError as error:
             raise Failure(USAGE, f"cannot run {self.program} ({error.strerror}): name another with {self.option} PATH") from error
+
+
+def busy_seconds():
+    """Of all cores since the machine started, without what this program and its ended children used; None if not known."""
+    try:
+        with open("/proc/stat", encoding="ascii") as stat:
+            user, nice, system, _, _, irq, softirq, steal = map(int, stat.readline().split()[1:9])
+    except (OSError, ValueError):
+        return None
+    own = sum(usage.ru_utime + usage.ru_stime for usage in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
+    return (user + nice + system + irq + softirq + steal) / os.sysconf("SC_CLK_TCK") - own
 
 
 def stop(process):

@@ -131,6 +131,12 @@ class Rows(PlannerTest):
         run = self.document()["rows"]["bust:16"]["runs"]["sweep 2"]
         self.assertEqual((run["report"]["seconds"]["plan"], run["all_plan_s"]), (7, [9, 5, 7]))
 
+    def test_what_other_programs_took_from_the_machine_is_said(self):
+        page = importlib.import_module("planner_page")
+        rows = [{"row": "bust:16", "runs": {"sweep 1": {"other_cores": 0.1}, "sweep 2": {"other_cores": 1.25}, "octree 2": {"other_cores": None}}}]
+        self.assertIn("kept up to 1.2 cores busy** during bust:16 sweep 2: ", page.busy_note(rows))
+        self.assertEqual(page.busy_note([{"row": "bust:16", "runs": {"sweep 1": {"other_cores": 0.1}}}]), "")
+
     def test_the_real_program_is_understood(self):
         self.fine("--rows", "dish:16", program=SCULPT[0])
         row = self.document()["rows"]["dish:16"]
