@@ -45,10 +45,15 @@ Vec3 PostureField::corner_cell(Voxel corner) const {
   return low_ + Vec3(corner.i, corner.j, corner.k).cwiseProduct(span_) / fine;
 }
 
-std::size_t PostureField::fine_cell(const Vec3& cell) const {
+/// The cell of the fine lattice that a place is in.
+Voxel PostureField::corner_below(const Vec3& cell) const {
   const Vec3 at = (cell - low_).cwiseQuotient(span_) * fine;
   const auto whole = [](double x) { return std::clamp(static_cast<int>(x), 0, fine - 1); };
-  return static_cast<std::size_t>((whole(at.z()) * fine + whole(at.y())) * fine + whole(at.x()));
+  return {whole(at.x()), whole(at.y()), whole(at.z())};
+}
+
+std::size_t PostureField::fine_cell(const Vec3& cell) const {
+  return index_of(corner_below(cell));
 }
 
 /// From the middle of the top outwards, each node from a neighbour that has one.
@@ -196,11 +201,29 @@ std::optional<Configuration> PostureField::at(const Vec3& cell) const {
 
 bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
                                   const Configuration& to) const {
-  return links_are_free(from_cell, from, to_cell, to, 12);
+  constexpr int splits = 12;
+  return line_is_usable(from_cell, to_cell, splits) && in_bubbles(from_cell, from, to_cell, to, splits);
 }
 
-bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
-                                  const Configuration& to, int splits) const {
+/// Two cells that share a face are a box together, so a line between them stays in them; others are halved. What is
+/// left where a line passes an edge of the lattice needs all cells around it.
+bool PostureField::line_is_usable(const Vec3& from_cell, const Vec3& to_cell, int splits) const {
+  const Voxel from = corner_below(from_cell), to = corner_below(to_cell);
+  if (bubble_[index_of(from)] < 0 || bubble_[index_of(to)] < 0) return false;
+  if (l1(from, to) <= 1) return true;
+  if (splits > 0) {
+    const Vec3 middle = (from_cell + to_cell) / 2;
+    return line_is_usable(from_cell, middle, splits - 1) && line_is_usable(middle, to_cell, splits - 1);
+  }
+  for (int k = std::min(from.k, to.k); k <= std::max(from.k, to.k); ++k)
+    for (int j = std::min(from.j, to.j); j <= std::max(from.j, to.j); ++j)
+      for (int i = std::min(from.i, to.i); i <= std::max(from.i, to.i); ++i)
+        if (bubble_[index_of({i, j, k})] < 0) return false;
+  return true;
+}
+
+bool PostureField::in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
+                              const Configuration& to, int splits) const {
   for (const Vec3& cell : {from_cell, to_cell}) {
     const std::int32_t id = bubble_[fine_cell(cell)];
     if (id < 0) continue;
@@ -210,8 +233,8 @@ bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& fr
   if (splits == 0) return false;
   const Vec3 middle_cell = (from_cell + to_cell) / 2;
   const Configuration middle = (from + to) / 2;
-  return links_are_free(from_cell, from, middle_cell, middle, splits - 1) &&
-         links_are_free(middle_cell, middle, to_cell, to, splits - 1);
+  return in_bubbles(from_cell, from, middle_cell, middle, splits - 1) &&
+         in_bubbles(middle_cell, middle, to_cell, to, splits - 1);
 }
 
 }  // namespace sculpt

@@ -33,8 +33,8 @@ class PostureField {
   /// The configuration with the ball at `cell`; nothing where the field is not usable.
   std::optional<Configuration> at(const Vec3& cell) const;
 
-  /// Is the joint-linear edge free of contacts between links, room, stock and each other? `from_cell`, `to_cell`: where
-  /// the ball is at its ends.
+  /// Is the joint-linear edge free of contacts between links, room, stock and each other, and the straight line of the
+  /// ball from `from_cell` to `to_cell`, where it is at the ends, usable all along?
   bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
                       const Configuration& to) const;
 
@@ -59,6 +59,7 @@ class PostureField {
   std::optional<Configuration> corner_configuration(Voxel corner) const;
   bool has_nodes(Voxel corner, int size) const;
   std::optional<Bubble> find_bubble(const Scene& scene, Voxel corner, int size) const;
+  Voxel corner_below(const Vec3& cell) const;
   std::size_t fine_cell(const Vec3& cell) const;
   void grow(const Configuration& start, const Watch& watch);
   std::size_t index_of(Voxel corner) const {
@@ -69,8 +70,9 @@ class PostureField {
   /// For ball positions in a box of cells, off by `stray` voxel edges.
   bool room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double stray) const;
   void find_roomy(const Scene& scene);
-  bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
-                      int splits) const;
+  bool line_is_usable(const Vec3& from_cell, const Vec3& to_cell, int splits) const;
+  bool in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
+                  int splits) const;
   std::optional<Configuration> interpolate(const Vec3& cell) const;
 
   Chain chain_;
