@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/transit.hpp"
@@ -35,7 +36,12 @@ class Sweep {
   VoxelSet run() {
     find_fields();
     while (const auto view = best_view()) carve_along(*view);
-    if (!transit(home_)) move(way_home());
+    if (transit(home_)) return standing_;
+    const auto way = way_home();
+    if (!way)
+      throw InputError("no_transit",
+                       "the arm finds no way home from above the stock: keep what stands beside it lower");
+    move(*way);
     return standing_;
   }
 
@@ -142,14 +148,15 @@ class Sweep {
   bool enter(std::size_t which) {
     const auto hub = fields_[which]->at(hub_cell());
     if (!hub) return false;
-    std::vector<Configuration> back = way_home();
+    const auto back = way_home();
+    if (!back) return false;
     const Configuration from = q_;
     const Transit found = plan_transit(scene_, from, *hub, mix(seed_, ++transits_), watch_.stop);
     if (watch_.stop.stop_requested()) throw Cancelled{};
     if (found.path.empty()) return false;
     move({found.path.begin() + 1, found.path.end()});
     way_home_.assign(found.path.rbegin() + 1, found.path.rend());
-    way_home_.insert(way_home_.end(), back.begin(), back.end());
+    way_home_.insert(way_home_.end(), back->begin(), back->end());
     field_ = fields_[which].get();
     at_ = hub_cell();
     return true;
@@ -163,11 +170,12 @@ class Sweep {
     return true;
   }
 
-  /// From where the arm stands, above the material: over to the hub of the direction and from there as it came.
-  std::vector<Configuration> way_home() const {
-    if (field_ == nullptr) return {};
+  /// From where the arm stands, above the material: over to the hub of the direction and from there as it came. Nothing
+  /// if something stands between it and the hub.
+  std::optional<std::vector<Configuration>> way_home() const {
+    if (field_ == nullptr) return std::vector<Configuration>{};
     const Followed over = follow(*field_, scene_.tool(), scene_.grid(), at_, {{hub_cell(), 0, 0, {}, {}}});
-    if (at_ != hub_cell() && over.strokes == 0) throw std::logic_error("the arm cannot go back to its hub");
+    if (at_ != hub_cell() && over.strokes == 0) return std::nullopt;
     std::vector<Configuration> way;
     for (const Keyframe& keyframe : over.keyframes) way.push_back(keyframe.q);
     way.insert(way.end(), way_home_.begin(), way_home_.end());

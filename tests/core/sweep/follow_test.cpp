@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "tests/core/sweep/clamped_cell.hpp"
 #include "tests/core/sweep/panda_field.hpp"
 
 namespace sculpt {
@@ -171,6 +172,32 @@ TEST(Follow, LeavesOutAStrokeThatEndsWhereTheFieldIsNotUsable) {
   EXPECT_EQ(followed.strokes, 1u);
   EXPECT_LT((panda.field.chain().tool_pose(followed.keyframes.back().q).ball_m - panda.field.ball_m({8, 8, 15})).norm(),
             1e-6);
+}
+
+TEST(Follow, NeverGoesThroughWhatStandsBetweenTwoUsablePlaces) {
+  constexpr int m = 64;
+  const Cell cell = parse_cell(cell_with_pin());
+  const Scene full(cell, cell.grid(m), VoxelSet(m, true)), empty(cell, cell.grid(m), VoxelSet(m));
+  const PostureField field = make_field(full, cell.home(full.chain()), tool_views(m)[0]);
+  Random random(11);
+  int followed_strokes = 0, refused = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    // The pin is at (32, 48) in cells.
+    const double away = random.between(3, 12), height = random.between(60, 65);
+    const Vec3 from(random.between(20, 44), 47.5 + away, height), to(from.x(), 47.5 - random.between(3, 12), height);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << from.transpose() << " to " << to.transpose());
+    const auto start = field.at(from);
+    if (!start) continue;
+    const Followed followed = follow(field, full.tool(), full.grid(), from, {{to, 0, 0.04, {}, {}}});
+    (followed.strokes == 1 ? followed_strokes : refused) += 1;
+    Configuration q = *start;
+    for (const Keyframe& keyframe : followed.keyframes) {
+      for (int s = 0; s <= 100; ++s) ASSERT_EQ(empty.contact_at(q + (s / 100.0) * (keyframe.q - q)), Contact::none);
+      q = keyframe.q;
+    }
+  }
+  EXPECT_GT(followed_strokes, 50);
+  EXPECT_GT(refused, 20);
 }
 
 TEST(Follow, StrayIsWhatIsLeftOfAVoxelBesideTheTool) {

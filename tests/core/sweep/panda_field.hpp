@@ -10,7 +10,8 @@ namespace sculpt {
 
 /// From above the middle of the stock, as near to home as the arm comes there.
 inline PostureField make_field(const Scene& scene, const Configuration& home, const ToolView& view) {
-  const auto start = solve_ik(scene.chain(), {view.ball_m(scene.grid(), {8, 8, 17}), view.axis()}, home);
+  const auto start = solve_ik(
+      scene.chain(), {view.ball_m(scene.grid(), {view.n / 2.0, view.n / 2.0, view.n + 1.0}), view.axis()}, home);
   if (!start) throw std::logic_error("the arm does not come to where the field should begin");
   return {scene, view, *start, {}};
 }
