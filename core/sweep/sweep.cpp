@@ -16,7 +16,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t layers_at_once = 16;
+constexpr std::size_t most_layers_at_once = 16;
 
 class Sweep {
  public:
@@ -87,12 +87,16 @@ class Sweep {
     }
     Columns columns = columns_of(which);
     const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
+    std::size_t at_once = most_layers_at_once;
     for (int layer = voxels_.n() - 1; layer >= 0;) {
-      std::vector<Layer> layers = plan_layers(columns, layer, stray);
+      std::vector<Layer> layers = plan_layers(columns, layer, at_once, stray);
       for_each_index(threads_, layers.size(), [&](std::size_t at) {
         layers[at].followed = follow(*field_, scene_.tool(), scene_.grid(), layers[at].from, layers[at].strokes);
       });
-      layer = commit(layers, columns, layer);
+      const int next = commit(layers, columns);
+      // Where one cut fails others do, and each time the rest was planned in vain.
+      at_once = next == layers.back().c - 1 ? std::min(2 * at_once, most_layers_at_once) : 1;
+      layer = next;
     }
     Vec3 end = at_;
     const std::vector<Stroke> rise = columns.rise(end, stray);
@@ -110,10 +114,10 @@ class Sweep {
 
   /// What is to be done in the next layers from `c` down, as if nothing failed. Their number is the same at any number
   /// of threads.
-  std::vector<Layer> plan_layers(Columns& columns, int c, double stray) const {
+  std::vector<Layer> plan_layers(Columns& columns, int c, std::size_t at_once, double stray) const {
     std::vector<Layer> layers;
     Vec3 end = at_;
-    for (; c >= 0 && layers.size() < layers_at_once; --c) {
+    for (; c >= 0 && layers.size() < at_once; --c) {
       const Vec3 from = end;
       layers.push_back({c, from, columns.cut_layer(c, end, stray), {}});
     }
@@ -121,20 +125,16 @@ class Sweep {
   }
 
   /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
-  int commit(const std::vector<Layer>& layers, Columns& columns, int layer) {
+  int commit(const std::vector<Layer>& layers, Columns& columns) {
     for (std::size_t at = 0; at < layers.size(); ++at) {
       const auto& strokes = layers[at].strokes;
       const std::size_t done = commit(layers[at].followed, strokes);
-      layer = layers[at].c;
-      if (done == strokes.size()) {
-        --layer;
-        continue;
-      }
+      if (done == strokes.size()) continue;
       for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, columns, false);
       take_back(strokes, done, columns, true);
-      break;
+      return layers[at].c;
     }
-    return layer;
+    return layers.back().c - 1;
   }
 
   /// Of a failed layer the first cut that could not be come to or not be made is given up.
