@@ -12,7 +12,9 @@ namespace {
 /// Nodes beside each other may not differ by more in any joint (rad or m): else they are on two branches.
 constexpr double longest_joint_step = 0.35;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
-constexpr double margin_voxels = 0.005, stray_voxels = 0.04 + margin_voxels;
+constexpr double margin_voxels = 0.005;
+/// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
+constexpr double tool_room_voxels = 0.5 - margin_voxels;
 constexpr double headroom_cells = 2;  // above the grid: where the tool travels and comes in
 
 }  // namespace
@@ -136,7 +138,7 @@ void PostureField::cover(const Scene& scene, Voxel corner, int size, int smalles
             const Vec3 first = corner_cell(cell).cwiseMax(0);
             const Vec3 last = corner_cell(cell + Voxel{1, 1, 1})
                                   .cwiseMin(Vec3(view_.n - 1, view_.n - 1, view_.n - 0.5 + headroom_cells));
-            if ((first.array() <= last.array()).all() && !room_is_clear(scene, first, last, stray_voxels)) continue;
+            if ((first.array() <= last.array()).all() && !room_is_clear(scene, first, last, tool_room_voxels)) continue;
             bubble_[index_of(cell)] = static_cast<std::int32_t>(bubbles_.size());
           }
       bubbles_.push_back(std::move(*bubble));
@@ -156,10 +158,9 @@ void PostureField::close_upwards() {
   usable_ = static_cast<std::size_t>(std::count_if(bubble_.begin(), bubble_.end(), [](int id) { return id >= 0; }));
 }
 
-bool PostureField::room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double stray) const {
-  const Tool& tool = scene.tool();
-  const Vec3 a = ball_m(first), b = ball_m(last), reach = tool.stickout_m * view_.axis();
-  const double radius = std::max(tool.ball_radius_m, tool.shank_radius_m) + stray * grid_.voxel_m;
+bool PostureField::room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double room_voxels) const {
+  const Vec3 a = ball_m(first), b = ball_m(last), reach = scene.tool().stickout_m * view_.axis();
+  const double radius = room_voxels * grid_.voxel_m;
   const Vec3 low = a.cwiseMin(b).cwiseMin(a + reach).cwiseMin(b + reach) - Vec3::Constant(radius);
   const Vec3 high = a.cwiseMax(b).cwiseMax(a + reach).cwiseMax(b + reach) + Vec3::Constant(radius);
   return scene.room_is_clear(low, high);
@@ -170,7 +171,7 @@ void PostureField::find_roomy(const Scene& scene) {
   for (int inset : {0, 1, 2, 4}) {
     const Vec3 first(inset, inset, 0), last(view_.n - 1 - inset, view_.n - 1 - inset, view_.n - 0.5 + headroom_cells);
     if (first.x() > last.x()) return;
-    if (!room_is_clear(scene, first, last, 0.5 + margin_voxels)) continue;
+    if (!room_is_clear(scene, first, last, 0.5 + tool_room_voxels)) continue;
     roomy_ = Eigen::AlignedBox3d(first, last);
     return;
   }

@@ -67,8 +67,8 @@ class PostureField {
   }
   void cover(const Scene& scene, Voxel corner, int size, int smallest, const Watch& watch);
   void close_upwards();
-  /// For ball positions in a box of cells, off by `stray` voxel edges.
-  bool room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double stray) const;
+  /// Around the tool by `room_voxels` (voxel edges), for all ball positions in a box of cells.
+  bool room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double room_voxels) const;
   void find_roomy(const Scene& scene);
   bool line_is_usable(const Vec3& from_cell, const Vec3& to_cell, int splits) const;
   bool in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
