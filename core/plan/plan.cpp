@@ -12,6 +12,7 @@
 #include "core/motion/tool_reach.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
+#include "core/sweep/follow.hpp"
 #include "core/sweep/sweep.hpp"
 #include "core/verify/verify.hpp"
 
@@ -19,7 +20,7 @@ namespace sculpt {
 namespace {
 
 constexpr int most_effort = 2;
-constexpr double tolerance_voxels = 0.02, sweep_tolerance_voxels = 0.04;
+constexpr double tolerance_voxels = 0.02;
 
 class Stopwatch {
  public:
@@ -114,7 +115,7 @@ TrajectoryHeader make_header(const Job& job, const std::string& search, const Ce
   header.home = rounded(cell.home(chain), chain.lower(), chain.upper());
   header.grid = grid;
   header.tool = make_tool(cell.tool, grid.voxel_m);
-  header.tolerance_m = (search == "sweep" ? sweep_tolerance_voxels : tolerance_voxels) * grid.voxel_m;
+  header.tolerance_m = (search == "sweep" ? most_ball_stray : tolerance_voxels) * grid.voxel_m;
   header.cell = cell.name;
   header.search = search;
   header.seed = job.seed;

@@ -8,7 +8,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double most_ball_stray = 0.04;  // voxel edges: the tolerance that trajectories may have
 constexpr double margin = 0.005;          // voxel edges, to any material
 constexpr double longest_edge = 64;       // voxel edges
 

@@ -7,6 +7,9 @@
 
 namespace sculpt {
 
+/// How far the ball's centre may be from a voxel's when it cuts it (voxel edges): the tolerance of sweep trajectories.
+inline constexpr double most_ball_stray = 0.04;
+
 /// How far ball and shank may leave the lines of strokes that pass beside material, in voxel edges.
 struct Stray {
   double ball, shank;
