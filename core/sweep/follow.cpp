@@ -8,8 +8,8 @@
 namespace sculpt {
 namespace {
 
-constexpr double margin = 0.005;          // voxel edges, to any material
-constexpr double longest_edge = 64;       // voxel edges
+constexpr double margin = 0.005;     // voxel edges, to any material
+constexpr double longest_edge = 64;  // voxel edges
 
 /// A configuration and where it was meant to have the ball.
 struct Stop {
