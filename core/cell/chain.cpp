@@ -87,6 +87,9 @@ Chain::Chain(const Robot& robot, int stock_link, int tool_link, double stickout_
 int Chain::add_coordinate(int joint) {
   int& coordinate = coordinate_[static_cast<std::size_t>(joint)];
   if (coordinate < 0) {
+    if (dof() == most_joints)
+      throw InputError("urdf_invalid", "more than " + std::to_string(most_joints) +
+                                             " joints move the tool against the stock: fix some of them in the URDF");
     coordinate = dof();
     joints_.push_back(joint);
   }
@@ -175,7 +178,7 @@ ToolPose Chain::tool_pose(const Configuration& q) const {
   return {pose.translation(), -pose.linear().col(2)};
 }
 
-ToolPose Chain::tool_pose(const Configuration& q, Eigen::Matrix<double, 6, Eigen::Dynamic>& jacobian) const {
+ToolPose Chain::tool_pose(const Configuration& q, JointColumns<6>& jacobian) const {
   jacobian.setZero(6, dof());
   Frame pose = Frame::Identity();
   for (const Step& step : steps_) {
@@ -202,8 +205,8 @@ ToolPose Chain::tool_pose(const Configuration& q, Eigen::Matrix<double, 6, Eigen
   return {ball, -pose.linear().col(2)};
 }
 
-Eigen::VectorXd Chain::turn_rates() const {
-  Eigen::VectorXd rates = Eigen::VectorXd::Zero(dof());
+Configuration Chain::turn_rates() const {
+  Configuration rates = Configuration::Zero(dof());
   for (const Step& step : steps_)
     if (step.turns) rates[step.coordinate] += std::abs(step.multiplier);
   return rates;
@@ -243,8 +246,8 @@ Chain::ToolEnds Chain::tool_acceleration(const Configuration& q, const Configura
   return ends;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> Chain::jacobian(const Configuration& q) const {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian;
+JointColumns<6> Chain::jacobian(const Configuration& q) const {
+  JointColumns<6> jacobian;
   tool_pose(q, jacobian);
   return jacobian;
 }

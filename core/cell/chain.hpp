@@ -20,7 +20,8 @@ struct ToolPose {
 /// construction: safe to share between threads.
 class Chain {
  public:
-  /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the tool.
+  /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the tool,
+  /// `urdf_invalid` when more than most_joints do.
   Chain(const Robot& robot, int stock_link, int tool_link, double stickout_m, std::vector<double> rest);
 
   int dof() const { return static_cast<int>(joints_.size()); }
@@ -39,12 +40,12 @@ class Chain {
   void link_poses(const Configuration& q, std::vector<Frame>& poses) const;
   ToolPose tool_pose(const Configuration& q) const;
   /// Rows 0-2: velocity of the ball's centre (m per unit of joint); rows 3-5: angular velocity of the tool (rad per unit). Stock frame. 6 x dof.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(const Configuration& q) const;
+  JointColumns<6> jacobian(const Configuration& q) const;
   /// Both at once; `jacobian` is resized where needed, so that a caller who keeps it pays no allocation.
-  ToolPose tool_pose(const Configuration& q, Eigen::Matrix<double, 6, Eigen::Dynamic>& jacobian) const;
+  ToolPose tool_pose(const Configuration& q, JointColumns<6>& jacobian) const;
 
   /// How fast the tool can turn, per unit of each coordinate (rad): more than 1 where mimic joints add to it.
-  Eigen::VectorXd turn_rates() const;
+  Configuration turn_rates() const;
   /// Ball's centre and the shank's other end.
   struct ToolEnds {
     Vec3 ball_m, top_m;

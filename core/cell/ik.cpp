@@ -14,7 +14,7 @@ using Square = Eigen::Matrix<double, 5, 5>;
 /// The linear problem at one configuration: three position rows (m) and two axis rows (rad, orthogonal to the axis);
 /// unused rows are zero.
 struct Linear {
-  Eigen::Matrix<double, 5, Eigen::Dynamic> jacobian;
+  JointColumns<5> jacobian;
   Rows error = Rows::Zero();
   double position_m = 0, axis_rad = 0;
 };
@@ -155,7 +155,7 @@ class Solver {
   const IkSettings& settings_;
   Configuration middle_;
   Linear linear_;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> full_;
+  JointColumns<6> full_;
   Configuration step_, pull_;
   std::vector<char> held_;
 };

@@ -15,7 +15,7 @@ class Bubble {
   /// A capsule that approaches something: first derivatives, at the centre, of its ends (m per unit of each joint) and
   /// of its turning (rad), seen from the other body.
   struct Approach {
-    Eigen::Matrix<double, 3, Eigen::Dynamic> end_a, end_b, turn;
+    JointColumns<3> end_a, end_b, turn;
     double radius_m;  ///< of the capsule
     double room_m;    ///< how far it may move; what derivatives of higher order add within the box is taken off already
   };
@@ -25,10 +25,10 @@ class Bubble {
   /// Within `half` of `centre`, joint by joint, everything is free if each of `approaches` keeps to its room.
   Bubble(Configuration centre, Configuration half, const std::vector<Approach>& approaches)
       : centre_(std::move(centre)), half_(std::move(half)) {
-    rows_.resize(static_cast<Eigen::Index>(9 * approaches.size()), centre_.size());
-    for (std::size_t at = 0; at < approaches.size(); ++at) {
-      const Approach& approach = approaches[at];
-      rows_.middleRows<9>(static_cast<Eigen::Index>(9 * at)) << approach.end_a, approach.end_b, approach.turn;
+    const Eigen::Index joints = centre_.size();
+    motions_.resize(9, static_cast<Eigen::Index>(approaches.size()) * joints);
+    for (const Approach& approach : approaches) {
+      motions_.middleCols(first_column(rooms_.size()), joints) << approach.end_a, approach.end_b, approach.turn;
       rooms_.push_back({approach.radius_m, approach.room_m});
     }
   }
@@ -38,11 +38,10 @@ class Bubble {
     if (q.size() != centre_.size()) return false;
     const Configuration step = q - centre_;
     if ((step.cwiseAbs().array() > half_.array()).any()) return false;
-    const Eigen::VectorXd moved = rows_ * step;
     for (std::size_t at = 0; at < rooms_.size(); ++at) {
-      const auto row = static_cast<Eigen::Index>(9 * at);
-      const double ends = std::max(moved.segment<3>(row).norm(), moved.segment<3>(row + 3).norm());
-      if (ends + rooms_[at].radius_m * moved.segment<3>(row + 6).norm() >= rooms_[at].room_m) return false;
+      const Eigen::Matrix<double, 9, 1> moved = motions_.middleCols(first_column(at), step.size()) * step;
+      const double ends = std::max(moved.segment<3>(0).norm(), moved.segment<3>(3).norm());
+      if (ends + rooms_[at].radius_m * moved.segment<3>(6).norm() >= rooms_[at].room_m) return false;
     }
     return true;
   }
@@ -52,8 +51,12 @@ class Bubble {
     double radius_m, room_m;
   };
 
+  Eigen::Index first_column(std::size_t approach) const {
+    return static_cast<Eigen::Index>(approach) * centre_.size();
+  }
+
   Configuration centre_, half_;
-  Eigen::MatrixXd rows_;  ///< 9 for each approach
+  Eigen::Matrix<double, 9, Eigen::Dynamic> motions_;  ///< of all approaches, side by side: end_a, end_b, turn
   std::vector<Room> rooms_;
 };
 

@@ -64,10 +64,10 @@ Drive drive_of(const Chain& chain, int index) {
 
 }  // namespace
 
-Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double extent_m) {
+Configuration motion_bound(const Chain& chain, int fixed, int moving, double extent_m) {
   const Robot& robot = chain.robot();
   const std::vector<Passage> way = find_way(robot, fixed, moving);
-  Eigen::VectorXd bound = Eigen::VectorXd::Zero(chain.dof());
+  Configuration bound = Configuration::Zero(chain.dof());
   double reach = extent_m;
   for (std::size_t at = way.size(); at-- > 0;) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(way[at].joint)];
@@ -83,8 +83,8 @@ Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double e
   return bound;
 }
 
-Eigen::VectorXd turn_bound(const Chain& chain, int fixed, int moving) {
-  Eigen::VectorXd bound = Eigen::VectorXd::Zero(chain.dof());
+Configuration turn_bound(const Chain& chain, int fixed, int moving) {
+  Configuration bound = Configuration::Zero(chain.dof());
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
     const Drive drive = drive_of(chain, passage.joint);
     const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
@@ -93,9 +93,9 @@ Eigen::VectorXd turn_bound(const Chain& chain, int fixed, int moving) {
   return bound;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> relative_twist(const Chain& chain, int fixed, int moving,
+JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
                                                         const std::vector<Frame>& poses) {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> twist = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, chain.dof());
+  JointColumns<6> twist = JointColumns<6>::Zero(6, chain.dof());
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
     const Drive drive = drive_of(chain, passage.joint);
     if (drive.coordinate < 0) continue;

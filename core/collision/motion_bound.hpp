@@ -9,14 +9,14 @@ namespace sculpt {
 /// Upper bounds, per coordinate of `chain`, on the speed (m per rad, or m per m) of any point within `extent_m` of the
 /// origin of link `moving`, seen from link `fixed`; 0 for coordinates that do not move the two against each other.
 /// Holds at every configuration within the limits.
-Eigen::VectorXd motion_bound(const Chain& chain, int fixed, int moving, double extent_m);
+Configuration motion_bound(const Chain& chain, int fixed, int moving, double extent_m);
 
 /// Upper bounds, per coordinate, on how fast link `moving` turns seen from link `fixed` (rad per unit).
-Eigen::VectorXd turn_bound(const Chain& chain, int fixed, int moving);
+Configuration turn_bound(const Chain& chain, int fixed, int moving);
 
 /// How link `moving` moves seen from link `fixed`, per unit of each coordinate: rows 0-2 the velocity of its point at
 /// the stock's origin (m), rows 3-5 its turning (rad); stock frame. `poses` as Chain::link_poses gives them.
-Eigen::Matrix<double, 6, Eigen::Dynamic> relative_twist(const Chain& chain, int fixed, int moving,
+JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
                                                         const std::vector<Frame>& poses);
 
 }  // namespace sculpt

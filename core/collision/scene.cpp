@@ -20,12 +20,12 @@ constexpr double tool_margin_voxels = 0.005;
 struct Pair {
   int first, second;
   double margin_m;  // kept between the two; intervals on which they move less than half of it are not split further
-  Eigen::VectorXd speed_first,
+  Configuration speed_first,
       speed_second;             // motion bounds of one seen from the other; either alone bounds their approach
   bool tool_and_fixed = false;  // the tool and what stands still in the stock's frame
   bool never_touch = false;     // moved against each other by one joint only, and free all along its range
 
-  double motion(const Eigen::VectorXd& joint_steps) const {
+  double motion(const Configuration& joint_steps) const {
     const double of_first = speed_first.dot(joint_steps);
     return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
   }
@@ -129,7 +129,7 @@ struct Scene::Impl {
     const auto twist = relative_twist(chain, other, mover.link, at);
     const Frame& pose = at[static_cast<std::size_t>(mover.link)];
     const auto motion_of = [&](const Vec3& point) {
-      Eigen::Matrix<double, 3, Eigen::Dynamic> motion = twist.topRows<3>();
+      JointColumns<3> motion = twist.topRows<3>();
       for (int c = 0; c < chain.dof(); ++c) motion.col(c) += Vec3(twist.col(c).tail<3>()).cross(point);
       return motion;
     };
@@ -158,7 +158,7 @@ struct Scene::Impl {
     std::vector<Frame> at;
     count_check();
     chain.link_poses(from + middle * step, at);
-    const Eigen::VectorXd joint_steps = half * step.cwiseAbs();
+    const Configuration joint_steps = half * step.cwiseAbs();
     std::vector<const Pair*> left;
     for (const Pair* pair : open) {
       const double motion = pair->motion(joint_steps);
@@ -191,8 +191,8 @@ struct Scene::Impl {
   std::vector<Body> bodies;
   std::vector<const Body*> fixed;  // those that stand still in the stock's frame
   std::vector<Pair> pairs;
-  Eigen::VectorXd tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
-  Eigen::VectorXd turn_rates;  // rad per unit of each coordinate
+  Configuration tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
+  Configuration turn_rates;  // rad per unit of each coordinate
   ToolRadii radii;             // voxel edges
   bool has_mimic = false;
   mutable std::atomic<std::uint64_t> checks = 0;

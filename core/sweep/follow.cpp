@@ -120,8 +120,8 @@ class Follower {
   const Chain& chain_;
   double voxel_m_;
   Stray stray_;
-  Eigen::VectorXd speed_;       ///< m per unit of each joint, for the whole tool
-  Eigen::VectorXd turn_rates_;  ///< rad per unit of each joint
+  Configuration speed_;       ///< m per unit of each joint, for the whole tool
+  Configuration turn_rates_;  ///< rad per unit of each joint
   Stop here_;
   double guess_ = 8;  ///< voxel edges that the next edge is tried with
 };

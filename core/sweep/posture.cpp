@@ -14,8 +14,8 @@ constexpr double longest_step = 0.3;  // rad or m; a longer one means that the g
 std::optional<Configuration> find_posture(const Chain& chain, const Vec3& ball_m, const Vec3& axis,
                                           const Configuration& guess) {
   const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
-  Eigen::Matrix<double, 6, Eigen::Dynamic> full;
-  Eigen::Matrix<double, 5, Eigen::Dynamic> jacobian(5, chain.dof());
+  JointColumns<6> full;
+  JointColumns<5> jacobian(5, chain.dof());
   Configuration q = guess;
   for (int step = 0; step < most_steps; ++step) {
     const ToolPose pose = chain.tool_pose(q, full);
@@ -32,7 +32,8 @@ std::optional<Configuration> find_posture(const Chain& chain, const Vec3& ball_m
     jacobian.row(4).noalias() = v.transpose() * full.bottomRows<3>();
     Eigen::Matrix<double, 5, 5> normal = jacobian * jacobian.transpose();
     normal.diagonal().array() += 1e-12;
-    const Configuration change = jacobian.transpose() * normal.llt().solve(error);
+    Configuration change = Configuration::Zero(chain.dof());
+    change.noalias() += jacobian.transpose() * normal.llt().solve(error);
     if (!(change.cwiseAbs().maxCoeff() < longest_step)) return std::nullopt;
     q += change;
   }

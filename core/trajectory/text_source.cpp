@@ -10,7 +10,7 @@
 namespace sculpt {
 namespace {
 
-// No line of a trajectory comes near: 64 joints take 2 KiB. It bounds the memory that hostile input can take.
+// No line of a trajectory comes near: 16 joints take half a KiB. It bounds the memory that hostile input can take.
 constexpr std::size_t longest_line = 1 << 20;
 
 std::string line_name(std::uint64_t line) {

@@ -17,7 +17,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 8;
-constexpr int most_joints = 64;
 constexpr int largest_resolution = 1024;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {

@@ -153,7 +153,7 @@ TEST(Chain, ToolAccelerationIsTheSecondDifferenceOfItsEndsAndTurnsBoundIt) {
   for (const SampleChain& sample : all_chains()) {
     SCOPED_TRACE(sample.title);
     const Chain chain = sample.chain();
-    const Eigen::VectorXd turns = chain.turn_rates();
+    const Configuration turns = chain.turn_rates();
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
       SCOPED_TRACE(seed);
       Random random(seed);

@@ -82,7 +82,7 @@ TEST(Bubble, RelativeTwistsAreTheDifferencesOfPoses) {
       for (int fixed = 0; fixed < links; ++fixed)
         for (int moving = 0; moving < links; ++moving) {
           const auto twist = relative_twist(chain, fixed, moving, here);
-          const Eigen::VectorXd turn = turn_bound(chain, fixed, moving),
+          const Configuration turn = turn_bound(chain, fixed, moving),
                                 reach = motion_bound(chain, fixed, moving, 0.1);
           for (int c = 0; c < chain.dof(); ++c) {
             const double step = 1e-6;
