@@ -91,7 +91,7 @@ struct Sweeping {
   Configuration start() const {
     return solve_ik(scene.chain(), {view.ball_m(grid, hub()), view.axis()}, cell.home(scene.chain())).value();
   }
-  PostureField field() const { return {scene, view, start(), {}}; }
+  PostureField field() const { return {scene, view, start(), 1, {}}; }
 
   int n;
   Job job;
@@ -121,26 +121,32 @@ BENCHMARK(posture_of_the_field);
 void posture_field_from_above(benchmark::State& state) {
   const Sweeping s(64);
   const Configuration start = s.start();
-  for (auto _ : state) benchmark::DoNotOptimize(PostureField(s.scene, s.view, start, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(PostureField(s.scene, s.view, start, 1, {}));
 }
 BENCHMARK(posture_field_from_above)->Unit(benchmark::kMillisecond);
 
-Configuration bubble_half(const Configuration& q) {
-  return Configuration::Constant(q.size(), 0.03);  // about what the joints do in a cell of a field
+JointBox box_around(const Configuration& q) {
+  const Configuration half = Configuration::Constant(q.size(), 0.03);  // about what the joints do in a cell of a field
+  return {q - half, q + half};
 }
 
 void bubble_around_a_configuration(benchmark::State& state) {
   const Sweeping s(64);
-  const Configuration here = s.start(), half = bubble_half(here);
-  for (auto _ : state) benchmark::DoNotOptimize(s.scene.bubble(here, half));
+  const Configuration here = s.start();
+  for (auto _ : state) {
+    Scene::Pairs pairs = s.scene.pairs();
+    benchmark::DoNotOptimize(s.scene.bubble(here, box_around(here), pairs));
+  }
 }
 BENCHMARK(bubble_around_a_configuration)->Unit(benchmark::kMicrosecond);
 
 void bubble_holds_a_configuration(benchmark::State& state) {
   const Sweeping s(64);
-  const Configuration here = s.start(), half = bubble_half(here);
-  const Bubble bubble = s.scene.bubble(here, half);
-  const Configuration inside = here + 0.3 * half;
+  const Configuration here = s.start();
+  const JointBox box = box_around(here);
+  Scene::Pairs pairs = s.scene.pairs();
+  const Bubble bubble = s.scene.bubble(here, box, pairs);
+  const Configuration inside = here + 0.3 * (box.high - here);
   if (!bubble.holds(inside)) return state.SkipWithError("there is no bubble here");
   for (auto _ : state) benchmark::DoNotOptimize(bubble.holds(inside));
 }

@@ -114,6 +114,7 @@ void Chain::add_step(int index, bool on_stock_side, Frame& fixed) {
     step.offset = -step.offset;
   }
   steps_.push_back(step);
+  shifts_ = shifts_ || !step.turns;
   fixed = on_stock_side ? to_axis.inverse() * joint.origin.inverse() : to_axis.inverse();
 }
 

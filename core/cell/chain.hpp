@@ -34,6 +34,9 @@ class Chain {
   /// True when every coordinate is prismatic: the paper's translating robot.
   bool translating() const;
 
+  /// True when some coordinate moves a prismatic joint.
+  bool shifts() const { return shifts_; }
+
   /// Value of every robot joint at q.
   std::vector<double> joint_values(const Configuration& q) const;
   /// Pose of every robot link in the stock frame; `poses` is resized to the number of links.
@@ -82,6 +85,7 @@ class Chain {
   Configuration lower_, upper_;
   std::vector<int> stock_path_;  // joints from the root to the stock link
   std::vector<Step> steps_;
+  bool shifts_ = false;
   Frame last_ = Frame::Identity();  // from the last step's frame to the ball
 };
 

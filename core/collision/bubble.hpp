@@ -8,6 +8,19 @@
 
 namespace sculpt {
 
+/// Configurations between two, joint by joint, both included.
+struct JointBox {
+  Configuration low, high;
+
+  bool holds(const Configuration& q) const {
+    return (q.array() >= low.array()).all() && (q.array() <= high.array()).all();
+  }
+  bool holds(const JointBox& other) const { return holds(other.low) && holds(other.high); }
+  Configuration centre() const { return (low + high) / 2; }
+  /// How far it goes away from q, joint by joint.
+  Configuration reach_from(const Configuration& q) const { return (high - q).cwiseMax(q - low).cwiseMax(0); }
+};
+
 /// A box of joint values less what a few pairs of bodies cut off. The set is convex, so an edge is free all along if
 /// both of its ends are held. Immutable.
 class Bubble {
@@ -22,9 +35,9 @@ class Bubble {
 
   /// Holds nothing.
   Bubble() = default;
-  /// Within `half` of `centre`, joint by joint, everything is free if each of `approaches` keeps to its room.
-  Bubble(Configuration centre, Configuration half, const std::vector<Approach>& approaches)
-      : centre_(std::move(centre)), half_(std::move(half)) {
+  /// Within `box` everything is free if each of `approaches`, seen from `centre`, keeps to its room.
+  Bubble(Configuration centre, JointBox box, const std::vector<Approach>& approaches)
+      : centre_(std::move(centre)), box_(std::move(box)) {
     const Eigen::Index joints = centre_.size();
     motions_.resize(9, static_cast<Eigen::Index>(approaches.size()) * joints);
     for (const Approach& approach : approaches) {
@@ -35,9 +48,8 @@ class Bubble {
 
   bool empty() const { return centre_.size() == 0; }
   bool holds(const Configuration& q) const {
-    if (q.size() != centre_.size()) return false;
+    if (q.size() != centre_.size() || !box_.holds(q)) return false;
     const Configuration step = q - centre_;
-    if ((step.cwiseAbs().array() > half_.array()).any()) return false;
     for (std::size_t at = 0; at < rooms_.size(); ++at) {
       const Eigen::Matrix<double, 9, 1> moved = motions_.middleCols(first_column(at), step.size()) * step;
       const double ends = std::max(moved.segment<3>(0).norm(), moved.segment<3>(3).norm());
@@ -55,7 +67,8 @@ class Bubble {
     return static_cast<Eigen::Index>(approach) * centre_.size();
   }
 
-  Configuration centre_, half_;
+  Configuration centre_;
+  JointBox box_;
   Eigen::Matrix<double, 9, Eigen::Dynamic> motions_;  ///< of all approaches, side by side: end_a, end_b, turn
   std::vector<Room> rooms_;
 };

@@ -93,6 +93,13 @@ Configuration turn_bound(const Chain& chain, int fixed, int moving) {
   return bound;
 }
 
+DerivativeBounds derivative_bounds(const Chain& chain, const Configuration& turn, const Configuration& speed,
+                                   const Configuration& step) {
+  const double turning = turn.dot(step.cwiseAbs()), travel = speed.dot(step.cwiseAbs());
+  const bool shifts = chain.shifts();
+  return {(shifts ? 2 : 1) * turning * travel, (shifts ? 3 : 1) * turning * turning * travel};
+}
+
 JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
                                                         const std::vector<Frame>& poses) {
   JointColumns<6> twist = JointColumns<6>::Zero(6, chain.dof());

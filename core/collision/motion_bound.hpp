@@ -19,4 +19,14 @@ Configuration turn_bound(const Chain& chain, int fixed, int moving);
 JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
                                                         const std::vector<Frame>& poses);
 
+/// Bounds on the second and third derivative by t of any point that `turn` (turn_bound) and `speed` (motion_bound) were
+/// made for, along q + t * step (m). A derivative is a sum of turnings about joints applied to the motion by the joint
+/// of them that comes last. Of turning joints none is slower than a later one, so the sum over all orders needs no
+/// order; a shift may be faster than an earlier turn and is counted in every place.
+struct DerivativeBounds {
+  double second_m, third_m;
+};
+DerivativeBounds derivative_bounds(const Chain& chain, const Configuration& turn, const Configuration& speed,
+                                   const Configuration& step);
+
 }  // namespace sculpt

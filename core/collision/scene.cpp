@@ -1,14 +1,12 @@
 #include "core/collision/scene.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 
 #include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/motion_bound.hpp"
-#include "core/collision/tool_sweep.hpp"
+#include "core/collision/scene_impl.hpp"
 
 namespace sculpt {
 namespace {
@@ -16,187 +14,115 @@ namespace {
 constexpr double link_margin_m = 2e-4;
 constexpr double tool_margin_voxels = 0.005;
 
-/// Two bodies, or a body and the material (second = -1), that must stay apart.
-struct Pair {
-  int first, second;
-  double margin_m;  // kept between the two; intervals on which they move less than half of it are not split further
-  Configuration speed_first,
-      speed_second;             // motion bounds of one seen from the other; either alone bounds their approach
-  bool tool_and_fixed = false;  // the tool and what stands still in the stock's frame
-  bool never_touch = false;     // moved against each other by one joint only, and free all along its range
-
-  double motion(const Configuration& joint_steps) const {
-    const double of_first = speed_first.dot(joint_steps);
-    return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
-  }
-};
+Contact kind(int second) {
+  return second < 0 ? Contact::link_material : Contact::link_link;
+}
 
 }  // namespace
 
-struct Scene::Impl {
-  Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
-      : chain(cell.chain()),
-        grid(where),
-        tool(make_tool(cell.tool, where.voxel_m)),
-        material(standing),
-        bodies(make_bodies(cell, tool)) {
-    add_pairs(cell);
-    const double h = grid.voxel_m;
-    tool_speed = motion_bound(chain, cell.stock_link, cell.tool_link, tool.stickout_m) / h;
-    turn_rates = chain.turn_rates();
-    radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
-    for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
-    find_never_touching();
-  }
+Scene::Impl::Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
+    : chain(cell.chain()),
+      grid(where),
+      tool(make_tool(cell.tool, where.voxel_m)),
+      material(standing),
+      bodies(make_bodies(cell, tool)) {
+  add_pairs(cell);
+  const double h = grid.voxel_m;
+  tool_speed = motion_bound(chain, cell.stock_link, cell.tool_link, tool.stickout_m) / h;
+  turn_rates = chain.turn_rates();
+  radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
+  for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
+  find_never_touching();
+}
 
-  void add_pairs(const Cell& cell) {
-    const std::vector<int> group = rigid_groups(cell.robot);
-    const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
-    const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
-    const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
-    const auto link_pairs = find_link_pairs(cell.robot);
-    const auto apart = [&](const Body& a, const Body& b) {
-      if (a.tool != b.tool) return group_of(a.tool ? b : a) != tool_group;
-      return !a.tool && std::binary_search(link_pairs.begin(), link_pairs.end(), std::make_pair(a.link, b.link));
-    };
-    for (const Body& body : bodies)
-      if (!body.tool && group_of(body) == stock_group) fixed.push_back(&body);
-    for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
-      const Body& first = bodies[static_cast<std::size_t>(a)];
-      if (!first.tool && group_of(first) != stock_group)
-        pairs.push_back(
-            {a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, first.hull.extent()), {}});
-      for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
-        const Body& second = bodies[static_cast<std::size_t>(b)];
-        if (!apart(first, second)) continue;
-        const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
-        Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, first.hull.extent()),
-                  motion_bound(chain, first.link, second.link, second.hull.extent())};
-        if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
-        pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
-        pairs.push_back(std::move(pair));
-      }
+void Scene::Impl::add_pairs(const Cell& cell) {
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
+  const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
+  const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
+  const auto link_pairs = find_link_pairs(cell.robot);
+  const auto apart = [&](const Body& a, const Body& b) {
+    if (a.tool != b.tool) return group_of(a.tool ? b : a) != tool_group;
+    return !a.tool && std::binary_search(link_pairs.begin(), link_pairs.end(), std::make_pair(a.link, b.link));
+  };
+  for (const Body& body : bodies)
+    if (!body.tool && group_of(body) == stock_group) fixed.push_back(&body);
+  for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
+    const Body& first = bodies[static_cast<std::size_t>(a)];
+    if (!first.tool && group_of(first) != stock_group)
+      pairs.push_back(
+          {a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, first.hull.extent()), {}});
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
+      const Body& second = bodies[static_cast<std::size_t>(b)];
+      if (!apart(first, second)) continue;
+      const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
+      Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, first.hull.extent()),
+                motion_bound(chain, first.link, second.link, second.hull.extent())};
+      if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
+      pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
+      pairs.push_back(std::move(pair));
     }
   }
+}
 
-  ToolLine tool_line(const ToolPose& pose) const {
-    return {(pose.ball_m - grid.origin_m) / grid.voxel_m,
-            (pose.ball_m + tool.stickout_m * pose.axis - grid.origin_m) / grid.voxel_m};
+ToolLine Scene::Impl::tool_line(const ToolPose& pose) const {
+  return {(pose.ball_m - grid.origin_m) / grid.voxel_m,
+          (pose.ball_m + tool.stickout_m * pose.axis - grid.origin_m) / grid.voxel_m};
+}
+
+bool Scene::Impl::tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const {
+  const ToolLine line = tool_line(pose);
+  if (material.meets_capsule({line.ball, line.ball}, radii.ball + tool_margin_voxels, exempt)) return true;
+  return radii.shank > 0 && material.meets_capsule({line.ball, line.top}, radii.shank + tool_margin_voxels, exempt);
+}
+
+bool Scene::Impl::near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const {
+  const Body& a = bodies[static_cast<std::size_t>(pair.first)];
+  const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
+  if (pair.second < 0) return near_material(a, pose_a, material, grid, reach_m);
+  const Body& b = bodies[static_cast<std::size_t>(pair.second)];
+  return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
+}
+
+/// Marks the pairs that one joint moves and that it can move as it likes. Material only shrinks, so that stays true.
+void Scene::Impl::find_never_touching() {
+  for (Pair& pair : pairs) {
+    if ((pair.speed_first.array() > 0).count() != 1) continue;
+    const Configuration range = chain.upper() - chain.lower();
+    pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
   }
+}
 
-  bool tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const {
-    const ToolLine line = tool_line(pose);
-    if (material.meets_capsule({line.ball, line.ball}, radii.ball + tool_margin_voxels, exempt)) return true;
-    return radii.shank > 0 && material.meets_capsule({line.ball, line.top}, radii.shank + tool_margin_voxels, exempt);
+Contact Scene::Impl::certify_links(const Configuration& from, const Configuration& step, double middle, double half,
+                      const std::vector<const Pair*>& open) const {
+  std::vector<Frame> at;
+  count_check();
+  chain.link_poses(from + middle * step, at);
+  const Configuration joint_steps = half * step.cwiseAbs();
+  std::vector<const Pair*> left;
+  for (const Pair* pair : open) {
+    const double motion = pair->motion(joint_steps);
+    if (!near(*pair, at, motion + pair->margin_m)) continue;
+    if (motion < pair->margin_m / 2 || near(*pair, at, pair->margin_m)) return kind(pair->second);
+    left.push_back(pair);
   }
+  if (left.empty()) return Contact::none;
+  const Contact before = certify_links(from, step, middle - half / 2, half / 2, left);
+  if (before != Contact::none) return before;
+  return certify_links(from, step, middle + half / 2, half / 2, left);
+}
 
-  bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const {
-    const Body& a = bodies[static_cast<std::size_t>(pair.first)];
-    const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
-    if (pair.second < 0) return near_material(a, pose_a, material, grid, reach_m);
-    const Body& b = bodies[static_cast<std::size_t>(pair.second)];
-    return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
-  }
-
-  /// A distance (m) that the two are surely apart beyond their margin, looked for as far as `enough`; 0 if they may be
-  /// nearer than the shortest one tried. FCL is asked only where the closed form says little.
-  double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
-    static constexpr std::array reaches{0.001, 0.002, 0.004, 0.008, 0.012, 0.018, 0.025, 0.035};
-    const Body& a = bodies[static_cast<std::size_t>(pair.first)];
-    const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
-    double apart = 0;
-    if (pair.second < 0) {
-      apart = least_distance_to_grid(a, pose_a, grid);
-    } else {
-      const Body& b = bodies[static_cast<std::size_t>(pair.second)];
-      apart = least_distance(a, pose_a, b, at[static_cast<std::size_t>(b.link)], enough + pair.margin_m);
-    }
-    apart = std::max(0.0, apart - pair.margin_m);
-    auto reach = std::upper_bound(reaches.begin(), reaches.end(), apart);
-    while (apart < enough && reach != reaches.end() && !near(pair, at, *reach + pair.margin_m)) apart = *reach++;
-    return apart;
-  }
-
-  /// Of the two the one that moves less seen from the other, as it approaches. What the first derivative leaves out is
-  /// at most half of (turning times travel), both summed over the joints: the second derivative of any point is (see
-  /// tool_bend).
-  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
-                            double gap_m) const {
-    const bool first_moves = pair.second < 0 || pair.speed_first.dot(half) <= pair.speed_second.dot(half);
-    const Body& mover = bodies[static_cast<std::size_t>(first_moves ? pair.first : pair.second)];
-    const int other = pair.second < 0 ? chain.stock_link()
-                                      : bodies[static_cast<std::size_t>(first_moves ? pair.second : pair.first)].link;
-    const auto twist = relative_twist(chain, other, mover.link, at);
-    const Frame& pose = at[static_cast<std::size_t>(mover.link)];
-    const auto motion_of = [&](const Vec3& point) {
-      JointColumns<3> motion = twist.topRows<3>();
-      for (int c = 0; c < chain.dof(); ++c) motion.col(c) += Vec3(twist.col(c).tail<3>()).cross(point);
-      return motion;
-    };
-    const double travel = (first_moves ? pair.speed_first : pair.speed_second).dot(half);
-    const double rest = 0.5 * turn_bound(chain, other, mover.link).dot(half) * travel;
-    return {motion_of(pose * mover.hull.core.a), motion_of(pose * mover.hull.core.b), twist.bottomRows<3>(),
-            mover.hull.radius_m, gap_m - rest};
-  }
-
-  /// Marks the pairs that one joint moves and that it can move as it likes. Material only shrinks, so that stays true.
-  void find_never_touching() {
-    for (Pair& pair : pairs) {
-      if ((pair.speed_first.array() > 0).count() != 1) continue;
-      const Configuration range = chain.upper() - chain.lower();
-      pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
-    }
-  }
-
-  void count_check() const { checks.fetch_add(1, std::memory_order_relaxed); }
-
-  static Contact kind(const Pair& pair) { return pair.second < 0 ? Contact::link_material : Contact::link_link; }
-
-  /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
-  Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
-                        const std::vector<const Pair*>& open) const {
-    std::vector<Frame> at;
-    count_check();
-    chain.link_poses(from + middle * step, at);
-    const Configuration joint_steps = half * step.cwiseAbs();
-    std::vector<const Pair*> left;
-    for (const Pair* pair : open) {
-      const double motion = pair->motion(joint_steps);
-      if (!near(*pair, at, motion + pair->margin_m)) continue;
-      if (motion < pair->margin_m / 2 || near(*pair, at, pair->margin_m)) return kind(*pair);
-      left.push_back(pair);
-    }
-    if (left.empty()) return Contact::none;
-    const Contact before = certify_links(from, step, middle - half / 2, half / 2, left);
-    if (before != Contact::none) return before;
-    return certify_links(from, step, middle + half / 2, half / 2, left);
-  }
-
-  /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
-  /// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
-  /// anywhere, so then all turns are applied to all motions.
-  double tool_bend(const Configuration& step) const {
-    if (has_mimic) return turn_rates.dot(step.cwiseAbs()) * tool_speed.dot(step.cwiseAbs());
-    double sum = 0;
-    for (int i = 0; i < step.size(); ++i)
-      for (int j = 0; j <= i; ++j)
-        sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];
-    return sum;
-  }
-
-  Chain chain;
-  Grid grid;
-  Tool tool;
-  Material material;
-  std::vector<Body> bodies;
-  std::vector<const Body*> fixed;  // those that stand still in the stock's frame
-  std::vector<Pair> pairs;
-  Configuration tool_speed;  // voxel edges per unit of each coordinate, for the shank's whole length
-  Configuration turn_rates;  // rad per unit of each coordinate
-  ToolRadii radii;             // voxel edges
-  bool has_mimic = false;
-  mutable std::atomic<std::uint64_t> checks = 0;
-};
+/// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
+/// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
+/// anywhere, so then all turns are applied to all motions.
+double Scene::Impl::tool_bend(const Configuration& step) const {
+  if (has_mimic) return derivative_bounds(chain, turn_rates, tool_speed, step).second_m;
+  double sum = 0;
+  for (int i = 0; i < step.size(); ++i)
+    for (int j = 0; j <= i; ++j)
+      sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];
+  return sum;
+}
 
 Scene::Scene(const Cell& cell, const Grid& grid, const VoxelSet& standing)
     : impl_(std::make_unique<Impl>(cell, grid, standing)) {}
@@ -236,7 +162,7 @@ std::string Scene::describe_contact(const Configuration& q) const {
   };
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
-  for (const Pair& pair : impl_->pairs)
+  for (const Impl::Pair& pair : impl_->pairs)
     if (impl_->near(pair, at, pair.margin_m))
       return name(impl_->bodies[static_cast<std::size_t>(pair.first)]) + " touches " +
              (pair.second < 0 ? "the stock" : name(impl_->bodies[static_cast<std::size_t>(pair.second)]));
@@ -249,25 +175,9 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
   if (impl_->tool_meets_material(impl_->chain.tool_pose(q), exempt)) return Contact::tool_material;
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
-  for (const Pair& pair : impl_->pairs)
-    if (impl_->near(pair, at, pair.margin_m)) return Impl::kind(pair);
+  for (const Impl::Pair& pair : impl_->pairs)
+    if (impl_->near(pair, at, pair.margin_m)) return kind(pair.second);
   return Contact::none;
-}
-
-Bubble Scene::bubble(const Configuration& q, const Configuration& half) const {
-  impl_->count_check();
-  std::vector<Frame> at;
-  impl_->chain.link_poses(q, at);
-  std::vector<Bubble::Approach> approaches;
-  for (const Pair& pair : impl_->pairs) {
-    if (pair.tool_and_fixed || pair.never_touch) continue;
-    const double enough = pair.motion(half) + 1e-9;
-    const double gap = impl_->gap(pair, at, enough);
-    if (gap >= enough) continue;  // free in all of the box
-    approaches.push_back(impl_->approach(pair, at, half, gap));
-    if (approaches.back().room_m <= 0) return {};
-  }
-  return {q, half, approaches};
 }
 
 bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {
@@ -293,8 +203,8 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
   };
   if (!tool_sweep_is_free(impl_->material, line_at, impl_->tool_bend(step), impl_->radii, tool_margin_voxels, exempt))
     return Contact::tool_material;
-  std::vector<const Pair*> open;
-  for (const Pair& pair : impl_->pairs)
+  std::vector<const Impl::Pair*> open;
+  for (const Impl::Pair& pair : impl_->pairs)
     if (!pair.never_touch) open.push_back(&pair);
   return impl_->certify_links(from, step, 0.5, 0.5, open);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/cell/cell.hpp"
 #include "core/collision/bubble.hpp"
@@ -42,10 +43,18 @@ class Scene {
   /// The first contact at q as a person would say it, e.g. "'link5' touches 'link7'"; empty if there is none.
   std::string describe_contact(const Configuration& q) const;
 
-  /// Of the configurations within `half` of `q`, joint by joint, those at which surely no link touches the material,
-  /// the room or another link, nor the tool a link that can move against the stock. Tool against material and against
-  /// what stands still in the stock's frame is not in it, nor are limits. Stays true while material is removed.
-  Bubble bubble(const Configuration& q, const Configuration& half) const;
+  /// Pairs of bodies, or of a body and the material, by number.
+  using Pairs = std::vector<std::size_t>;
+  /// Those that bubbles are about: links with the material, the room and each other, and the tool with links that can
+  /// move against the stock. Not tool with material or with what stands still in the stock's frame.
+  Pairs pairs() const;
+  /// Of these, those that may touch somewhere in `box`.
+  Pairs pairs_in(const JointBox& box) const;
+
+  /// Of the configurations in `box`, those at which surely none of `pairs` touch; limits are not looked at. `q`: in the
+  /// box. Pairs that touch nowhere in the box are taken out: its parts need not ask for them. Stays true while material
+  /// is removed.
+  Bubble bubble(const Configuration& q, const JointBox& box, Pairs& pairs) const;
 
   /// Is the box [low_m, high_m] of the stock's frame clear of all links that stand still in that frame?
   bool room_is_clear(const Vec3& low_m, const Vec3& high_m) const;

@@ -29,17 +29,21 @@ std::vector<Configuration> find_guesses(const Chain& chain, const Configuration&
   return guesses;
 }
 
+constexpr int probes = 27;
+
 /// At how many of some ball positions all over the grid the arm has room, if it comes there from `start`.
 int count_free_probes(const Scene& scene, const ToolView& view, const Configuration& start) {
   const double last = view.n - 1;
   int free = 0;
-  for (double a : {0.5, 0.05, 0.95})
-    for (double b : {0.5, 0.05, 0.95}) {
+  for (double a : {0.5, 0.0, 1.0})
+    for (double b : {0.5, 0.0, 1.0}) {
       std::optional<Configuration> q = start;
-      for (double c : {0.95, 0.5, 0.05}) {
+      for (double c : {1.0, 0.5, 0.0}) {
         q = solve_ik(scene.chain(), {view.ball_m(scene.grid(), Vec3(a, b, c) * last), view.axis()}, *q);
         if (!q) break;
-        free += !scene.bubble(*q, Configuration::Constant(q->size(), probe_half)).empty();
+        const Configuration half = Configuration::Constant(q->size(), probe_half);
+        Scene::Pairs pairs = scene.pairs();
+        free += !scene.bubble(*q, {*q - half, *q + half}, pairs).empty();
       }
     }
   return free;
@@ -50,7 +54,8 @@ struct Start {
   int free;
 };
 
-/// Different configurations above the middle of the grid, the most promising first.
+/// Different configurations above the middle of the grid, the most promising first; no more of them once one has room
+/// everywhere.
 std::vector<Start> find_starts(const Scene& scene, const ToolView& view, const std::vector<Configuration>& guesses) {
   const double middle = (view.n - 1) / 2.0;
   const IkGoal above{view.ball_m(scene.grid(), {middle, middle, view.n + 1.0}), view.axis()};
@@ -60,7 +65,9 @@ std::vector<Start> find_starts(const Scene& scene, const ToolView& view, const s
     if (!q || scene.contact_at(*q) != Contact::none) continue;
     const bool known = std::any_of(starts.begin(), starts.end(),
                                    [&](const Start& other) { return (*q - other.q).cwiseAbs().maxCoeff() < 0.3; });
-    if (!known) starts.push_back({*q, count_free_probes(scene, view, *q)});
+    if (known) continue;
+    starts.push_back({*q, count_free_probes(scene, view, *q)});
+    if (starts.back().free == probes) break;
   }
   std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.free > b.free; });
   return starts;
@@ -69,17 +76,17 @@ std::vector<Start> find_starts(const Scene& scene, const ToolView& view, const s
 }  // namespace
 
 std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
-                                         const std::vector<Configuration>& known, std::uint64_t seed,
+                                         const std::vector<Configuration>& known, std::uint64_t seed, int threads,
                                          const Watch& watch) {
   const std::vector<Start> starts = find_starts(scene, view, find_guesses(scene.chain(), home, known, seed));
   std::unique_ptr<PostureField> best;
   for (std::size_t start = 0; start < std::min(starts.size(), most_fields); ++start) {
-    auto field = std::make_unique<PostureField>(scene, view, starts[start].q, watch);
+    auto field = std::make_unique<PostureField>(scene, view, starts[start].q, threads, watch);
     if (!best || field->usable_cells() > best->usable_cells()) best = std::move(field);
     if (20 * best->usable_cells() >= 17 * PostureField::all_cells()) break;
   }
-  if (!best) best = std::make_unique<PostureField>(scene, view, home, watch);
-  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, watch);
+  if (!best) best = std::make_unique<PostureField>(scene, view, home, threads, watch);
+  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, threads, watch);
   return best;
 }
 

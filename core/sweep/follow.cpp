@@ -105,13 +105,12 @@ class Follower {
   }
 
   /// Bounds on the second derivatives of ball and shank's end (m) all along the edge: their length in the middle and
-  /// what the third derivative can add. A derivative of a point of a chain is at most as long as the one of one order
-  /// less, for the longest arms, times the sum of all turn rates.
+  /// what the third derivative can add.
   struct Bend {
     double ball_m, top_m;
   };
   Bend bend_of(const Configuration& from, const Configuration& step) const {
-    const double turn = turn_rates_.dot(step.cwiseAbs()), change = 0.5 * turn * turn * speed_.dot(step.cwiseAbs());
+    const double change = derivative_bounds(chain_, turn_rates_, speed_, step).third_m / 2;
     const Chain::ToolEnds middle = chain_.tool_acceleration(from + 0.5 * step, step);
     return {middle.ball_m.norm() + change, middle.top_m.norm() + change};
   }

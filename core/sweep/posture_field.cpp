@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
+#include <utility>
 
+#include "core/base/parallel.hpp"
 #include "core/cell/ik.hpp"
 #include "core/sweep/posture.hpp"
 
@@ -16,10 +19,12 @@ constexpr double margin_voxels = 0.005;
 /// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
 constexpr double tool_room_voxels = 0.5 - margin_voxels;
 constexpr double headroom_cells = 2;  // above the grid: where the tool travels and comes in
+constexpr int largest = 8;            // cubes of the fine lattice that are tried first
 
 }  // namespace
 
-PostureField::PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Watch& watch)
+PostureField::PostureField(const Scene& scene, const ToolView& view, const Configuration& start, int threads,
+                           const Watch& watch)
     : chain_(scene.chain()),
       grid_(scene.grid()),
       view_(view),
@@ -27,20 +32,19 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Confi
       low_(Vec3::Constant(-0.5)),
       span_(view.n, view.n, view.n + headroom_cells),
       nodes_(static_cast<std::size_t>(nodes) * nodes * nodes),
-      bubble_(all_cells(), -1) {
+      covered_(all_cells(), -1) {
   grow(start, watch);
-  cover(scene, {0, 0, 0}, fine, parts, watch);
-  close_upwards();
+  around_ = find_surroundings(scene);
+  std::vector<Cube> cubes;
+  for (int k = 0; k < fine; k += largest)
+    for (int j = 0; j < fine; j += largest)
+      for (int i = 0; i < fine; i += largest) cubes.push_back({{i, j, k}, largest, around_});
+  cover(scene, cubes, parts, threads, watch);
   find_roomy(scene);
 }
 
-void PostureField::refine(const Scene& scene, const Watch& watch) {
-  const int last = fine - 1;
-  for (int k = 0; k <= last; ++k)
-    for (int j = 0; j <= last; ++j)
-      for (int i = 0; i <= last; ++i)
-        if (bubble_[index_of({i, j, k})] < 0) cover(scene, {i, j, k}, 1, 1, watch);
-  close_upwards();
+void PostureField::refine(const Scene& scene, int threads, const Watch& watch) {
+  cover(scene, std::exchange(holes_, {}), 1, threads, watch);
 }
 
 Vec3 PostureField::corner_cell(Voxel corner) const {
@@ -99,60 +103,112 @@ std::optional<Configuration> PostureField::corner_configuration(Voxel corner) co
   return interpolate(corner_cell(corner));
 }
 
-/// A bubble that holds all corners in a cube of the fine lattice; those between nodes only in cubes smaller than a
-/// cell.
-std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Voxel corner, int size) const {
-  const auto centre = interpolate(corner_cell(corner) + span_ * (0.5 * size / fine));
+/// All that the nodes lie in, with something to spare.
+PostureField::Surroundings PostureField::find_surroundings(const Scene& scene) const {
+  JointBox box{Configuration::Constant(chain_.dof(), std::numeric_limits<double>::max()),
+               Configuration::Constant(chain_.dof(), std::numeric_limits<double>::lowest())};
+  for (const Configuration& node : nodes_) {
+    if (node.size() == 0) continue;
+    box.low = box.low.cwiseMin(node);
+    box.high = box.high.cwiseMax(node);
+  }
+  if ((box.low.array() > box.high.array()).any()) return {};
+  const Configuration spare = Configuration::Constant(chain_.dof(), 1e-3) + 0.1 * (box.high - box.low);
+  box = {box.low - spare, box.high + spare};
+  return {box, scene.pairs_in(box)};
+}
+
+/// A bubble that holds all corners in a cube; those between nodes only in cubes smaller than a cell. Its surroundings
+/// become those of the bubble.
+std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) const {
+  const auto centre = interpolate(corner_cell(cube.corner) + span_ * (0.5 * cube.size / fine));
   if (!centre) return std::nullopt;
   // Exact configurations differ a little from interpolated ones, and edges pass from one bubble to the next, so more is
   // asked for than is needed.
   constexpr double more = 1.08;
-  std::vector<Configuration> steps;
-  Configuration half = Configuration::Constant(chain_.dof(), 1e-6);
-  const int stride = std::min(size, parts);
-  for (int k = 0; k <= size; k += stride)
-    for (int j = 0; j <= size; j += stride)
-      for (int i = 0; i <= size; i += stride) {
-        const auto q = corner_configuration(corner + Voxel{i, j, k});
+  std::vector<Configuration> wanted;
+  JointBox box{centre->array() - 1e-6, centre->array() + 1e-6};
+  const int stride = std::min(cube.size, parts);
+  for (int k = 0; k <= cube.size; k += stride)
+    for (int j = 0; j <= cube.size; j += stride)
+      for (int i = 0; i <= cube.size; i += stride) {
+        const auto q = corner_configuration(cube.corner + Voxel{i, j, k});
         if (!q || !chain_.within_limits(*q, -limit_margin)) return std::nullopt;
-        steps.push_back(*q - *centre);
-        half = half.cwiseMax(more * steps.back().cwiseAbs());
+        wanted.push_back(*centre + more * (*q - *centre));
+        box = {box.low.cwiseMin(wanted.back()), box.high.cwiseMax(wanted.back())};
       }
-  Bubble bubble = scene.bubble(*centre, half);
-  const bool all = std::all_of(steps.begin(), steps.end(),
-                               [&](const Configuration& step) { return bubble.holds(*centre + (more - 1e-9) * step); });
-  if (!all) return std::nullopt;
+  if (!cube.around.box.holds(box)) cube.around = around_;
+  if (!cube.around.box.holds(box)) return std::nullopt;
+  cube.around.box = box;
+  Bubble bubble = scene.bubble(*centre, box, cube.around.pairs);
+  if (!std::all_of(wanted.begin(), wanted.end(), [&](const Configuration& q) { return bubble.holds(q); }))
+    return std::nullopt;
   return bubble;
 }
 
-/// Covers a cube of the fine lattice by one bubble if there is one, else by parts as small as `smallest`.
-void PostureField::cover(const Scene& scene, Voxel corner, int size, int smallest, const Watch& watch) {
+/// Bubbles and the usable cells that each of them is for.
+struct PostureField::Cover {
+  std::vector<std::pair<Bubble, std::vector<Voxel>>> bubbles;
+  std::vector<Cube> holes;
+};
+
+void PostureField::cover(const Scene& scene, const std::vector<Cube>& cubes, int smallest, int threads,
+                         const Watch& watch) {
+  std::vector<Cover> found(cubes.size());
+  for_each_index(threads, cubes.size(),
+                 [&](std::size_t at) { cover(scene, cubes[at], smallest, false, found[at], watch); });
+  for (Cover& one : found) {
+    for (auto& [bubble, places] : one.bubbles) {
+      for (Voxel place : places) covered_[index_of(place)] = static_cast<std::int32_t>(bubbles_.size());
+      bubbles_.push_back(std::move(bubble));
+    }
+    holes_.insert(holes_.end(), one.holes.begin(), one.holes.end());
+  }
+  close_upwards();
+}
+
+/// Covers a cube by one bubble if there is one, else by parts as small as `smallest`. `room`: for the tool is known.
+void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room, Cover& found,
+                         const Watch& watch) const {
   if (watch.stop.stop_requested()) throw Cancelled{};
-  if (has_nodes(corner, size)) {
-    if (auto bubble = find_bubble(scene, corner, size)) {
-      for (int k = 0; k < size; ++k)
-        for (int j = 0; j < size; ++j)
-          for (int i = 0; i < size; ++i) {
-            const Voxel cell = corner + Voxel{i, j, k};
-            // Positions are centres of voxels, or above: none is nearer to a side than half a voxel.
-            const Vec3 first = corner_cell(cell).cwiseMax(0);
-            const Vec3 last = corner_cell(cell + Voxel{1, 1, 1})
-                                  .cwiseMin(Vec3(view_.n - 1, view_.n - 1, view_.n - 0.5 + headroom_cells));
-            if ((first.array() <= last.array()).all() && !room_is_clear(scene, first, last, tool_room_voxels)) continue;
-            bubble_[index_of(cell)] = static_cast<std::int32_t>(bubbles_.size());
+  if (cube.size <= parts && !has_nodes(cube.corner, cube.size)) return;
+  room = room || room_is_clear(scene, cube);
+  if (has_nodes(cube.corner, cube.size)) {
+    if (auto bubble = find_bubble(scene, cube)) {
+      std::vector<Voxel> places;
+      for (int k = 0; k < cube.size; ++k)
+        for (int j = 0; j < cube.size; ++j)
+          for (int i = 0; i < cube.size; ++i) {
+            const Voxel place = cube.corner + Voxel{i, j, k};
+            if (room || room_is_clear(scene, {place, 1, {}})) places.push_back(place);
           }
-      bubbles_.push_back(std::move(*bubble));
+      found.bubbles.emplace_back(std::move(*bubble), std::move(places));
       return;
     }
   }
-  if (size == smallest) return;
+  if (cube.size == smallest) {
+    found.holes.push_back(std::move(cube));
+    return;
+  }
+  const int half = cube.size / 2;
   for (int child = 0; child < 8; ++child)
-    cover(scene, corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * (size / 2), size / 2, smallest, watch);
+    cover(scene, {cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.around}, smallest,
+          room, found, watch);
+}
+
+/// For all ball positions in the cube that can occur: they are centres of voxels, or above, so that none is nearer to a
+/// side of the grid than half a voxel.
+bool PostureField::room_is_clear(const Scene& scene, const Cube& cube) const {
+  const Vec3 first = corner_cell(cube.corner).cwiseMax(0);
+  const Vec3 last = corner_cell(cube.corner + Voxel{1, 1, 1} * cube.size)
+                        .cwiseMin(Vec3(view_.n - 1, view_.n - 1, view_.n - 0.5 + headroom_cells));
+  return (first.array() > last.array()).any() || room_is_clear(scene, first, last, tool_room_voxels);
 }
 
 /// What can be come to can be left upwards: a cell under one that may not be used may not be used either.
 void PostureField::close_upwards() {
   constexpr int layer = fine * fine;
+  bubble_ = covered_;
   for (int at = layer * (fine - 1) - 1; at >= 0; --at)
     if (bubble_[static_cast<std::size_t>(at + layer)] < 0) bubble_[static_cast<std::size_t>(at)] = -1;
   usable_ = static_cast<std::size_t>(std::count_if(bubble_.begin(), bubble_.end(), [](int id) { return id >= 0; }));

@@ -16,10 +16,10 @@ namespace sculpt {
 class PostureField {
  public:
   /// `start`: a configuration to begin with, at about the middle of the top. `scene` only has to live during the call.
-  PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Watch& watch);
+  PostureField(const Scene& scene, const ToolView& view, const Configuration& start, int threads, const Watch& watch);
 
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none.
-  void refine(const Scene& scene, const Watch& watch);
+  void refine(const Scene& scene, int threads, const Watch& watch);
 
   /// The configuration that it grew from.
   const Configuration& start() const { return start_; }
@@ -58,14 +58,29 @@ class PostureField {
   Vec3 corner_cell(Voxel corner) const;
   std::optional<Configuration> corner_configuration(Voxel corner) const;
   bool has_nodes(Voxel corner, int size) const;
-  std::optional<Bubble> find_bubble(const Scene& scene, Voxel corner, int size) const;
+  /// A box of joint values, and what may touch in it.
+  struct Surroundings {
+    JointBox box;
+    Scene::Pairs pairs;
+  };
+  /// A cube of the fine lattice.
+  struct Cube {
+    Voxel corner;
+    int size;
+    Surroundings around;
+  };
+  struct Cover;
+  Surroundings find_surroundings(const Scene& scene) const;
+  std::optional<Bubble> find_bubble(const Scene& scene, Cube& cube) const;
   Voxel corner_below(const Vec3& cell) const;
   std::size_t fine_cell(const Vec3& cell) const;
   void grow(const Configuration& start, const Watch& watch);
   std::size_t index_of(Voxel corner) const {
     return static_cast<std::size_t>((corner.k * fine + corner.j) * fine + corner.i);
   }
-  void cover(const Scene& scene, Voxel corner, int size, int smallest, const Watch& watch);
+  void cover(const Scene& scene, const std::vector<Cube>& cubes, int smallest, int threads, const Watch& watch);
+  void cover(const Scene& scene, Cube cube, int smallest, bool room, Cover& found, const Watch& watch) const;
+  bool room_is_clear(const Scene& scene, const Cube& cube) const;
   void close_upwards();
   /// Around the tool by `room_voxels` (voxel edges), for all ball positions in a box of cells.
   bool room_is_clear(const Scene& scene, const Vec3& first, const Vec3& last, double room_voxels) const;
@@ -81,8 +96,11 @@ class PostureField {
   Configuration start_;
   Vec3 low_, span_;                   ///< of the lattice, in cells of the view
   std::vector<Configuration> nodes_;  ///< size 0 where there is none
-  std::vector<std::int32_t> bubble_;  ///< per cell of the fine lattice: index into bubbles_, or -1
+  std::vector<std::int32_t> covered_;  ///< per cell of the fine lattice: index into bubbles_, or -1
+  std::vector<std::int32_t> bubble_;   ///< the same of those that may be used
   std::vector<Bubble> bubbles_;
+  Surroundings around_;      ///< of all nodes
+  std::vector<Cube> holes_;  ///< where no bubble was found, as small as was tried
   std::size_t usable_ = 0;
   Eigen::AlignedBox3d roomy_;  ///< cells; empty by default
 };

@@ -46,14 +46,13 @@ class Sweep {
   }
 
  private:
-  /// One field after the other for the first direction, whose start helps the others; those at the same time.
+  /// One after the other: the starts for the top and a side help to find the others.
   void find_fields() {
-    fields_[0] = find_field(scene_, views_[0], home_, {}, mix(seed_, 0), watch_);
-    const std::vector<Configuration> known{fields_[0]->start()};
-    for_each_index(threads_, fields_.size() - 1, [&](std::size_t other) {
-      const std::size_t view = other + 1;
-      fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), watch_);
-    });
+    std::vector<Configuration> known;
+    for (std::size_t view = 0; view < fields_.size(); ++view) {
+      fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
+      if (view < 2) known.push_back(fields_[view]->start());
+    }
   }
 
   /// The direction along which most can be cut now, of those that are not used up.

@@ -31,7 +31,9 @@ void expect_held_is_free(const Cell& cell, std::uint64_t seeds, double widest) {
     Random random(seed);
     const Configuration q = any_configuration(scene.chain(), random);
     const Configuration half = Configuration::Constant(q.size(), random.between(0.001, widest));
-    const Bubble bubble = scene.bubble(q, half);
+    const JointBox box{q - half, q + half};
+    Scene::Pairs pairs = random.unit() < 0.5 ? scene.pairs() : scene.pairs_in(box);
+    const Bubble bubble = scene.bubble(q, box, pairs);
     if (bubble.empty()) continue;
     for (int place = 0; place < 40; ++place) {
       Configuration other = q;

@@ -127,7 +127,7 @@ TEST(PostureField, LinksAreNotFreeAlongAnEdgeThatLeavesEveryBubble) {
 TEST(PostureField, RefiningTakesNothingAway) {
   const PandaField& panda = PandaField::get();
   PostureField refined = panda.field;
-  refined.refine(panda.scene, {});
+  refined.refine(panda.scene, 1, {});
   EXPECT_GE(refined.usable_cells(), panda.field.usable_cells());
   Random random(4);
   for (int trial = 0; trial < 2000; ++trial) {

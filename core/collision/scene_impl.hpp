@@ -1,0 +1,64 @@
+// What a Scene is made of. Internal to collision/.
+#pragma once
+
+#include <atomic>
+
+#include "core/collision/scene.hpp"
+#include "core/collision/tool_sweep.hpp"
+
+namespace sculpt {
+
+struct Scene::Impl {
+  /// Two bodies, or a body and the material (second = -1), that must stay apart.
+  struct Pair {
+    int first, second;
+    double margin_m;  ///< kept between the two; intervals on which they move less than half of it are not split further
+    /// Motion bounds of one seen from the other; either alone bounds their approach.
+    Configuration speed_first, speed_second;
+    bool tool_and_fixed = false;  ///< the tool and what stands still in the stock's frame
+    bool never_touch = false;     ///< moved against each other by one joint only, and free all along its range
+
+    double motion(const Configuration& joint_steps) const {
+      const double of_first = speed_first.dot(joint_steps);
+      return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
+    }
+  };
+
+  Impl(const Cell& cell, const Grid& where, const VoxelSet& standing);
+
+  void count_check() const { checks.fetch_add(1, std::memory_order_relaxed); }
+  ToolLine tool_line(const ToolPose& pose) const;
+  bool tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const;
+  /// Could the two come within `reach_m`, with the links at these poses?
+  bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const;
+  /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
+  Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
+                        const std::vector<const Pair*>& open) const;
+  /// Bound on the second derivative of any tool point along from + t step.
+  double tool_bend(const Configuration& step) const;
+
+  // For bubbles.
+  double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
+  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
+                            double gap_m) const;
+  bool is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const;
+
+  Chain chain;
+  Grid grid;
+  Tool tool;
+  Material material;
+  std::vector<Body> bodies;
+  std::vector<const Body*> fixed;  ///< those that stand still in the stock's frame
+  std::vector<Pair> pairs;
+  Configuration tool_speed;  ///< voxel edges per unit of each coordinate, for the shank's whole length
+  Configuration turn_rates;  ///< rad per unit of each coordinate
+  ToolRadii radii;           ///< voxel edges
+  bool has_mimic = false;
+  mutable std::atomic<std::uint64_t> checks = 0;
+
+ private:
+  void add_pairs(const Cell& cell);
+  void find_never_touching();
+};
+
+}  // namespace sculpt
