@@ -11,7 +11,7 @@
 #include "core/motion/transit.hpp"
 #include "core/plan/plan.hpp"
 #include "core/sweep/follow.hpp"
-#include "core/sweep/posture.hpp"
+#include "core/sweep/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {
@@ -102,13 +102,39 @@ struct Sweeping {
   ToolView view;
 };
 
-void posture_one_voxel_on(benchmark::State& state) {
+/// Guesses are off by what interpolating in a field leaves, about 1e-4 rad.
+void postures_beside_each_other(benchmark::State& state) {
   const Sweeping s(64);
+  const PostureLanes lanes(s.scene.chain(), s.view.axis());
   const Configuration here = s.start();
-  const Vec3 beside = s.view.ball_m(s.grid, s.hub() + Vec3::UnitX());
-  for (auto _ : state) benchmark::DoNotOptimize(find_posture(s.scene.chain(), beside, s.view.axis(), here));
+  PostureBatch guesses;
+  for (int lane = 0; lane < lane_count; ++lane)
+    guesses.set(lane, s.view.ball_m(s.grid, s.hub() + 0.1 * lane * Vec3::UnitX()), here);
+  for (auto _ : state) {
+    PostureBatch batch = guesses;
+    lanes.solve(batch);
+    benchmark::DoNotOptimize(batch);
+  }
+  state.SetItemsProcessed(state.iterations() * lane_count);
 }
-BENCHMARK(posture_one_voxel_on);
+BENCHMARK(postures_beside_each_other);
+
+void bends_of_edges_from_postures(benchmark::State& state) {
+  const Sweeping s(64);
+  const PostureLanes lanes(s.scene.chain(), s.view.axis());
+  const Configuration here = s.start();
+  EdgeBatch edges;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    edges.from.set(lane, here);
+    edges.to.set(lane, here + Configuration::Constant(here.size(), 0.001 * lane));
+  }
+  for (auto _ : state) {
+    lanes.bend(edges);
+    benchmark::DoNotOptimize(edges);
+  }
+  state.SetItemsProcessed(state.iterations() * lane_count);
+}
+BENCHMARK(bends_of_edges_from_postures);
 
 void posture_of_the_field(benchmark::State& state) {
   const Sweeping s(64);

@@ -56,12 +56,6 @@ class Chain {
   /// Second derivatives by t, at t = 0, of the tool along q + t * rate (m).
   ToolEnds tool_acceleration(const Configuration& q, const Configuration& rate) const;
 
-  const Robot& robot() const { return *robot_; }
-  int stock_link() const { return stock_link_; }
-  int tool_link() const { return tool_link_; }
-  double stickout_m() const { return stickout_m_; }
-
- private:
   /// One moving joint on the path: `before` (everything fixed since the previous one), then a turn about or shift along z by
   /// multiplier * q[coordinate] + offset. The joint's axis is turned onto z by the frames around it; joints on the stock side
   /// are passed from child to parent, so their multiplier and offset are negated.
@@ -71,7 +65,16 @@ class Chain {
     int coordinate;
     double multiplier, offset;
   };
+  const std::vector<Step>& steps() const { return steps_; }
+  /// From the last step's frame to the ball, with -z towards the spindle.
+  const Frame& last() const { return last_; }
 
+  const Robot& robot() const { return *robot_; }
+  int stock_link() const { return stock_link_; }
+  int tool_link() const { return tool_link_; }
+  double stickout_m() const { return stickout_m_; }
+
+ private:
   void add_step(int joint, bool on_stock_side, Frame& fixed);
   int add_coordinate(int joint);
   double joint_value(std::size_t joint, const Configuration& q) const;

@@ -8,12 +8,15 @@
 #include "core/base/parallel.hpp"
 #include "core/cell/ik.hpp"
 #include "core/sweep/posture.hpp"
+#include "core/sweep/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {
 
 /// Nodes beside each other may not differ by more in any joint (rad or m): else they are on two branches.
 constexpr double longest_joint_step = 0.35;
+constexpr int node_steps = 3;         // from one node to the next
+constexpr double close_m = 1e-6;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
 constexpr double margin_voxels = 0.005;
 /// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
@@ -68,22 +71,43 @@ void PostureField::grow(const Configuration& start, const Watch& watch) {
     Voxel node;
     Configuration guess;
   };
-  std::deque<Visit> queue{{{cells / 2, cells / 2, cells}, start}};
+  const Voxel first{cells / 2, cells / 2, cells};
+  std::deque<Visit> queue{{first, start}};
   const Grid lattice{nodes, 1, Vec3::Zero()};
+  const PostureLanes lanes(chain_, view_.axis());
+  const Pull to_the_middle{(chain_.lower() + chain_.upper()) / 2, 0.05};
+  const auto node_at = [this](Voxel at) -> Configuration& { return nodes_[node_index(at.i, at.j, at.k)]; };
   while (!queue.empty()) {
     if (watch.stop.stop_requested()) throw Cancelled{};
-    const Visit visit = std::move(queue.front());
-    queue.pop_front();
-    const Voxel at = visit.node;
-    Configuration& node = nodes_[node_index(at.i, at.j, at.k)];
-    if (node.size() > 0) continue;
-    const auto q = solve_ik(chain_, {ball_m(corner_cell(at * parts)), view_.axis()}, visit.guess);
-    if (!q) continue;
-    const bool first = at == Voxel{cells / 2, cells / 2, cells};
-    if (!first && (*q - visit.guess).cwiseAbs().maxCoeff() > longest_joint_step) continue;
-    node = *q;
-    for (Voxel step : face_steps)
-      if (lattice.contains(at + step)) queue.push_back({at + step, node});
+    std::vector<Visit> visits, again;
+    PostureBatch batch;
+    while (!queue.empty() && visits.size() < lane_count) {
+      Visit visit = std::move(queue.front());
+      queue.pop_front();
+      if (node_at(visit.node).size() > 0) continue;
+      if (std::any_of(visits.begin(), visits.end(), [&](const Visit& v) { return v.node == visit.node; })) {
+        again.push_back(std::move(visit));
+        continue;
+      }
+      batch.set(static_cast<int>(visits.size()), ball_m(corner_cell(visit.node * parts)), visit.guess);
+      visits.push_back(std::move(visit));
+    }
+    queue.insert(queue.end(), again.begin(), again.end());
+    lanes.solve(batch, node_steps, &to_the_middle);
+    for (std::size_t at = 0; at < visits.size(); ++at) {
+      const auto& [node, guess] = visits[at];
+      const int lane = static_cast<int>(at);
+      std::optional<Configuration> q;
+      if (batch.ball_off_m[at] < close_m) {
+        q = batch.q.get(lane, chain_.dof());
+      } else {  // it keeps off joint limits
+        q = solve_ik(chain_, {ball_m(corner_cell(node * parts)), view_.axis()}, guess);
+      }
+      if (!q || (node != first && (*q - guess).cwiseAbs().maxCoeff() > longest_joint_step)) continue;
+      node_at(node) = *q;
+      for (Voxel step : face_steps)
+        if (lattice.contains(node + step)) queue.push_back({node + step, *q});
+    }
   }
 }
 

@@ -1,0 +1,110 @@
+// Several postures or edges at once, by SIMD: the hot loops of sweeps.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/cell/chain.hpp"
+
+namespace sculpt {
+
+/// Problems side by side, whatever the vectors of the machine hold.
+inline constexpr int lane_count = 8;
+
+/// One number per lane.
+struct alignas(64) Lanes : std::array<double, lane_count> {
+  Lanes() : std::array<double, lane_count>{} {}
+};
+
+/// One configuration per lane; as many joints are used as the chain has.
+struct LaneConfigurations {
+  std::array<Lanes, most_joints> joints;
+
+  void set(int lane, const Configuration& q) {
+    for (Eigen::Index c = 0; c < q.size(); ++c)
+      joints[static_cast<std::size_t>(c)][static_cast<std::size_t>(lane)] = q[c];
+  }
+  Configuration get(int lane, int dof) const {
+    Configuration q(dof);
+    for (int c = 0; c < dof; ++c) q[c] = joints[static_cast<std::size_t>(c)][static_cast<std::size_t>(lane)];
+    return q;
+  }
+};
+
+/// Ball positions (m, stock frame) with guesses; what comes of them.
+struct PostureBatch {
+  std::array<Lanes, 3> ball_m;
+  LaneConfigurations q;  ///< in: guesses; out: rounded as they are stored
+  /// Out: how far ball and shank's end are from where they should be at the rounded configuration (m); infinite where
+  /// there is none.
+  Lanes ball_off_m, top_off_m;
+
+  void set(int lane, const Vec3& ball, const Configuration& guess) {
+    for (std::size_t row = 0; row < 3; ++row) ball_m[row][static_cast<std::size_t>(lane)] = ball[static_cast<int>(row)];
+    q.set(lane, guess);
+  }
+  bool solved(int lane) const {
+    return ball_off_m[static_cast<std::size_t>(lane)] < std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Joint-linear edges, and how far they bend.
+struct EdgeBatch {
+  LaneConfigurations from, to;
+  /// Out: lengths of the second derivatives, by the share of the edge, of ball and shank's end at the middle (m).
+  Lanes ball_bend_m, top_bend_m;
+};
+
+/// A pull of the spare freedom: in each step by `strength` of the way towards these joint values, less as the error
+/// falls below 0.05 (m and rad), so that the tool gets where it should.
+struct Pull {
+  Configuration towards;
+  double strength = 0;
+};
+
+/// The kinematics of a chain for one direction of the tool, laid out for many lanes. Every lane gives the same bits on
+/// every machine, whatever stands in the others. Immutable: safe to share between threads.
+class PostureLanes {
+ public:
+  /// `axis`: unit vector from the ball to the spindle, in the stock frame.
+  PostureLanes(const Chain& chain, const Vec3& axis);
+
+  /// `steps` of Gauss-Newton, each with the least joint motion (5 rows: position, axis), and a last one with the
+  /// Jacobian of the one before: near the solution the error e becomes about e^2 by the first, and each one more
+  /// multiplies it by e at least. A lane is refused if a step is longer than 0.3 (rad or m) in any joint, if the result
+  /// is outside the limits or has the tool upside down. Whether it is exact enough is for the caller to see: that is
+  /// what the distances are for.
+  void solve(PostureBatch& batch, int steps = 1, const Pull* pull = nullptr) const;
+
+  /// As Chain::tool_acceleration at the middle of each edge (m).
+  void bend(EdgeBatch& edges) const;
+
+  /// A frame: three columns of a rotation and an origin.
+  struct Fixed {
+    std::array<double, 9> rotation;
+    std::array<double, 3> origin;
+  };
+  /// A turn about z or a shift along it by multiplier * q[coordinate] + offset; then the frame up to the next one.
+  struct Move {
+    bool turns;
+    int coordinate;
+    double multiplier, offset;
+    Fixed after;
+  };
+  /// Frames are seen from one that is turned so that the tool's axis is its z: there the two rows of the axis are x and
+  /// y of a turning.
+  struct Program {
+    std::array<double, 9> towards_axis;  ///< rows x, y, z
+    Fixed start;
+    std::vector<Move> moves;
+    std::vector<double> lower, upper;
+    double stickout_m;
+  };
+
+ private:
+  Program program_;
+};
+
+}  // namespace sculpt
