@@ -16,13 +16,14 @@ struct JointBox {
     return (q.array() >= low.array()).all() && (q.array() <= high.array()).all();
   }
   bool holds(const JointBox& other) const { return holds(other.low) && holds(other.high); }
+  JointBox shifted(const Configuration& by) const { return {low + by, high + by}; }
   Configuration centre() const { return (low + high) / 2; }
   /// How far it goes away from q, joint by joint.
   Configuration reach_from(const Configuration& q) const { return (high - q).cwiseMax(q - low).cwiseMax(0); }
 };
 
 /// A box of joint values less what a few pairs of bodies cut off. The set is convex, so an edge is free all along if
-/// both of its ends are held. Immutable.
+/// both of its ends are held.
 class Bubble {
  public:
   /// A capsule that approaches something: first derivatives, at the centre, of its ends (m per unit of each joint) and
@@ -46,6 +47,12 @@ class Bubble {
     }
   }
 
+  /// To where everything is as it is here, but for the joint values.
+  void shift(const Configuration& by) {
+    centre_ += by;
+    box_ = box_.shifted(by);
+  }
+
   bool empty() const { return centre_.size() == 0; }
   bool holds(const Configuration& q) const {
     if (q.size() != centre_.size() || !box_.holds(q)) return false;
@@ -63,9 +70,7 @@ class Bubble {
     double radius_m, room_m;
   };
 
-  Eigen::Index first_column(std::size_t approach) const {
-    return static_cast<Eigen::Index>(approach) * centre_.size();
-  }
+  Eigen::Index first_column(std::size_t approach) const { return static_cast<Eigen::Index>(approach) * centre_.size(); }
 
   Configuration centre_;
   JointBox box_;

@@ -49,12 +49,12 @@ double step_length(const Robot& robot, const Passage& here, const Passage& next)
 }
 
 /// The coordinate that moves a joint, or -1, and what it is multiplied by.
-struct Drive {
+struct Source {
   int coordinate;
   double rate;
 };
 
-Drive drive_of(const Chain& chain, int index) {
+Source source_of(const Chain& chain, int index) {
   const Joint& joint = chain.robot().joints[static_cast<std::size_t>(index)];
   const int source = joint.mimic >= 0 ? joint.mimic : index;
   const auto found = std::find(chain.joints().begin(), chain.joints().end(), source);
@@ -76,7 +76,7 @@ Configuration motion_bound(const Chain& chain, int fixed, int moving, double ext
     } else if (way[at].up) {
       reach += joint.origin.translation().norm() + travel(joint);
     }
-    const Drive drive = drive_of(chain, way[at].joint);
+    const Source drive = source_of(chain, way[at].joint);
     if (drive.coordinate >= 0)
       bound[drive.coordinate] += std::abs(drive.rate) * (joint.kind == JointKind::revolute ? reach : 1);
   }
@@ -86,7 +86,7 @@ Configuration motion_bound(const Chain& chain, int fixed, int moving, double ext
 Configuration turn_bound(const Chain& chain, int fixed, int moving) {
   Configuration bound = Configuration::Zero(chain.dof());
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
-    const Drive drive = drive_of(chain, passage.joint);
+    const Source drive = source_of(chain, passage.joint);
     const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
     if (drive.coordinate >= 0 && joint.kind == JointKind::revolute) bound[drive.coordinate] += std::abs(drive.rate);
   }
@@ -100,15 +100,22 @@ DerivativeBounds derivative_bounds(const Chain& chain, const Configuration& turn
   return {(shifts ? 2 : 1) * turning * travel, (shifts ? 3 : 1) * turning * turning * travel};
 }
 
-JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
-                                                        const std::vector<Frame>& poses) {
-  JointColumns<6> twist = JointColumns<6>::Zero(6, chain.dof());
+std::vector<Drive> find_drives(const Chain& chain, int fixed, int moving) {
+  std::vector<Drive> drives;
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {
-    const Drive drive = drive_of(chain, passage.joint);
-    if (drive.coordinate < 0) continue;
-    const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
+    const Source source = source_of(chain, passage.joint);
+    if (source.coordinate >= 0)
+      drives.push_back({passage.joint, source.coordinate, passage.up ? -source.rate : source.rate});
+  }
+  return drives;
+}
+
+JointColumns<6> relative_twist(const Chain& chain, const std::vector<Drive>& drives, const std::vector<Frame>& poses) {
+  JointColumns<6> twist = JointColumns<6>::Zero(6, chain.dof());
+  for (const Drive& drive : drives) {
+    const Joint& joint = chain.robot().joints[static_cast<std::size_t>(drive.joint)];
     const Frame& child = poses[static_cast<std::size_t>(joint.child_link)];
-    const Vec3 axis = (passage.up ? -drive.rate : drive.rate) * (child.linear() * joint.axis);
+    const Vec3 axis = drive.rate * (child.linear() * joint.axis);
     if (joint.kind == JointKind::prismatic) {
       twist.col(drive.coordinate).head<3>() += axis;
     } else {

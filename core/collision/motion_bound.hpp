@@ -14,10 +14,19 @@ Configuration motion_bound(const Chain& chain, int fixed, int moving, double ext
 /// Upper bounds, per coordinate, on how fast link `moving` turns seen from link `fixed` (rad per unit).
 Configuration turn_bound(const Chain& chain, int fixed, int moving);
 
-/// How link `moving` moves seen from link `fixed`, per unit of each coordinate: rows 0-2 the velocity of its point at
-/// the stock's origin (m), rows 3-5 its turning (rad); stock frame. `poses` as Chain::link_poses gives them.
-JointColumns<6> relative_twist(const Chain& chain, int fixed, int moving,
-                                                        const std::vector<Frame>& poses);
+/// The joints that move one link against another.
+struct Drive {
+  int joint;
+  int coordinate;  ///< of the chain
+  double rate;     ///< of the joint per unit of its coordinate, negative where it is passed from child to parent
+};
+/// From link `fixed` to link `moving`, in this order; only those that the chain moves.
+std::vector<Drive> find_drives(const Chain& chain, int fixed, int moving);
+
+/// How the link at the end of `drives` moves seen from the one at their beginning, per unit of each coordinate: rows
+/// 0-2 the velocity of its point at the stock's origin (m), rows 3-5 its turning (rad); stock frame. `poses` as
+/// Chain::link_poses gives them.
+JointColumns<6> relative_twist(const Chain& chain, const std::vector<Drive>& drives, const std::vector<Frame>& poses);
 
 /// Bounds on the second and third derivative by t of any point that `turn` (turn_bound) and `speed` (motion_bound) were
 /// made for, along q + t * step (m). A derivative is a sum of turnings about joints applied to the motion by the joint

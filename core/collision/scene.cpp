@@ -5,7 +5,6 @@
 
 #include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
-#include "core/collision/motion_bound.hpp"
 #include "core/collision/scene_impl.hpp"
 
 namespace sculpt {
@@ -35,6 +34,12 @@ Scene::Impl::Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
   find_never_touching();
 }
 
+Scene::Impl::Mover Scene::Impl::make_mover(int body, int from_link) const {
+  const Body& mover = bodies[static_cast<std::size_t>(body)];
+  return {body, motion_bound(chain, from_link, mover.link, mover.hull.extent()),
+          turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
+}
+
 void Scene::Impl::add_pairs(const Cell& cell) {
   const std::vector<int> group = rigid_groups(cell.robot);
   const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
@@ -50,15 +55,13 @@ void Scene::Impl::add_pairs(const Cell& cell) {
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
     const Body& first = bodies[static_cast<std::size_t>(a)];
     if (!first.tool && group_of(first) != stock_group)
-      pairs.push_back(
-          {a, -1, link_margin_m, motion_bound(chain, cell.stock_link, first.link, first.hull.extent()), {}});
+      pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}});
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
       const Body& second = bodies[static_cast<std::size_t>(b)];
       if (!apart(first, second)) continue;
       const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
-      Pair pair{a, b, margin, motion_bound(chain, second.link, first.link, first.hull.extent()),
-                motion_bound(chain, first.link, second.link, second.hull.extent())};
-      if (pair.speed_first.isZero(0) && pair.speed_second.isZero(0)) continue;
+      Pair pair{a, b, margin, {make_mover(a, second.link), make_mover(b, first.link)}};
+      if (pair.movers[0].drives.empty()) continue;
       pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
       pairs.push_back(std::move(pair));
     }
@@ -87,14 +90,14 @@ bool Scene::Impl::near(const Pair& pair, const std::vector<Frame>& at, double re
 /// Marks the pairs that one joint moves and that it can move as it likes. Material only shrinks, so that stays true.
 void Scene::Impl::find_never_touching() {
   for (Pair& pair : pairs) {
-    if ((pair.speed_first.array() > 0).count() != 1) continue;
+    if (pair.joints() != 1) continue;
     const Configuration range = chain.upper() - chain.lower();
     pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
   }
 }
 
 Contact Scene::Impl::certify_links(const Configuration& from, const Configuration& step, double middle, double half,
-                      const std::vector<const Pair*>& open) const {
+                                   const std::vector<const Pair*>& open) const {
   std::vector<Frame> at;
   count_check();
   chain.link_poses(from + middle * step, at);
@@ -119,8 +122,7 @@ double Scene::Impl::tool_bend(const Configuration& step) const {
   if (has_mimic) return derivative_bounds(chain, turn_rates, tool_speed, step).second_m;
   double sum = 0;
   for (int i = 0; i < step.size(); ++i)
-    for (int j = 0; j <= i; ++j)
-      sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];
+    for (int j = 0; j <= i; ++j) sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];
   return sum;
 }
 

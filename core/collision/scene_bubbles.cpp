@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/collision/clearance.hpp"
-#include "core/collision/motion_bound.hpp"
 #include "core/collision/scene_impl.hpp"
 
 namespace sculpt {
@@ -12,19 +12,23 @@ namespace {
 constexpr Eigen::Index few_joints = 2;
 constexpr int most_checks = 200;
 
-/// Bound on the second derivative of the capsule's points along any direction in +-half.
-double second_order(const Bubble::Approach& approach, const Configuration& half) {
+/// Bound on the second derivative of the capsule's points along any direction in +-half: by two joints it is a turning
+/// about the one that comes first, applied to the motion by the other.
+double second_order(const Bubble::Approach& approach, const std::vector<Drive>& drives, const Configuration& half) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < half.size(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const double weight = (i == j ? 1 : 2) * half[i] * half[j];
-      if (weight == 0) continue;
-      const Vec3 turn_i = approach.turn.col(i), turn_j = approach.turn.col(j);
-      double most = 0;
-      for (const JointColumns<3>* end : {&approach.end_a, &approach.end_b})
-        most = std::max({most, turn_i.cross(Vec3(end->col(j))).norm(), turn_j.cross(Vec3(end->col(i))).norm()});
-      sum += weight * (most + approach.radius_m * turn_i.norm() * turn_j.norm());
+  for (std::size_t far = 0; far < drives.size(); ++far) {
+    const int j = drives[far].coordinate;
+    const Vec3 a = approach.end_a.col(j), b = approach.end_b.col(j);
+    const double turning = approach.radius_m * approach.turn.col(j).norm();
+    double by_nearer = 0;
+    for (std::size_t near = 0; near <= far; ++near) {
+      const int i = drives[near].coordinate;
+      const Vec3 turn = approach.turn.col(i);
+      const double most = std::sqrt(std::max(turn.cross(a).squaredNorm(), turn.cross(b).squaredNorm()));
+      by_nearer += (near == far ? 1 : 2) * half[i] * (most + turn.norm() * turning);
     }
+    sum += half[j] * by_nearer;
+  }
   return sum;
 }
 
@@ -49,29 +53,26 @@ double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double e
   return apart;
 }
 
-/// Of the two the one that moves less seen from the other, as it approaches. The second derivative of a point by two
-/// joints is a turning about the one that comes first, applied to the motion by the other: exact at the centre, where
-/// either may come first; a mimic joint may stand anywhere, so then only a bound is known. The third derivative is
-/// bounded.
+/// The body that moves less, as it approaches the other. Its second derivative is exact at the centre; a mimic joint
+/// may stand anywhere, so then only a bound is known. The third derivative is bounded.
 Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
                                        double gap_m) const {
-  const bool first_moves = pair.second < 0 || pair.speed_first.dot(half) <= pair.speed_second.dot(half);
-  const Body& mover = bodies[static_cast<std::size_t>(first_moves ? pair.first : pair.second)];
-  const int other = pair.second < 0 ? chain.stock_link()
-                                    : bodies[static_cast<std::size_t>(first_moves ? pair.second : pair.first)].link;
-  const auto twist = relative_twist(chain, other, mover.link, at);
-  const Frame& pose = at[static_cast<std::size_t>(mover.link)];
+  const Mover& mover = pair.mover(half);
+  const Body& body = bodies[static_cast<std::size_t>(mover.body)];
+  const auto twist = relative_twist(chain, mover.drives, at);
+  const Frame& pose = at[static_cast<std::size_t>(body.link)];
   const auto motion_of = [&](const Vec3& point) {
     JointColumns<3> motion = twist.topRows<3>();
-    for (int c = 0; c < chain.dof(); ++c) motion.col(c) += Vec3(twist.col(c).tail<3>()).cross(point);
+    for (const Drive& drive : mover.drives)
+      motion.col(drive.coordinate) =
+          twist.col(drive.coordinate).head<3>() + Vec3(twist.col(drive.coordinate).tail<3>()).cross(point);
     return motion;
   };
-  Bubble::Approach approach{motion_of(pose * mover.hull.core.a), motion_of(pose * mover.hull.core.b),
-                            twist.bottomRows<3>(), mover.hull.radius_m, gap_m};
-  const DerivativeBounds bounds = derivative_bounds(chain, turn_bound(chain, other, mover.link),
-                                                    first_moves ? pair.speed_first : pair.speed_second, half);
+  Bubble::Approach approach{motion_of(pose * body.hull.core.a), motion_of(pose * body.hull.core.b),
+                            twist.bottomRows<3>(), body.hull.radius_m, gap_m};
+  const DerivativeBounds bounds = derivative_bounds(chain, mover.turn, mover.speed, half);
   double rest = bounds.second_m / 2;
-  if (!has_mimic) rest = std::min(rest, second_order(approach, half) / 2 + bounds.third_m / 6);
+  if (!has_mimic) rest = std::min(rest, second_order(approach, mover.drives, half) / 2 + bounds.third_m / 6);
   approach.room_m -= rest;
   return approach;
 }
@@ -87,7 +88,7 @@ bool Scene::Impl::is_free_in(const Pair& pair, const JointBox& box, int& checks_
   if (apart >= enough) return true;
   if (apart == 0) return false;
   Eigen::Index widest = 0;
-  (pair.speed_first.cwiseProduct(half)).maxCoeff(&widest);
+  pair.movers[0].speed.cwiseProduct(half).maxCoeff(&widest);
   JointBox low = box, high = box;
   low.high[widest] = high.low[widest] = centre[widest];
   return is_free_in(pair, low, checks_left) && is_free_in(pair, high, checks_left);
@@ -104,7 +105,7 @@ Scene::Pairs Scene::pairs_in(const JointBox& box) const {
   Pairs open;
   for (std::size_t at : pairs()) {
     const Impl::Pair& pair = impl_->pairs[at];
-    int checks_left = (pair.speed_first.array() > 0).count() <= few_joints ? most_checks : 1;
+    int checks_left = pair.joints() <= few_joints ? most_checks : 1;
     if (!impl_->is_free_in(pair, box, checks_left)) open.push_back(at);
   }
   return open;

@@ -3,25 +3,36 @@
 
 #include <atomic>
 
+#include "core/collision/body.hpp"
+#include "core/collision/motion_bound.hpp"
 #include "core/collision/scene.hpp"
 #include "core/collision/tool_sweep.hpp"
 
 namespace sculpt {
 
 struct Scene::Impl {
-  /// Two bodies, or a body and the material (second = -1), that must stay apart.
+  /// A body as it moves seen from another one, or from the stock.
+  struct Mover {
+    int body;
+    Configuration speed, turn;  ///< motion_bound of all of the body, turn_bound
+    std::vector<Drive> drives;
+  };
+  /// Two bodies, or a body and the material, that must stay apart.
   struct Pair {
-    int first, second;
+    int first, second;  ///< bodies; second = -1: the material
     double margin_m;  ///< kept between the two; intervals on which they move less than half of it are not split further
-    /// Motion bounds of one seen from the other; either alone bounds their approach.
-    Configuration speed_first, speed_second;
+    std::vector<Mover> movers;    ///< first seen from second, and second from first: either alone bounds their approach
     bool tool_and_fixed = false;  ///< the tool and what stands still in the stock's frame
     bool never_touch = false;     ///< moved against each other by one joint only, and free all along its range
 
-    double motion(const Configuration& joint_steps) const {
-      const double of_first = speed_first.dot(joint_steps);
-      return second < 0 ? of_first : std::min(of_first, speed_second.dot(joint_steps));
+    /// The one that moves less.
+    const Mover& mover(const Configuration& joint_steps) const {
+      return movers.size() == 1 || movers[0].speed.dot(joint_steps) <= movers[1].speed.dot(joint_steps) ? movers[0]
+                                                                                                        : movers[1];
     }
+    double motion(const Configuration& joint_steps) const { return mover(joint_steps).speed.dot(joint_steps); }
+    /// How many joints move the two against each other.
+    Eigen::Index joints() const { return (movers[0].speed.array() > 0).count(); }
   };
 
   Impl(const Cell& cell, const Grid& where, const VoxelSet& standing);
@@ -57,6 +68,8 @@ struct Scene::Impl {
   mutable std::atomic<std::uint64_t> checks = 0;
 
  private:
+  /// A body seen from a link.
+  Mover make_mover(int body, int from_link) const;
   void add_pairs(const Cell& cell);
   void find_never_touching();
 };

@@ -15,7 +15,7 @@ namespace {
 
 /// Nodes beside each other may not differ by more in any joint (rad or m): else they are on two branches.
 constexpr double longest_joint_step = 0.35;
-constexpr int node_steps = 3;         // from one node to the next
+constexpr int node_steps = 3;  // from one node to the next
 constexpr double close_m = 1e-6;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
 constexpr double margin_voxels = 0.005;
@@ -44,6 +44,17 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Confi
       for (int i = 0; i < fine; i += largest) cubes.push_back({{i, j, k}, largest, around_});
   cover(scene, cubes, parts, threads, watch);
   find_roomy(scene);
+}
+
+PostureField::PostureField(const PostureField& other, const ToolView& view, const Configuration& turn)
+    : PostureField(other) {
+  view_ = view;
+  start_ += turn;
+  for (Configuration& node : nodes_)
+    if (node.size() > 0) node += turn;
+  for (Bubble& bubble : bubbles_) bubble.shift(turn);
+  around_.box = around_.box.shifted(turn);
+  holes_.clear();
 }
 
 void PostureField::refine(const Scene& scene, int threads, const Watch& watch) {
@@ -216,8 +227,8 @@ void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room,
   }
   const int half = cube.size / 2;
   for (int child = 0; child < 8; ++child)
-    cover(scene, {cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.around}, smallest,
-          room, found, watch);
+    cover(scene, {cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.around}, smallest, room,
+          found, watch);
 }
 
 /// For all ball positions in the cube that can occur: they are centres of voxels, or above, so that none is nearer to a

@@ -18,8 +18,18 @@ class PostureField {
   /// `start`: a configuration to begin with, at about the middle of the top. `scene` only has to live during the call.
   PostureField(const Scene& scene, const ToolView& view, const Configuration& start, int threads, const Watch& watch);
 
+  /// `other`, for a direction that it is turned to by adding `turn` to the joints. Only where that changes nothing but
+  /// the direction (find_stock_turn).
+  PostureField(const PostureField& other, const ToolView& view, const Configuration& turn);
+
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none.
   void refine(const Scene& scene, int threads, const Watch& watch);
+
+  /// Do all configurations stay within the limits if one joint turns by so much more?
+  bool can_turn(int coordinate, double by) const {
+    return around_.box.low[coordinate] + by > chain_.lower()[coordinate] &&
+           around_.box.high[coordinate] + by < chain_.upper()[coordinate];
+  }
 
   /// The configuration that it grew from.
   const Configuration& start() const { return start_; }
@@ -94,8 +104,8 @@ class PostureField {
   Grid grid_;
   ToolView view_;
   Configuration start_;
-  Vec3 low_, span_;                   ///< of the lattice, in cells of the view
-  std::vector<Configuration> nodes_;  ///< size 0 where there is none
+  Vec3 low_, span_;                    ///< of the lattice, in cells of the view
+  std::vector<Configuration> nodes_;   ///< size 0 where there is none
   std::vector<std::int32_t> covered_;  ///< per cell of the fine lattice: index into bubbles_, or -1
   std::vector<std::int32_t> bubble_;   ///< the same of those that may be used
   std::vector<Bubble> bubbles_;

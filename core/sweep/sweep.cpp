@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -12,11 +13,13 @@
 #include "core/motion/transit.hpp"
 #include "core/sweep/find_field.hpp"
 #include "core/sweep/follow.hpp"
+#include "core/sweep/stock_turn.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr std::size_t most_layers_at_once = 16;
+constexpr std::size_t first_side = 1;  // among the views
 
 class Sweep {
  public:
@@ -46,13 +49,29 @@ class Sweep {
   }
 
  private:
-  /// One after the other: the starts for the top and a side help to find the others.
+  /// One after the other: the starts for the top and a side help to find the others, or the side is turned into them.
   void find_fields() {
+    const auto turn = find_stock_turn(scene_.chain(), scene_.grid());
     std::vector<Configuration> known;
     for (std::size_t view = 0; view < fields_.size(); ++view) {
+      if (turn && view > first_side) fields_[view] = turn_side(*turn, view);
+      if (fields_[view]) continue;
       fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
-      if (view < 2) known.push_back(fields_[view]->start());
+      if (view <= first_side) known.push_back(fields_[view]->start());
     }
+  }
+
+  /// The first side's field for another side; nothing if the joint does not turn so far.
+  std::unique_ptr<PostureField> turn_side(const StockTurn& stock, std::size_t view) const {
+    const PostureField& side = *fields_[first_side];
+    const auto quarters = static_cast<double>(view - first_side);
+    for (double rounds : {0, -1, 1}) {
+      const double by = stock.direction * (quarters / 4 + rounds) * 2 * std::numbers::pi;
+      if (side.can_turn(stock.coordinate, by))
+        return std::make_unique<PostureField>(side, views_[view],
+                                              by * Configuration::Unit(scene_.chain().dof(), stock.coordinate));
+    }
+    return nullptr;
   }
 
   /// The direction along which most can be cut now, of those that are not used up.

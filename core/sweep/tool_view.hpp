@@ -24,14 +24,14 @@ struct ToolView {
   }
 };
 
-/// Tool axis +z, then the four sides +x, -x, +y, -y.
+/// Tool axis +z, then the four sides +x, +y, -x, -y, each the one before it turned by a quarter about z.
 inline std::array<ToolView, 5> tool_views(int n) {
   const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   const int last = n - 1;
   return {{{n, {0, 0, 0}, {x, y, z}},
            {n, {0, 0, 0}, {y, z, x}},
-           {n, {last, 0, 0}, {y, z, x * -1}},
-           {n, {0, 0, 0}, {x, z, y}},
+           {n, {last, 0, 0}, {x * -1, z, y}},
+           {n, {last, last, 0}, {y * -1, z, x * -1}},
            {n, {0, last, 0}, {x, z, y * -1}}}};
 }
 

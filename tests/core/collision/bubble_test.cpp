@@ -83,9 +83,8 @@ TEST(Bubble, RelativeTwistsAreTheDifferencesOfPoses) {
       chain.link_poses(q, here);
       for (int fixed = 0; fixed < links; ++fixed)
         for (int moving = 0; moving < links; ++moving) {
-          const auto twist = relative_twist(chain, fixed, moving, here);
-          const Configuration turn = turn_bound(chain, fixed, moving),
-                                reach = motion_bound(chain, fixed, moving, 0.1);
+          const auto twist = relative_twist(chain, find_drives(chain, fixed, moving), here);
+          const Configuration turn = turn_bound(chain, fixed, moving), reach = motion_bound(chain, fixed, moving, 0.1);
           for (int c = 0; c < chain.dof(); ++c) {
             const double step = 1e-6;
             chain.link_poses(q + step * Configuration::Unit(chain.dof(), c), there);

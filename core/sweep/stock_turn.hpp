@@ -1,0 +1,21 @@
+// Does a joint turn the stock under the arm so that a quarter turn changes nothing but the side that is in front?
+#pragma once
+
+#include <optional>
+
+#include "core/cell/chain.hpp"
+#include "core/material/placement.hpp"
+
+namespace sculpt {
+
+/// A joint whose axis stands upright in the middle of the grid, with nothing on the stock's side of it that a quarter
+/// turn would move: plates and posts that are round or square about that axis, no more.
+struct StockTurn {
+  int coordinate;
+  double direction;  ///< 1 or -1: which way the tool goes around the stock, seen from above, as the coordinate grows
+};
+
+/// Nothing if there is none. `grid` in the frame of the chain's stock link.
+std::optional<StockTurn> find_stock_turn(const Chain& chain, const Grid& grid);
+
+}  // namespace sculpt
