@@ -15,7 +15,7 @@ namespace {
 constexpr double margin = 0.005;  // voxel edges, to any material
 // Edges, in voxel edges. A cut has a voxel at least.
 constexpr double longest_edge = 64, shortest_move = 0.1, first_edge = 8;
-constexpr double intended_share = 0.9;  // of what the tool may stray
+constexpr double intended_share = 0.95;  // of what the tool may stray
 
 /// A place on the way along strokes. Strokes without length are passed over.
 class Place {
