@@ -93,13 +93,6 @@ Configuration turn_bound(const Chain& chain, int fixed, int moving) {
   return bound;
 }
 
-DerivativeBounds derivative_bounds(const Chain& chain, const Configuration& turn, const Configuration& speed,
-                                   const Configuration& step) {
-  const double turning = turn.dot(step.cwiseAbs()), travel = speed.dot(step.cwiseAbs());
-  const bool shifts = chain.shifts();
-  return {(shifts ? 2 : 1) * turning * travel, (shifts ? 3 : 1) * turning * turning * travel};
-}
-
 std::vector<Drive> find_drives(const Chain& chain, int fixed, int moving) {
   std::vector<Drive> drives;
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {

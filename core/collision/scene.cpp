@@ -119,7 +119,8 @@ Contact Scene::Impl::certify_links(const Configuration& from, const Configuratio
 /// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
 /// anywhere, so then all turns are applied to all motions.
 double Scene::Impl::tool_bend(const Configuration& step) const {
-  if (has_mimic) return derivative_bounds(chain, turn_rates, tool_speed, step).second_m;
+  if (has_mimic)
+    return derivative_bounds(chain, turn_rates.dot(step.cwiseAbs()), tool_speed.dot(step.cwiseAbs())).second_m;
   double sum = 0;
   for (int i = 0; i < step.size(); ++i)
     for (int j = 0; j <= i; ++j) sum += (i == j ? 1 : 2) * turn_rates[j] * std::abs(step[i] * step[j]) * tool_speed[i];

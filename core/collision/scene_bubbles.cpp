@@ -70,7 +70,7 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
   };
   Bubble::Approach approach{motion_of(pose * body.hull.core.a), motion_of(pose * body.hull.core.b),
                             twist.bottomRows<3>(), body.hull.radius_m, gap_m};
-  const DerivativeBounds bounds = derivative_bounds(chain, mover.turn, mover.speed, half);
+  const DerivativeBounds bounds = derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half));
   double rest = bounds.second_m / 2;
   if (!has_mimic) rest = std::min(rest, second_order(approach, mover.drives, half) / 2 + bounds.third_m / 6);
   approach.room_m -= rest;

@@ -1,15 +1,74 @@
 #include "core/sweep/follow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/collision/motion_bound.hpp"
+#include "core/sweep/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double margin = 0.005;     // voxel edges, to any material
-constexpr double longest_edge = 64;  // voxel edges
+constexpr double margin = 0.005;  // voxel edges, to any material
+// Edges, in voxel edges. A cut has a voxel at least.
+constexpr double longest_edge = 64, shortest_move = 0.1, first_edge = 8;
+constexpr double intended_share = 0.95;  // of what the tool may stray
+
+/// A place on the way along strokes. Strokes without length are passed over.
+class Place {
+ public:
+  Place(const Vec3& from, const std::vector<Stroke>& strokes) : strokes_(&strokes), from_(from) { begin(); }
+
+  bool at_end() const { return index_ == strokes_->size(); }
+  /// Strokes that are done.
+  std::size_t strokes() const { return index_; }
+  const Stroke& stroke() const { return (*strokes_)[index_]; }
+  /// Where the stroke began, and one voxel edge along it.
+  const Vec3& from() const { return from_; }
+  const Vec3& along() const { return along_; }
+  /// Of the stroke, in voxel edges.
+  double done() const { return done_; }
+  double left() const { return length_ - done_; }
+
+  Vec3 cell() const { return from_ + along_ * done_; }
+  /// To the end of the stroke if it is no longer than that.
+  void advance(double length) {
+    if (length < left()) {
+      done_ += length;
+      return;
+    }
+    from_ = stroke().to;
+    ++index_;
+    begin();
+  }
+
+ private:
+  void begin() {
+    for (done_ = 0; !at_end(); ++index_) {
+      length_ = stroke().count > 0 ? stroke().count : (stroke().to - from_).norm();
+      if (length_ == 0) continue;
+      along_ = (stroke().to - from_) / length_;
+      return;
+    }
+  }
+
+  const std::vector<Stroke>* strokes_;
+  std::size_t index_ = 0;
+  Vec3 from_, along_ = Vec3::Zero();
+  double length_ = 0, done_ = 0;
+};
+
+/// Part of a stroke that one edge is to follow.
+struct Piece {
+  Place from;
+  double length;
+  Vec3 end;  ///< cells
+
+  bool cuts() const { return from.stroke().count > 0; }
+};
 
 /// A configuration and where it was meant to have the ball.
 struct Stop {
@@ -18,11 +77,42 @@ struct Stop {
   double ball_off = 0, top_off = 0;  ///< from where ball and shank's end should be (voxel edges)
 };
 
+/// Bounds on how far ball and shank's end are from the line of an edge, in voxel edges: what the ends are off, what the
+/// bend in the middle does (it grows with the square of the edge's length), and what the bend changes along the edge
+/// (with the cube).
+struct Strayed {
+  double length, ball_off, top_off, ball_bow, top_bow, change;
+
+  /// The largest share of what is allowed; above 1 the edge is not certified.
+  double share(const Stray& allowed) const {
+    return std::max((ball_off + ball_bow + change) / allowed.ball, (top_off + top_bow + change) / allowed.shank);
+  }
+  /// How long an edge like this may be to use the intended share.
+  double reach(const Stray& allowed) const {
+    return length * std::min(stretch(ball_bow, intended_share * allowed.ball - ball_off),
+                             stretch(top_bow, intended_share * allowed.shank - top_off));
+  }
+
+ private:
+  /// About the x with bow x^2 + change x^3 = room; no more than takes to the longest edge.
+  double stretch(double bow, double room) const {
+    double x = std::min(std::sqrt(std::max(0.0, room) / (bow + change)), longest_edge / length);
+    for (int step = 0; step < 2; ++step) {
+      const double excess = x * x * (bow + change * x) - room;
+      if (!(excess > 0)) break;
+      x -= excess / (x * (2 * bow + 3 * change * x));
+    }
+    return x;
+  }
+};
+
+/// Solves the next pieces together, as if none of them were refused, and goes on from the first that is.
 class Follower {
  public:
   Follower(const PostureField& field, const Tool& tool, const Grid& grid)
       : field_(field),
         chain_(field.chain()),
+        lanes_(chain_, field.view().axis()),
         voxel_m_(grid.voxel_m),
         stray_(stray_of(tool, grid.voxel_m)),
         speed_(motion_bound(chain_, chain_.stock_link(), chain_.tool_link(), tool.stickout_m)),
@@ -30,99 +120,154 @@ class Follower {
 
   Followed run(const Vec3& from, const std::vector<Stroke>& strokes) {
     Followed followed;
-    auto start = stop_at(from);
-    if (!start) return followed;
-    here_ = *start;
-    for (const Stroke& stroke : strokes) {
-      const std::size_t before = followed.keyframes.size();
-      if (!follow_one(stroke, followed.keyframes)) {
-        followed.keyframes.resize(before);
-        break;
+    if (!stand_at(from)) return followed;
+    Place place(from, strokes);
+    std::size_t in_whole_strokes = 0;
+    for (bool refused_at_all = false; !refused_at_all && !place.at_end();) {
+      look_ahead(place);
+      for (std::size_t lane = 0; lane < pieces_.size(); ++lane) {
+        const Piece& piece = pieces_[lane];
+        if (!take(piece, lane)) {
+          refused_at_all = piece.length <= (piece.cuts() ? 1 : shortest_move);
+          break;
+        }
+        followed.keyframes.push_back(keyframe_at_end(piece));
+        place.advance(piece.length);
+        if (place.strokes() > piece.from.strokes()) in_whole_strokes = followed.keyframes.size();
       }
-      ++followed.strokes;
     }
+    followed.keyframes.resize(in_whole_strokes);
+    followed.strokes = place.strokes();
     return followed;
   }
 
  private:
-  std::optional<Stop> stop_at(const Vec3& cell) const {
-    const auto q = field_.at(cell);
-    if (!q) return std::nullopt;
-    const ToolPose pose = chain_.tool_pose(*q);
-    const Vec3 off = pose.ball_m - field_.ball_m(cell);
-    const Vec3 top_off = off + chain_.stickout_m() * (pose.axis - field_.view().axis());
-    return Stop{cell, *q, off.norm() / voxel_m_, top_off.norm() / voxel_m_};
+  bool stand_at(const Vec3& cell) {
+    if (!field_.usable(cell)) return false;
+    put(0, cell);
+    lanes_.solve(ahead_);
+    here_ = stop_of(0, cell);
+    return ahead_.solved(0);
   }
 
-  bool follow_one(const Stroke& stroke, std::vector<Keyframe>& keyframes) {
-    const Vec3 from = here_.cell;
-    const double length = stroke.count > 0 ? stroke.count : (stroke.to - from).norm();
-    const Vec3 along = (stroke.to - from) / length;
-    const Voxel way = stroke.last - stroke.first;
-    const auto sign = [](int x) { return (x > 0) - (x < 0); };
-    const Voxel step{sign(way.i), sign(way.j), sign(way.k)};
-    for (double done = 0; done < length;) {
-      double piece = std::min(guess_, length - done);
-      if (stroke.count > 0) piece = std::max(1.0, std::floor(piece));
-      for (;;) {
-        const bool last = done + piece >= length;
-        const auto next = stop_at(last ? stroke.to : Vec3(from + along * (done + piece)));
-        const double strayed = next ? stray_share(here_, *next, stroke) : 2;
-        if (strayed <= 1) {
-          Keyframe keyframe{next->q, stroke.count > 0, {}, {}};
-          if (keyframe.cut) {
-            const int first = static_cast<int>(done);
-            keyframe.first = stroke.first + step * first;
-            keyframe.last = stroke.first + step * (first + static_cast<int>(piece) - 1);
-          }
-          keyframes.push_back(std::move(keyframe));
-          here_ = *next;
-          done = last ? length : done + piece;
-          if (strayed < 0.2)
-            guess_ = std::min(longest_edge, 2 * piece);
-          else if (strayed < 0.6)
-            guess_ = std::max(guess_, piece + 1);
-          break;
-        }
-        const double shorter = stroke.count > 0 ? std::floor(piece / 2) : piece / 2;
-        if (shorter < (stroke.count > 0 ? 1.0 : 0.1)) return false;
-        piece = guess_ = shorter;
+  void put(std::size_t lane, const Vec3& cell) {
+    const auto guess = field_.guess(cell);
+    ahead_.set(static_cast<int>(lane), field_.ball_m(cell), guess ? *guess : nowhere_);
+  }
+
+  Stop stop_of(std::size_t lane, const Vec3& cell) const {
+    return {cell, ahead_.q.get(static_cast<int>(lane), chain_.dof()), ahead_.ball_off_m[lane] / voxel_m_,
+            ahead_.top_off_m[lane] / voxel_m_};
+  }
+
+  void look_ahead(Place place) {
+    pieces_.clear();
+    for (double most = longest_next_; pieces_.size() < lane_count && !place.at_end(); most = longest_edge) {
+      Piece piece{place, next_length(place, most), {}};
+      place.advance(piece.length);
+      piece.end = place.cell();
+      put(pieces_.size(), piece.end);
+      pieces_.push_back(piece);
+    }
+    lanes_.solve(ahead_);
+    bound_bends();
+  }
+
+  /// So that the rest of the stroke becomes as few pieces as can be expected, all about as long.
+  double next_length(const Place& place, double most) const {
+    const Stroke& stroke = place.stroke();
+    const auto& known = known_[direction_of(place.along())];
+    most = std::min(most, known ? known->reach(allowed(place.from(), stroke.to, stroke)) : first_edge);
+    most = stroke.count > 0 ? std::max(1.0, std::floor(most)) : std::max(shortest_move, most);
+    const double pieces = std::ceil(place.left() / most);
+    if (pieces <= 1) return place.left();
+    return stroke.count > 0 ? std::ceil(place.left() / pieces) : place.left() / pieces;
+  }
+
+  /// One of the three axes, or none.
+  static std::size_t direction_of(const Vec3& along) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::abs(along[static_cast<int>(axis)]) > 0.999) return axis;
+    return 3;
+  }
+
+  Stray allowed(const Vec3& from, const Vec3& to, const Stroke& stroke) const {
+    const double wide = field_.may_stray(from, to) ? stroke.stray : 0;
+    return {std::max(wide, stray_.ball), std::max(wide, stray_.shank)};
+  }
+
+  /// Bounds on the second derivatives of ball and shank's end all along each edge: their length in the middle and what
+  /// the third derivative can add.
+  void bound_bends() {
+    edges_.to = ahead_.q;
+    turn_.fill(0);
+    travel_.fill(0);
+    for (int c = 0; c < chain_.dof(); ++c) {
+      const auto joint = static_cast<std::size_t>(c);
+      const Lanes& to = edges_.to.joints[joint];
+      Lanes& from = edges_.from.joints[joint];
+      from[0] = here_.q[c];
+      std::copy(to.begin(), to.end() - 1, from.begin() + 1);
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const double step = std::abs(to[lane] - from[lane]);
+        turn_[lane] += turn_rates_[c] * step;
+        travel_[lane] += speed_[c] * step;
       }
     }
+    lanes_.bend(edges_);
+  }
+
+  /// Goes to the end of the next piece if the edge there is certified. A function with second derivative at most b
+  /// leaves its chord by b / 8 at most.
+  bool take(const Piece& piece, std::size_t lane) {
+    longest_next_ = piece.length / 2;
+    if (!ahead_.solved(static_cast<int>(lane))) return false;
+    Stop next = stop_of(lane, piece.end);
+    const double from_bend = 1 / (8 * voxel_m_);
+    const Strayed strayed{piece.length,
+                          std::max(here_.ball_off, next.ball_off),
+                          std::max(here_.top_off, next.top_off),
+                          from_bend * edges_.ball_bend_m[lane],
+                          from_bend * edges_.top_bend_m[lane],
+                          from_bend * 0.5 * derivative_bounds(chain_, turn_[lane], travel_[lane]).third_m};
+    known_[direction_of(piece.from.along())] = strayed;
+    if (!(strayed.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
+      longest_next_ = longest_edge;  // what was learnt makes it short enough
+      return false;
+    }
+    if (!field_.links_are_free(here_.cell, here_.q, next.cell, next.q)) return false;
+    here_ = std::move(next);
+    longest_next_ = longest_edge;
     return true;
   }
 
-  /// The largest share that any part of the tool uses of what it may stray; above 1 the edge is not certified. A
-  /// function with second derivative at most b leaves its chord by b / 8 at most.
-  double stray_share(const Stop& from, const Stop& to, const Stroke& stroke) const {
-    if (!field_.links_are_free(from.cell, from.q, to.cell, to.q)) return 2;
-    const Configuration step = to.q - from.q;
-    const Bend bend = bend_of(from.q, step);
-    const double ball = std::max(from.ball_off, to.ball_off) + bend.ball_m / (8 * voxel_m_);
-    const double top = std::max(from.top_off, to.top_off) + bend.top_m / (8 * voxel_m_);
-    const double wide = field_.may_stray(from.cell, to.cell) ? stroke.stray : 0;
-    return std::max(ball / std::max(wide, stray_.ball), top / std::max(wide, stray_.shank));
-  }
-
-  /// Bounds on the second derivatives of ball and shank's end (m) all along the edge: their length in the middle and
-  /// what the third derivative can add.
-  struct Bend {
-    double ball_m, top_m;
-  };
-  Bend bend_of(const Configuration& from, const Configuration& step) const {
-    const double change = derivative_bounds(chain_, turn_rates_, speed_, step).third_m / 2;
-    const Chain::ToolEnds middle = chain_.tool_acceleration(from + 0.5 * step, step);
-    return {middle.ball_m.norm() + change, middle.top_m.norm() + change};
+  Keyframe keyframe_at_end(const Piece& piece) const {
+    Keyframe keyframe{here_.q, piece.cuts(), {}, {}};
+    if (!keyframe.cut) return keyframe;
+    const Stroke& stroke = piece.from.stroke();
+    const auto sign = [](int x) { return (x > 0) - (x < 0); };
+    const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
+    keyframe.first = stroke.first + step * static_cast<int>(piece.from.done());
+    keyframe.last = keyframe.first + step * (static_cast<int>(piece.length) - 1);
+    return keyframe;
   }
 
   const PostureField& field_;
   const Chain& chain_;
+  PostureLanes lanes_;
   double voxel_m_;
   Stray stray_;
   Configuration speed_;       ///< m per unit of each joint, for the whole tool
   Configuration turn_rates_;  ///< rad per unit of each joint
+  Configuration nowhere_ = Configuration::Constant(chain_.dof(), std::numeric_limits<double>::quiet_NaN());
+
   Stop here_;
-  double guess_ = 8;  ///< voxel edges that the next edge is tried with
+  double longest_next_ = longest_edge;             ///< after a refusal
+  std::array<std::optional<Strayed>, 4> known_{};  ///< of the last edge along each axis, and along none
+  std::vector<Piece> pieces_;                      ///< from here on, one per lane
+  PostureBatch ahead_;                             ///< their ends
+  EdgeBatch edges_;
+  Lanes turn_, travel_;  ///< along each edge, of all joints together (rad; m)
 };
 
 }  // namespace

@@ -268,7 +268,7 @@ void PostureField::find_roomy(const Scene& scene) {
   }
 }
 
-std::optional<Configuration> PostureField::interpolate(const Vec3& cell) const {
+std::optional<Configuration> PostureField::guess(const Vec3& cell) const {
   const Vec3 at = (cell - low_).cwiseQuotient(span_) * cells;
   int base[3];
   double part[3];
@@ -283,7 +283,13 @@ std::optional<Configuration> PostureField::interpolate(const Vec3& cell) const {
     if (node.size() == 0) return std::nullopt;
     sum += (i ? part[0] : 1 - part[0]) * (j ? part[1] : 1 - part[1]) * (k ? part[2] : 1 - part[2]) * node;
   }
-  return find_posture(chain_, ball_m(cell), view_.axis(), sum);
+  return sum;
+}
+
+std::optional<Configuration> PostureField::interpolate(const Vec3& cell) const {
+  const auto near = guess(cell);
+  if (!near) return std::nullopt;
+  return find_posture(chain_, ball_m(cell), view_.axis(), *near);
 }
 
 std::optional<Configuration> PostureField::at(const Vec3& cell) const {

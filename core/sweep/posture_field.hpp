@@ -40,6 +40,9 @@ class PostureField {
   /// May the ball's centre be there (cells of the view, centres at whole numbers)?
   bool usable(const Vec3& cell) const { return bubble_[fine_cell(cell)] >= 0; }
 
+  /// About the configuration with the ball at `cell`, between nodes; nothing where one is missing.
+  std::optional<Configuration> guess(const Vec3& cell) const;
+
   /// The configuration with the ball at `cell`; nothing where the field is not usable.
   std::optional<Configuration> at(const Vec3& cell) const;
 
