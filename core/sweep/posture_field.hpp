@@ -29,6 +29,8 @@ class PostureField {
 
   /// May the ball's centre be there (cells of the view, centres at whole numbers)?
   bool usable(const Vec3& cell) const { return bubble_[fine_cell(cell)] >= 0; }
+  /// The cell of the lattice that a place is in: the field is usable in all of it or nowhere in it.
+  Voxel part(const Vec3& cell) const { return corner_below(cell); }
 
   /// The configuration with the ball at `cell`; nothing where the field is not usable.
   std::optional<Configuration> at(const Vec3& cell) const;
