@@ -39,6 +39,8 @@ class PostureField {
 
   /// May the ball's centre be there (cells of the view, centres at whole numbers)?
   bool usable(const Vec3& cell) const { return bubble_[fine_cell(cell)] >= 0; }
+  /// The cell of the lattice that a place is in: the field is usable in all of it or nowhere in it.
+  Voxel part(const Vec3& cell) const { return corner_below(cell); }
 
   /// About the configuration with the ball at `cell`, between nodes; nothing where one is missing.
   std::optional<Configuration> guess(const Vec3& cell) const;

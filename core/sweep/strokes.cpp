@@ -1,8 +1,11 @@
 #include "core/sweep/strokes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace sculpt {
 namespace {
@@ -20,83 +23,93 @@ int sign(int x) {
 
 }  // namespace
 
-Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep,
-                 std::function<bool(const Vec3&)> reachable)
+Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach)
     : view_(view),
-      corner_(static_cast<std::ptrdiff_t>(standing.index(view.corner))),
-      standing_(standing),
-      keep_(keep),
-      reachable_(std::move(reachable)),
-      heights_(static_cast<std::size_t>(view.n) * view.n),
-      given_up_(view.n) {
-  for (std::size_t along = 0; along < 3; ++along) {
-    const Voxel step = view.step[along];
-    stride_[along] = step.i + view.n * (step.j + static_cast<std::ptrdiff_t>(view.n) * step.k);
-  }
-  for (int b = 0; b < view.n; ++b)
-    for (int a = 0; a < view.n; ++a) height(a, b) = top_below({a, b, view.n});
-}
-
-int Columns::top_below(Voxel cell) const {
-  int c = cell.k;
-  for (std::ptrdiff_t at = index(cell) - stride_[2]; c > 0 && !holds(standing_, at); at -= stride_[2]) --c;
-  return c;
-}
-
-bool Columns::can_cut(Voxel cell) const {
-  if (height(cell.i, cell.j) != cell.k + 1) return false;
-  const std::ptrdiff_t at = index(cell);
-  return !holds(keep_, at) && !holds(given_up_, at) && reachable_(centre(cell));
-}
+      reach_(reach),
+      standing_(view, standing),
+      keep_(view, keep),
+      covered_(0, 0, 0),
+      covered_from_(view.n) {}
 
 std::uint64_t Columns::count_cuttable() const {
   std::uint64_t count = 0;
-  for (int b = 0; b < view_.n; ++b)
-    for (int a = 0; a < view_.n; ++a) {
-      std::ptrdiff_t at = index({a, b, height(a, b) - 1});
-      for (int c = height(a, b) - 1; c >= 0; --c, at -= stride_[2]) {
-        if (!holds(standing_, at)) continue;
-        if (holds(keep_, at) || !reachable_(centre({a, b, c}))) break;
-        ++count;
+  CellRows open(view_.n, view_.n, 1);  // columns in which nothing stopped the tool yet
+  for (int b = 0; b < view_.n; ++b) set_cells(open.row(b, 0), 0, view_.n - 1);
+  for (int c = view_.n - 1; c >= 0; --c)
+    for (int b = 0; b < view_.n; ++b) {
+      const std::uint64_t *standing = standing_.row(b, c), *keep = keep_.row(b, c), *reach = reach_.row(b, c);
+      std::uint64_t* columns = open.row(b, 0);
+      for (int chunk = 0; chunk < open.chunks(); ++chunk) {
+        const std::uint64_t here = standing[chunk] & columns[chunk];
+        if (here == 0) continue;
+        const std::uint64_t left = here & (keep[chunk] | ~reach[chunk]);
+        columns[chunk] &= ~left;
+        count += static_cast<std::uint64_t>(std::popcount(here ^ left));
       }
     }
   return count;
 }
 
-void Columns::remove(Voxel cell) {
-  standing_.erase(view_.voxel(cell));
-  height(cell.i, cell.j) = top_below({cell.i, cell.j, height(cell.i, cell.j)});
+Voxel Columns::cell(Voxel voxel) const {
+  const Voxel from_corner = voxel - view_.corner;
+  const auto along = [&](Voxel unit) {
+    return from_corner.i * unit.i + from_corner.j * unit.j + from_corner.k * unit.k;
+  };
+  return {along(view_.step[0]), along(view_.step[1]), along(view_.step[2])};
 }
 
 void Columns::restore(const Stroke& stroke, bool give_up) {
-  const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
-  const auto along = [](Voxel v, Voxel unit) { return v.i * unit.i + v.j * unit.j + v.k * unit.k; };
-  for (int m = 0; m < stroke.count; ++m) {
-    const Voxel voxel = stroke.first + step * m, from_corner = voxel - view_.corner;
-    standing_.insert(voxel);
-    if (give_up) given_up_.insert(voxel);
-    int& h = height(along(from_corner, view_.step[0]), along(from_corner, view_.step[1]));
-    h = std::max(h, along(from_corner, view_.step[2]) + 1);
-  }
+  if (stroke.count == 0) return;
+  const Voxel first = cell(stroke.first), last = cell(stroke.last);
+  const Run run{std::min(first.i, last.i), std::max(first.i, last.i), first.j, first.k};
+  set_cells(standing_.row(run.b, run.c), run.first, run.last);
+  covered_from_ = std::max(covered_from_, run.c + 1);
+  if (give_up) given_up_.push_back(run);
+}
+
+/// What is cut in a layer uncovers cells below it, so those layers are covered anew after each.
+void Columns::cover_down_to(int c) {
+  if (covered_.chunks() == 0) covered_ = CellRows(view_.n, view_.n, view_.n + 1);
+  for (int layer = covered_from_ - 1; layer >= c; --layer)
+    for (int b = 0; b < view_.n; ++b) {
+      const std::uint64_t *standing = standing_.row(b, layer), *above = covered_.row(b, layer + 1);
+      std::uint64_t* covered = covered_.row(b, layer);
+      for (int chunk = 0; chunk < covered_.chunks(); ++chunk) covered[chunk] = standing[chunk] | above[chunk];
+    }
+  covered_from_ = c;
 }
 
 std::vector<std::vector<Columns::Run>> Columns::find_runs(int c) const {
   std::vector<std::vector<Run>> rows(static_cast<std::size_t>(view_.n));
+  std::vector<Run> given_up;
+  std::copy_if(given_up_.begin(), given_up_.end(), std::back_inserter(given_up),
+               [c](const Run& run) { return run.c == c; });
+  std::vector<std::uint64_t> free(static_cast<std::size_t>(covered_.chunks()));
   for (int b = 0; b < view_.n; ++b) {
+    const std::uint64_t *standing = standing_.row(b, c), *above = covered_.row(b, c + 1), *keep = keep_.row(b, c),
+                        *reach = reach_.row(b, c);
+    for (std::size_t chunk = 0; chunk < free.size(); ++chunk)
+      free[chunk] = standing[chunk] & ~above[chunk] & ~keep[chunk] & reach[chunk];
+    for (const Run& run : given_up)
+      if (run.b == b) clear_cells(free.data(), run.first, run.last);
     auto& row = rows[static_cast<std::size_t>(b)];
-    bool open = false;
-    for (int a = 0; a < view_.n; ++a) {
-      const bool here = can_cut({a, b, c});
-      if (here && open) row.back().last = a;
-      if (here && !open) row.push_back({a, a});
-      open = here;
-    }
+    for (std::size_t chunk = 0; chunk < free.size(); ++chunk)
+      for (std::uint64_t bits = free[chunk]; bits != 0;) {
+        const int skip = std::countr_zero(bits), length = std::countr_one(bits >> skip);
+        const int first = 64 * static_cast<int>(chunk) + skip, last = first + length - 1;
+        if (skip == 0 && !row.empty() && row.back().last == first - 1)
+          row.back().last = last;
+        else
+          row.push_back({first, last, b, c});
+        bits = skip + length == 64 ? 0 : bits >> (skip + length) << (skip + length);
+      }
   }
   return rows;
 }
 
 std::vector<Stroke> Columns::cut_layer(int c, Vec3& at, double stray) {
   std::vector<Stroke> strokes;
+  cover_down_to(c);
   auto rows = find_runs(c);
   std::size_t left = 0;
   for (const auto& row : rows) left += row.size();
@@ -133,34 +146,54 @@ std::vector<Stroke> Columns::cut_layer(int c, Vec3& at, double stray) {
   return strokes;
 }
 
-/// Straight from a neighbour of `first`.
+/// Along a row, straight from a neighbour of `first`.
 void Columns::cut(Voxel first, Voxel last, Vec3& at, double stray, std::vector<Stroke>& strokes) {
-  Stroke stroke{centre(last), l1(first, last) + 1, stray, view_.voxel(first), view_.voxel(last)};
-  const Voxel way = last - first, step{sign(way.i), sign(way.j), sign(way.k)};
-  for (int m = 0; m < stroke.count; ++m) remove(first + step * m);
-  strokes.push_back(stroke);
-  at = stroke.to;
+  for (CellRows* rows : {&standing_, &covered_})
+    clear_cells(rows->row(first.j, first.k), std::min(first.i, last.i), std::max(first.i, last.i));
+  strokes.push_back({centre(last), l1(first, last) + 1, stray, view_.voxel(first), view_.voxel(last)});
+  at = centre(last);
 }
 
 bool Columns::in_layer_free(int a0, int b0, int a1, int b1, int c) const {
+  const int first = std::min(a0, a1), last = std::max(a0, a1);
   for (int b = std::min(b0, b1); b <= std::max(b0, b1); ++b)
-    for (int a = std::min(a0, a1); a <= std::max(a0, a1); ++a)
-      if (height(a, b) > c || !reachable_(centre({a, b, c}))) return false;
+    if (any_cell(covered_.row(b, c), first, last) || !all_cells(reach_.row(b, c), first, last)) return false;
   return true;
 }
 
-/// Over all columns that come closer than a voxel to the line.
-int Columns::highest_between(const Vec3& from, const Vec3& to) const {
-  const int steps = 1 + 2 * static_cast<int>((to - from).head<2>().norm());
-  int highest = 0;
+/// The lowest layer from `c` up where nothing stands, there or above, in any column that comes closer than a voxel to
+/// the line.
+int Columns::free_layer_between(const Vec3& from, const Vec3& to, int c) const {
+  constexpr int beside = 2;
+  const int steps = 1 + 2 * static_cast<int>((to - from).head<2>().norm()), end = view_.n - 1;
+  const int first_b = std::max(0, static_cast<int>(std::lround(std::min(from.y(), to.y()))) - beside);
+  const int last_b = std::min(end, static_cast<int>(std::lround(std::max(from.y(), to.y()))) + beside);
+  std::vector<std::pair<int, int>> rows(static_cast<std::size_t>(last_b - first_b + 1), {end, 0});  // first and last a
   for (int s = 0; s <= steps; ++s) {
     const Vec3 here = from + (to - from) * (static_cast<double>(s) / steps);
     const int a = static_cast<int>(std::lround(here.x())), b = static_cast<int>(std::lround(here.y()));
-    for (int bb = std::max(0, b - 2); bb <= std::min(view_.n - 1, b + 2); ++bb)
-      for (int aa = std::max(0, a - 2); aa <= std::min(view_.n - 1, a + 2); ++aa)
-        highest = std::max(highest, height(aa, bb));
+    for (int bb = std::max(first_b, b - beside); bb <= std::min(last_b, b + beside); ++bb) {
+      auto& [first, last] = rows[static_cast<std::size_t>(bb - first_b)];
+      first = std::min(first, std::max(0, a - beside));
+      last = std::max(last, std::min(end, a + beside));
+    }
   }
-  return highest;
+  const auto is_free = [&](int layer) {
+    for (int b = first_b; b <= last_b; ++b) {
+      const auto& [first, last] = rows[static_cast<std::size_t>(b - first_b)];
+      if (any_cell(covered_.row(b, layer), first, last)) return false;
+    }
+    return true;
+  };
+  int free = view_.n;
+  while (c < free) {
+    const int middle = (c + free) / 2;
+    if (is_free(middle))
+      free = middle;
+    else
+      c = middle + 1;
+  }
+  return free;
 }
 
 /// Brings the ball to `target` and cuts it: along its layer and in from beside, or along the layer where the ball is
@@ -193,7 +226,7 @@ void Columns::go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& s
     if (there) go(centre(above), stray);
   }
   if (!there) {
-    const double high = std::max({highest_between(at, centre(above)) + 1.0, at.z(), static_cast<double>(above.k)});
+    const double high = std::max(free_layer_between(at, centre(above), target.k) + 1.0, at.z());
     go({at.x(), at.y(), high}, stray);
     go({static_cast<double>(above.i), static_cast<double>(above.j), high}, travel_stray);
     go(centre(above), stray);

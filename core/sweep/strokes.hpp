@@ -1,13 +1,10 @@
 // What the ball does in one pass along one tool direction, cell by cell: no joints yet.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <functional>
+#include <cstdint>
 #include <vector>
 
-#include "core/material/voxel_grid.hpp"
-#include "core/sweep/tool_view.hpp"
+#include "core/sweep/reach_rows.hpp"
 
 namespace sculpt {
 
@@ -24,9 +21,8 @@ struct Stroke {
 /// stand above the ball. Not shared between threads.
 class Columns {
  public:
-  /// `reachable`: may the ball's centre be at this cell, for links and limits?
-  Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep,
-          std::function<bool(const Vec3& cell)> reachable);
+  /// `reach` must outlive the object.
+  Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach);
 
   /// Cells that could be cut if every one that lies free now or later is.
   std::uint64_t count_cuttable() const;
@@ -42,36 +38,25 @@ class Columns {
   void restore(const Stroke& stroke, bool give_up);
 
  private:
+  /// Cells first..last of row b of layer c.
   struct Run {
-    int first, last;
+    int first, last, b, c;
   };
 
-  int& height(int a, int b) { return heights_[static_cast<std::size_t>(b * view_.n + a)]; }
-  int height(int a, int b) const { return heights_[static_cast<std::size_t>(b * view_.n + a)]; }
-  /// Index of a cell's voxel in the sets.
-  std::ptrdiff_t index(Voxel cell) const {
-    return corner_ + cell.i * stride_[0] + cell.j * stride_[1] + cell.k * stride_[2];
-  }
-  static bool holds(const VoxelSet& set, std::ptrdiff_t at) {
-    return set.words()[static_cast<std::size_t>(at) >> 6] >> (at & 63) & 1;
-  }
-  /// One above the topmost standing cell below `cell` in its column.
-  int top_below(Voxel cell) const;
-  bool can_cut(Voxel cell) const;
+  Voxel cell(Voxel voxel) const;
+  void cover_down_to(int c);
   std::vector<std::vector<Run>> find_runs(int c) const;
-  void remove(Voxel cell);
   bool in_layer_free(int a0, int b0, int a1, int b1, int c) const;
-  int highest_between(const Vec3& from, const Vec3& to) const;
+  int free_layer_between(const Vec3& from, const Vec3& to, int c) const;
   void go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& strokes);
   void cut(Voxel first, Voxel last, Vec3& at, double stray, std::vector<Stroke>& strokes);
 
   ToolView view_;
-  std::ptrdiff_t corner_;                 ///< index of cell (0, 0, 0)
-  std::array<std::ptrdiff_t, 3> stride_;  ///< of the index, along a, b, c
-  VoxelSet standing_, keep_;
-  std::function<bool(const Vec3&)> reachable_;
-  std::vector<int> heights_;  ///< per column: one above its topmost standing cell
-  VoxelSet given_up_;         ///< voxels whose motion failed
+  const ReachRows& reach_;
+  CellRows standing_, keep_;
+  CellRows covered_;           ///< cells that stand or have something standing above them, from layer covered_from_ on
+  int covered_from_;           ///< view_.n: in no layer of the grid yet
+  std::vector<Run> given_up_;  ///< cells whose motion failed
 };
 
 }  // namespace sculpt

@@ -59,6 +59,12 @@ class Sweep {
       fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
       if (view <= first_side) known.push_back(fields_[view]->start());
     }
+    for_each_index(threads_, fields_.size(), [&](std::size_t view) {
+      const PostureField& field = *fields_[view];
+      reach_[view].emplace(
+          voxels_.n(), [&](const Vec3& cell) { return field.usable(cell); },
+          [&](const Vec3& cell) { return field.part(cell); });
+    });
   }
 
   /// The first side's field for another side; nothing if the joint does not turn so far.
@@ -85,10 +91,7 @@ class Sweep {
     return static_cast<std::size_t>(most - counts.begin());
   }
 
-  Columns columns_of(std::size_t view) const {
-    const PostureField* field = fields_[view].get();
-    return {views_[view], standing_, voxels_.keep, [field](const Vec3& cell) { return field->usable(cell); }};
-  }
+  Columns columns_of(std::size_t view) const { return {views_[view], standing_, voxels_.keep, *reach_[view]}; }
 
   /// Where the tool comes in: above the middle of the grid.
   Vec3 hub_cell() const {
@@ -240,6 +243,7 @@ class Sweep {
   std::vector<Configuration> way_home_;  ///< from the hub of that direction
   std::array<ToolView, 5> views_;
   std::array<std::unique_ptr<PostureField>, 5> fields_;
+  std::array<std::optional<ReachRows>, 5> reach_;  ///< where each field is usable
   std::array<bool, 5> used_up_{};
 };
 

@@ -28,6 +28,10 @@ Shape random_shape(int n, std::uint64_t seed) {
   return shape;
 }
 
+ReachRows everywhere(int n) {
+  return {n, [](const Vec3&) { return true; }, [](const Vec3&) { return Voxel{}; }};
+}
+
 /// What the strokes do, cell by cell; shares nothing with Columns but the words.
 class Replay {
  public:
@@ -103,7 +107,8 @@ TEST(Strokes, CutAllThatLiesFreeAlongEveryDirectionAndTouchNothingElse) {
     for (const ToolView& view : tool_views(n)) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", axis " + std::to_string(view.step[2].i) +
                    std::to_string(view.step[2].j) + std::to_string(view.step[2].k));
-      Columns columns(view, shape.stock, shape.keep, [](const Vec3&) { return true; });
+      const ReachRows reach = everywhere(n);
+      Columns columns(view, shape.stock, shape.keep, reach);
       const std::uint64_t expected = columns.count_cuttable();
       Replay replay(view, shape.stock, shape.keep);
       Vec3 at(0, 0, n + 1);
@@ -114,6 +119,44 @@ TEST(Strokes, CutAllThatLiesFreeAlongEveryDirectionAndTouchNothingElse) {
   }
 }
 
+TEST(Strokes, CutWhatIsReachableOfRowsLongerThanAWord) {
+  const int n = 128;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const ToolView view = tool_views(n)[seed % 5];
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Shape shape{VoxelSet(n), VoxelSet(n)};
+    for (int c = 0; c < 6; ++c)
+      for (int b = 60; b < 70; ++b)
+        for (int a = 50; a < 80; ++a) {
+          if (random.unit() < 0.9) shape.stock.insert(view.voxel({a, b, c}));
+          if (random.unit() < 0.02) shape.keep.insert(view.voxel({a, b, c}));
+        }
+    const auto part = [](const Vec3& cell) { return Voxel{int(cell.x()) / 5, int(cell.y()) / 4, int(cell.z()) / 3}; };
+    const auto reachable = [&](const Vec3& cell) {
+      const Voxel in = part(cell);
+      return mix(seed, static_cast<std::uint64_t>(in.i + 64 * (in.j + 64 * in.k))) % 8 > 0;
+    };
+    const ReachRows reach(n, reachable, part);
+    Columns columns(view, shape.stock, shape.keep, reach);
+    const std::uint64_t expected = columns.count_cuttable();
+    EXPECT_GT(expected, 500u);
+    Replay replay(view, shape.stock, shape.keep);
+    Vec3 at(0, 0, n + 1);
+    for (int c = n - 1; c >= 0; --c) {
+      Vec3 from = at;
+      const std::vector<Stroke> strokes = columns.cut_layer(c, at, 0.04);
+      ASSERT_NO_FATAL_FAILURE(replay.run(strokes));
+      for (const Stroke& stroke : strokes) {
+        for (int m = 1; m <= stroke.count; ++m)
+          ASSERT_TRUE(reachable(from + (stroke.to - from) * (static_cast<double>(m) / stroke.count)));
+        from = stroke.to;
+      }
+    }
+    ASSERT_EQ(replay.removed(), expected);
+  }
+}
+
 TEST(Strokes, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -121,7 +164,8 @@ TEST(Strokes, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
     const Shape shape = random_shape(n, seed);
     const ToolView view = tool_views(n)[seed % 5];
     Random random(seed);
-    Columns columns(view, shape.stock, shape.keep, [](const Vec3&) { return true; });
+    const ReachRows reach = everywhere(n);
+    Columns columns(view, shape.stock, shape.keep, reach);
     Replay replay(view, shape.stock, shape.keep);
     Vec3 at(0, 0, n + 1);
     for (int c = n - 1; c >= 0;) {
@@ -137,14 +181,15 @@ TEST(Strokes, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
       at = done == 0 ? from : strokes.back().to;
       ASSERT_NO_FATAL_FAILURE(replay.run(strokes));
     }
-    const Columns fresh(view, replay.standing(), shape.keep, [](const Vec3&) { return true; });
+    const Columns fresh(view, replay.standing(), shape.keep, reach);
     ASSERT_EQ(columns.count_cuttable(), fresh.count_cuttable());
   }
 }
 
 TEST(Strokes, AFullBlockTakesOneRowAfterTheOther) {
   const int n = 16;
-  Columns columns(tool_views(n)[0], VoxelSet(n, true), VoxelSet(n), [](const Vec3&) { return true; });
+  const ReachRows reach = everywhere(n);
+  Columns columns(tool_views(n)[0], VoxelSet(n, true), VoxelSet(n), reach);
   Vec3 at(0, 0, n + 1);
   double travelled = 0;
   for (int c = n - 1; c >= 0; --c) {
