@@ -58,7 +58,9 @@ class Bubble {
     if (q.size() != centre_.size() || !box_.holds(q)) return false;
     const Configuration step = q - centre_;
     for (std::size_t at = 0; at < rooms_.size(); ++at) {
-      const Eigen::Matrix<double, 9, 1> moved = motions_.middleCols(first_column(at), step.size()) * step;
+      Eigen::Matrix<double, 9, 1> moved = motions_.col(first_column(at)) * step[0];
+      for (Eigen::Index joint = 1; joint < step.size(); ++joint)
+        moved += motions_.col(first_column(at) + joint) * step[joint];
       const double ends = std::max(moved.segment<3>(0).norm(), moved.segment<3>(3).norm());
       if (ends + rooms_[at].radius_m * moved.segment<3>(6).norm() >= rooms_[at].room_m) return false;
     }

@@ -18,11 +18,14 @@ bool near(const Capsule& a, const Capsule& b, double reach_m) {
   return distance(a.core, b.core) <= a.radius_m + b.radius_m + reach_m;
 }
 
-/// From `hull` to a piece's own shape where that is a box, which a capsule may hold badly.
+/// From `hull` to the box that a piece is, or that a cylinder fits into: a capsule may hold a flat one badly.
 double distance_to_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
-  if (piece.shape.kind != ShapeKind::box) return 0;
-  const Capsule local = placed((pose * piece.shape.pose).inverse(), hull);
-  return distance_to_box(local.core, -piece.shape.sides_m / 2, piece.shape.sides_m / 2) - hull.radius_m;
+  const Shape& shape = piece.shape;
+  if (shape.kind == ShapeKind::sphere) return 0;
+  const Vec3 half =
+      shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2) : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
+  const Capsule local = placed((pose * shape.pose).inverse(), hull);
+  return distance_to_box(local.core, -half, half) - hull.radius_m;
 }
 
 double between(const Capsule& a, const Capsule& b) {

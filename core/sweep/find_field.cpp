@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr int random_guesses = 24;
-constexpr std::size_t most_fields = 3;
+constexpr int most_fields = 3;
 constexpr double probe_half = 0.03;  // rad or m: what the joints do within a cell of a field
 
 std::vector<Configuration> find_guesses(const Chain& chain, const Configuration& home,
@@ -49,42 +49,65 @@ int count_free_probes(const Scene& scene, const ToolView& view, const Configurat
   return free;
 }
 
-struct Start {
-  Configuration q;
-  int free;
-};
+/// Grows fields from one start after the other and keeps the best.
+class FieldSearch {
+ public:
+  FieldSearch(const Scene& scene, const ToolView& view, int threads, const Watch& watch)
+      : scene_(scene), view_(view), threads_(threads), watch_(watch) {}
 
-/// Different configurations above the middle of the grid, the most promising first; no more of them once one has room
-/// everywhere.
-std::vector<Start> find_starts(const Scene& scene, const ToolView& view, const std::vector<Configuration>& guesses) {
-  const double middle = (view.n - 1) / 2.0;
-  const IkGoal above{view.ball_m(scene.grid(), {middle, middle, view.n + 1.0}), view.axis()};
-  std::vector<Start> starts;
-  for (const Configuration& guess : guesses) {
-    const auto q = solve_ik(scene.chain(), above, guess);
-    if (!q || scene.contact_at(*q) != Contact::none) continue;
-    const bool known = std::any_of(starts.begin(), starts.end(),
-                                   [&](const Start& other) { return (*q - other.q).cwiseAbs().maxCoeff() < 0.3; });
-    if (known) continue;
-    starts.push_back({*q, count_free_probes(scene, view, *q)});
-    if (starts.back().free == probes) break;
+  std::unique_ptr<PostureField> run(const std::vector<Configuration>& guesses) {
+    const double middle = (view_.n - 1) / 2.0;
+    const IkGoal above{view_.ball_m(scene_.grid(), {middle, middle, view_.n + 1.0}), view_.axis()};
+    for (const Configuration& guess : guesses) {
+      if (is_done()) break;
+      const auto q = solve_ik(scene_.chain(), above, guess);
+      if (!q || is_known(*q) || scene_.contact_at(*q) != Contact::none) continue;
+      starts_.push_back({*q, count_free_probes(scene_, view_, *q)});
+      if (starts_.back().free == probes) grow(*q);
+    }
+    // None has room everywhere, or those that do lead nowhere: the most promising of the others.
+    std::stable_sort(starts_.begin(), starts_.end(), [](const Start& a, const Start& b) { return a.free > b.free; });
+    for (const Start& start : starts_)
+      if (start.free < probes && !is_done()) grow(start.q);
+    return std::move(best_);
   }
-  std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.free > b.free; });
-  return starts;
-}
+
+ private:
+  struct Start {
+    Configuration q;
+    int free;
+  };
+
+  bool is_known(const Configuration& q) const {
+    return std::any_of(starts_.begin(), starts_.end(),
+                       [&](const Start& other) { return (q - other.q).cwiseAbs().maxCoeff() < 0.3; });
+  }
+
+  void grow(const Configuration& start) {
+    auto field = std::make_unique<PostureField>(scene_, view_, start, threads_, watch_);
+    if (!best_ || field->usable_cells() > best_->usable_cells()) best_ = std::move(field);
+    ++grown_;
+  }
+
+  bool is_done() const {
+    return grown_ == most_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
+  }
+
+  const Scene& scene_;
+  const ToolView& view_;
+  int threads_;
+  const Watch& watch_;
+  std::vector<Start> starts_;
+  std::unique_ptr<PostureField> best_;
+  int grown_ = 0;
+};
 
 }  // namespace
 
 std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
                                          const std::vector<Configuration>& known, std::uint64_t seed, int threads,
                                          const Watch& watch) {
-  const std::vector<Start> starts = find_starts(scene, view, find_guesses(scene.chain(), home, known, seed));
-  std::unique_ptr<PostureField> best;
-  for (std::size_t start = 0; start < std::min(starts.size(), most_fields); ++start) {
-    auto field = std::make_unique<PostureField>(scene, view, starts[start].q, threads, watch);
-    if (!best || field->usable_cells() > best->usable_cells()) best = std::move(field);
-    if (20 * best->usable_cells() >= 17 * PostureField::all_cells()) break;
-  }
+  auto best = FieldSearch(scene, view, threads, watch).run(find_guesses(scene.chain(), home, known, seed));
   if (!best) best = std::make_unique<PostureField>(scene, view, home, threads, watch);
   if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, threads, watch);
   return best;
