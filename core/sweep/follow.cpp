@@ -200,12 +200,11 @@ class Follower {
   /// the third derivative can add. A derivative of a point of a chain is at most as long as the one of one order less,
   /// for the longest arms, times the sum of all turn rates.
   void bound_bends() {
-    edges_.to = ahead_.q;
     turn_.fill(0);
     travel_.fill(0);
     for (int c = 0; c < chain_.dof(); ++c) {
       const auto joint = static_cast<std::size_t>(c);
-      const Lanes& to = edges_.to.joints[joint];
+      const Lanes& to = edges_.to.joints[joint] = ahead_.q.joints[joint];
       Lanes& from = edges_.from.joints[joint];
       from[0] = here_.q[c];
       std::copy(to.begin(), to.end() - 1, from.begin() + 1);
