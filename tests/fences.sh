@@ -44,6 +44,7 @@ forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/fcl_shape')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
 forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_]+\.[ch]pp')" -- core server clients
+forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/posture_lanes\.cpp')" -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
   "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/report\.cpp)')" -- core

@@ -199,12 +199,11 @@ class Follower {
   /// Bounds on the second derivatives of ball and shank's end all along each edge: their length in the middle and what
   /// the third derivative can add.
   void bound_bends() {
-    edges_.to = ahead_.q;
     turn_.fill(0);
     travel_.fill(0);
     for (int c = 0; c < chain_.dof(); ++c) {
       const auto joint = static_cast<std::size_t>(c);
-      const Lanes& to = edges_.to.joints[joint];
+      const Lanes& to = edges_.to.joints[joint] = ahead_.q.joints[joint];
       Lanes& from = edges_.from.joints[joint];
       from[0] = here_.q[c];
       std::copy(to.begin(), to.end() - 1, from.begin() + 1);

@@ -71,11 +71,11 @@ class PostureLanes {
   /// `axis`: unit vector from the ball to the spindle, in the stock frame.
   PostureLanes(const Chain& chain, const Vec3& axis);
 
-  /// `steps` of Gauss-Newton, each with the least joint motion (5 rows: position, axis), and a last one with the
-  /// Jacobian of the one before: near the solution the error e becomes about e^2 by the first, and each one more
-  /// multiplies it by e at least. A lane is refused if a step is longer than 0.3 (rad or m) in any joint, if the result
-  /// is outside the limits or has the tool upside down. Whether it is exact enough is for the caller to see: that is
-  /// what the distances are for.
+  /// `steps` of Gauss-Newton, 1 at least, each with the least joint motion (5 rows: position, axis), and a last one
+  /// with the Jacobian of the one before: from near the solution an error e becomes about e^2 by each of the first, and
+  /// the last one takes off a factor of about what the first error was. A lane is refused if a step is longer than 0.3
+  /// (rad or m) in any joint, if the result is outside the limits or has the tool upside down. Whether it is exact
+  /// enough is for the caller to see: that is what the distances are for.
   void solve(PostureBatch& batch, int steps = 1, const Pull* pull = nullptr) const;
 
   /// As Chain::tool_acceleration at the middle of each edge (m).

@@ -137,22 +137,46 @@ TEST(Follow, KeepsBallAndShankNearTheLineAndNamesEachVoxelOnceAndInOrder) {
   EXPECT_GT(followed_strokes, all * 3 / 4);
 }
 
-TEST(Follow, GivesTheSameKeyframesAgain) {
+TEST(Follow, GivesTheSameKeyframesWhateverComesLater) {
   const PandaField& panda = PandaField::get();
+  const auto follow_first = [&](const std::vector<Stroke>& strokes, std::size_t count) {
+    return follow(panda.field, panda.scene.tool(), panda.grid, hub,
+                  {strokes.begin(), strokes.begin() + static_cast<std::ptrdiff_t>(count)});
+  };
   for (std::uint64_t seed = 100; seed < 110; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const std::vector<Stroke> strokes = random_strokes(panda.field, random);
-    const Followed once = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
-    const Followed again = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
-    ASSERT_EQ(once.strokes, again.strokes);
-    ASSERT_EQ(once.keyframes.size(), again.keyframes.size());
-    for (std::size_t at = 0; at < once.keyframes.size(); ++at) {
-      const Keyframe &a = once.keyframes[at], &b = again.keyframes[at];
-      ASSERT_TRUE(a.q == b.q && a.cut == b.cut);
-      ASSERT_TRUE(!a.cut || (a.first == b.first && a.last == b.last));
+    const Followed all = follow_first(strokes, strokes.size());
+    std::size_t keyframes = 0;
+    for (std::size_t count = 0; count <= all.strokes; ++count) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", strokes " + std::to_string(count));
+      const Followed first = follow_first(strokes, count);
+      ASSERT_EQ(first.strokes, count);
+      ASSERT_LE(first.keyframes.size(), all.keyframes.size());
+      for (std::size_t at = 0; at < first.keyframes.size(); ++at) {
+        const Keyframe &a = first.keyframes[at], &b = all.keyframes[at];
+        ASSERT_TRUE(a.q == b.q && a.cut == b.cut);
+        ASSERT_TRUE(!a.cut || (a.first == b.first && a.last == b.last));
+      }
+      keyframes = first.keyframes.size();
     }
+    ASSERT_EQ(keyframes, all.keyframes.size()) << "seed " << seed;
   }
+}
+
+TEST(Follow, TakesOneKeyframeForEachOfManyShortStrokes) {
+  const PandaField& panda = PandaField::get();
+  std::vector<Stroke> strokes{{{4, 4, 12}, 0, 0.5, {}, {}}};
+  for (int row = 4; row < 12; ++row) {
+    for (int m = 0; m < 6; ++m) {
+      const Voxel voxel{row % 2 ? 9 - m : 5 + m, row, 12};
+      strokes.push_back({centre(voxel), 1, 0.04, voxel, voxel});
+    }
+    strokes.push_back({centre({row % 2 ? 4 : 10, row + 1, 12}), 0, 0.04, {}, {}});
+  }
+  const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, {4, 4, 13}, strokes);
+  EXPECT_EQ(followed.strokes, strokes.size());
+  EXPECT_EQ(followed.keyframes.size(), strokes.size());
 }
 
 TEST(Follow, KeyframesAreWhatIsStored) {
