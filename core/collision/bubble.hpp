@@ -34,11 +34,18 @@ class Bubble {
     double room_m;    ///< how far it may move; what derivatives of higher order add within the box is taken off already
   };
 
+  /// A capsule and a plane between it and something convex: per unit of each joint, how far its ends come nearer to the
+  /// plane (m), and how far they may.
+  struct Advance {
+    Configuration end_a, end_b;
+    double room_m;
+  };
+
   /// Holds nothing.
   Bubble() = default;
-  /// Within `box` everything is free if each of `approaches`, seen from `centre`, keeps to its room.
-  Bubble(Configuration centre, JointBox box, const std::vector<Approach>& approaches)
-      : centre_(std::move(centre)), box_(std::move(box)) {
+  /// Within `box` everything is free if each of `approaches` and `advances`, seen from `centre`, keeps to its room.
+  Bubble(Configuration centre, JointBox box, const std::vector<Approach>& approaches, std::vector<Advance> advances)
+      : centre_(std::move(centre)), box_(std::move(box)), advances_(std::move(advances)) {
     const Eigen::Index joints = centre_.size();
     motions_.resize(9, static_cast<Eigen::Index>(approaches.size()) * joints);
     for (const Approach& approach : approaches) {
@@ -57,6 +64,8 @@ class Bubble {
   bool holds(const Configuration& q) const {
     if (q.size() != centre_.size() || !box_.holds(q)) return false;
     const Configuration step = q - centre_;
+    for (const Advance& advance : advances_)
+      if (std::max(advance.end_a.dot(step), advance.end_b.dot(step)) >= advance.room_m) return false;
     for (std::size_t at = 0; at < rooms_.size(); ++at) {
       Eigen::Matrix<double, 9, 1> moved = motions_.col(first_column(at)) * step[0];
       for (Eigen::Index joint = 1; joint < step.size(); ++joint)
@@ -78,6 +87,7 @@ class Bubble {
   JointBox box_;
   Eigen::Matrix<double, 9, Eigen::Dynamic> motions_;  ///< of all approaches, side by side: end_a, end_b, turn
   std::vector<Room> rooms_;
+  std::vector<Advance> advances_;
 };
 
 }  // namespace sculpt

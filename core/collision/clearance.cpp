@@ -10,6 +10,8 @@
 namespace sculpt {
 namespace {
 
+constexpr std::size_t most_separations = 8;
+
 Capsule placed(const Frame& pose, const Capsule& capsule) {
   return {{pose * capsule.core.a, pose * capsule.core.b}, capsule.radius_m};
 }
@@ -18,14 +20,19 @@ bool near(const Capsule& a, const Capsule& b, double reach_m) {
   return distance(a.core, b.core) <= a.radius_m + b.radius_m + reach_m;
 }
 
-/// From `hull` to the box that a piece is, or that a cylinder fits into: a capsule may hold a flat one badly.
-double distance_to_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
+/// From the box that a piece is, or that a cylinder fits into, to the core of `hull`: a capsule may hold a flat one
+/// badly.
+Vec3 separation_from_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
   const Shape& shape = piece.shape;
-  if (shape.kind == ShapeKind::sphere) return 0;
-  const Vec3 half =
-      shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2) : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
-  const Capsule local = placed((pose * shape.pose).inverse(), hull);
-  return distance_to_box(local.core, -half, half) - hull.radius_m;
+  const Vec3 half = shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2)
+                                                 : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
+  const Frame box = pose * shape.pose;
+  return box.linear() * separation_from_box(placed(box.inverse(), hull).core, -half, half);
+}
+
+double distance_to_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
+  if (piece.shape.kind == ShapeKind::sphere) return 0;
+  return separation_from_piece_box(piece, pose, hull).norm() - hull.radius_m;
 }
 
 double between(const Capsule& a, const Capsule& b) {
@@ -110,6 +117,45 @@ double least_distance(const Body& a, const Frame& pose_a, const Body& b, const F
     for (const Piece* other : of_b) least = std::min(least, least_distance(piece, pose_a, *other, pose_b, least));
   }
   return std::max(least, 0.0);
+}
+
+std::optional<std::vector<Separation>> separations(const Body& a, const Frame& pose_a, const Body& b,
+                                                   const Frame& pose_b, double enough_m) {
+  std::vector<Separation> found;
+  for (const Piece& of_a : a.pieces) {
+    const Capsule hull = placed(pose_a, of_a.hull);
+    for (const Piece& of_b : b.pieces) {
+      const Capsule other = placed(pose_b, of_b.hull);
+      Vec3 way = separation(hull.core, other.core);
+      double gap = way.norm() - hull.radius_m - other.radius_m;
+      if (gap < enough_m && of_b.shape.kind != ShapeKind::sphere) {
+        const Vec3 from_box = separation_from_piece_box(of_b, pose_b, hull);
+        if (from_box.norm() - hull.radius_m > gap) {
+          way = from_box;
+          gap = from_box.norm() - hull.radius_m;
+        }
+      }
+      if (gap >= enough_m) continue;
+      if (gap <= 0 || found.size() == most_separations) return std::nullopt;
+      found.push_back({hull, way.normalized(), gap});
+    }
+  }
+  return found;
+}
+
+std::optional<std::vector<Separation>> separations_from_grid(const Body& body, const Frame& pose, const Grid& grid,
+                                                             double enough_m) {
+  std::vector<Separation> found;
+  const Vec3 high_m = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
+  for (const Piece& piece : body.pieces) {
+    const Capsule hull = placed(pose, piece.hull);
+    const Vec3 way = separation_from_box(hull.core, grid.origin_m, high_m);
+    const double gap = way.norm() - hull.radius_m;
+    if (gap >= enough_m) continue;
+    if (gap <= 0 || found.size() == most_separations) return std::nullopt;
+    found.push_back({hull, way.normalized(), gap});
+  }
+  return found;
 }
 
 double least_distance_to_grid(const Body& body, const Frame& pose, const Grid& grid) {

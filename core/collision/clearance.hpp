@@ -1,6 +1,9 @@
 // Is a body within a distance of another one, or of the material. The only door to FCL, with link_pairs.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/collision/body.hpp"
 #include "core/collision/material.hpp"
 
@@ -16,6 +19,22 @@ double least_distance(const Body& a, const Frame& pose_a, const Body& b, const F
 
 /// The same from the body to the grid's cube.
 double least_distance_to_grid(const Body& body, const Frame& pose, const Grid& grid);
+
+/// A capsule around a piece of a body, and a plane that lies between it and something convex.
+struct Separation {
+  Capsule capsule;
+  Vec3 normal;   ///< of the plane, towards the capsule
+  double gap_m;  ///< between the two, along the normal
+};
+
+/// Separations of all pieces of `a` from all of `b` that may be nearer than `enough_m` (m); nothing if some have no
+/// plane between them that is found in closed form, or if they are many. Frame of the poses.
+std::optional<std::vector<Separation>> separations(const Body& a, const Frame& pose_a, const Body& b,
+                                                   const Frame& pose_b, double enough_m);
+
+/// The same from the grid's cube. `pose` in the stock frame.
+std::optional<std::vector<Separation>> separations_from_grid(const Body& body, const Frame& pose, const Grid& grid,
+                                                             double enough_m);
 
 /// Could the body come within `reach_m` of a standing voxel? `pose`: its link in the stock frame.
 bool near_material(const Body& body, const Frame& pose, const Material& material, const Grid& grid, double reach_m);

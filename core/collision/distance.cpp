@@ -15,12 +15,12 @@ double excess(double x, double low, double high) {
 
 }  // namespace
 
-double distance(const Segment& first, const Segment& second) {
+Vec3 separation(const Segment& first, const Segment& second) {
   const Vec3 d1 = first.b - first.a, d2 = second.b - second.a, r = first.a - second.a;
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r);
   constexpr double tiny = 1e-24;
   double s = 0, t = 0;
-  if (a <= tiny && e <= tiny) return r.norm();
+  if (a <= tiny && e <= tiny) return r;
   if (a <= tiny) {
     t = std::clamp(f / e, 0.0, 1.0);
   } else {
@@ -40,10 +40,10 @@ double distance(const Segment& first, const Segment& second) {
       }
     }
   }
-  return (first.a + s * d1 - second.a - t * d2).norm();
+  return first.a + s * d1 - second.a - t * d2;
 }
 
-double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high) {
+Vec3 separation_from_box(const Segment& segment, const Vec3& low, const Vec3& high) {
   // The squared distance of a + t d to the box is convex in t with half slope sum_i d_i excess_i(t): rising and linear
   // between the corners where a coordinate passes a face. Corners narrow [from, to] around the point where the slope
   // passes zero.
@@ -70,12 +70,9 @@ double distance_to_box(const Segment& segment, const Vec3& low, const Vec3& high
     }
     best = from + (to - from) * slope_from / (slope_from - slope_to);
   }
-  double squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double out = excess(segment.a[axis] + best * d[axis], low[axis], high[axis]);
-    squared += out * out;
-  }
-  return std::sqrt(squared);
+  Vec3 out;
+  for (int axis = 0; axis < 3; ++axis) out[axis] = excess(segment.a[axis] + best * d[axis], low[axis], high[axis]);
+  return out;
 }
 
 }  // namespace sculpt

@@ -34,10 +34,8 @@ double second_order(const Bubble::Approach& approach, const std::vector<Drive>& 
 
 }  // namespace
 
-/// A distance (m) that the two are surely apart beyond their margin, looked for as far as `enough`; 0 if they may be
-/// nearer than the shortest one tried. FCL is asked only where the closed form says little.
-double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
-  static constexpr std::array reaches{0.001, 0.002, 0.004, 0.008, 0.012, 0.018, 0.025, 0.035};
+/// A distance (m) that the two are surely apart beyond their margin, in closed form; looks no closer once it is `enough`.
+double Scene::Impl::plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
   const Body& a = bodies[static_cast<std::size_t>(pair.first)];
   const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
   double apart = 0;
@@ -47,16 +45,22 @@ double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double e
     const Body& b = bodies[static_cast<std::size_t>(pair.second)];
     apart = least_distance(a, pose_a, b, at[static_cast<std::size_t>(b.link)], enough + pair.margin_m);
   }
-  apart = std::max(0.0, apart - pair.margin_m);
+  return std::max(0.0, apart - pair.margin_m);
+}
+
+/// The same, but asks FCL where the closed form says little, as far as `enough`; 0 if they may be nearer than the
+/// shortest distance tried.
+double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
+  static constexpr std::array reaches{0.001, 0.002, 0.004, 0.008, 0.012, 0.018, 0.025, 0.035};
+  double apart = plain_gap(pair, at, enough);
   auto reach = std::upper_bound(reaches.begin(), reaches.end(), apart);
   while (apart < enough && reach != reaches.end() && !near(pair, at, *reach + pair.margin_m)) apart = *reach++;
   return apart;
 }
 
-/// The body that moves less, as it approaches the other. Its second derivative is exact at the centre; a mimic joint
-/// may stand anywhere, so then only a bound is known. The third derivative is bounded.
-Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
-                                       double gap_m) const {
+/// The body that moves less, as it approaches the other, with all the room that there is.
+Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame>& at,
+                                       const Configuration& half) const {
   const Mover& mover = pair.mover(half);
   const Body& body = bodies[static_cast<std::size_t>(mover.body)];
   const auto twist = relative_twist(chain, mover.drives, at);
@@ -69,12 +73,43 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
     return motion;
   };
   Bubble::Approach approach{motion_of(pose * body.hull.core.a), motion_of(pose * body.hull.core.b),
-                            twist.bottomRows<3>(), body.hull.radius_m, gap_m};
+                            twist.bottomRows<3>(), body.hull.radius_m, 0};
   const DerivativeBounds bounds = derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half));
   double rest = bounds.second_m / 2;
+  // At the centre the second derivative is known; a mimic joint may stand anywhere, so then only a bound is.
   if (!has_mimic) rest = std::min(rest, second_order(approach, mover.drives, half) / 2 + bounds.third_m / 6);
-  approach.room_m -= rest;
+  approach.room_m = -rest;
   return approach;
+}
+
+/// Where planes lie between all of the two: how the body that moves less comes nearer to them. `approach`: of that body,
+/// its room without the distance. Nothing if there is no such plane, or no room.
+std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const Pair& pair, const std::vector<Frame>& at,
+                                                                  const Configuration& half, double enough,
+                                                                  const Bubble::Approach& approach) const {
+  const int which = pair.mover(half).body;
+  const Body& body = bodies[static_cast<std::size_t>(which)];
+  const Frame& pose = at[static_cast<std::size_t>(body.link)];
+  std::optional<std::vector<Separation>> planes;
+  if (pair.second < 0) {
+    planes = separations_from_grid(body, pose, grid, enough + pair.margin_m);
+  } else {
+    const Body& other = bodies[static_cast<std::size_t>(which == pair.first ? pair.second : pair.first)];
+    planes = separations(body, pose, other, at[static_cast<std::size_t>(other.link)], enough + pair.margin_m);
+  }
+  if (!planes) return std::nullopt;
+  const Vec3 hull_a = pose * body.hull.core.a;
+  std::vector<Bubble::Advance> advances;
+  for (const Separation& plane : *planes) {
+    const double room = plane.gap_m - pair.margin_m + approach.room_m;
+    if (room <= 0) return std::nullopt;
+    const auto advance_of = [&](const Vec3& point) -> Configuration {
+      return -(approach.end_a.transpose() * plane.normal +
+               approach.turn.transpose() * (point - hull_a).cross(plane.normal));
+    };
+    advances.push_back({advance_of(plane.capsule.core.a), advance_of(plane.capsule.core.b), room});
+  }
+  return advances;
 }
 
 bool Scene::Impl::is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const {
@@ -117,18 +152,28 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
   impl_->chain.link_poses(q, at);
   const Configuration half = box.reach_from(q);
   std::vector<Bubble::Approach> approaches;
-  const auto is_open = [&](std::size_t which) {
-    const Impl::Pair& pair = impl_->pairs[which];
+  std::vector<Bubble::Advance> advances;
+  enum class Answer { touch_nowhere, kept_apart, too_near };
+  const auto look_at = [&](const Impl::Pair& pair) {
     const double enough = pair.motion(half) + 1e-9;
+    if (impl_->plain_gap(pair, at, enough) >= enough) return Answer::touch_nowhere;
+    Bubble::Approach approach = impl_->approach(pair, at, half);
+    if (const auto planes = impl_->advances(pair, at, half, enough, approach)) {
+      advances.insert(advances.end(), planes->begin(), planes->end());
+      return Answer::kept_apart;
+    }
     const double apart = impl_->gap(pair, at, enough);
-    if (apart >= enough) return false;
-    approaches.push_back(impl_->approach(pair, at, half, apart));
-    return true;
+    if (apart >= enough) return Answer::touch_nowhere;
+    approach.room_m += apart;
+    if (approach.room_m <= 0) return Answer::too_near;
+    approaches.push_back(approach);
+    return Answer::kept_apart;
   };
   auto kept = pairs.begin();
   for (auto pair = pairs.begin(); pair != pairs.end(); ++pair) {
-    if (!is_open(*pair)) continue;
-    if (approaches.back().room_m <= 0) {
+    const Answer answer = look_at(impl_->pairs[*pair]);
+    if (answer == Answer::touch_nowhere) continue;
+    if (answer == Answer::too_near) {
       // What spoils this box spoils its parts as well, most likely: they shall begin with it.
       std::rotate(pairs.begin(), pair, pair + 1);
       pairs.erase(kept + 1, pair + 1);
@@ -137,7 +182,7 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
     *kept++ = *pair;
   }
   pairs.erase(kept, pairs.end());
-  return {q, box, approaches};
+  return {q, box, approaches, std::move(advances)};
 }
 
 }  // namespace sculpt

@@ -49,9 +49,12 @@ struct Scene::Impl {
   double tool_bend(const Configuration& step) const;
 
   // For bubbles.
+  double plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
   double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
-  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half,
-                            double gap_m) const;
+  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half) const;
+  std::optional<std::vector<Bubble::Advance>> advances(const Pair& pair, const std::vector<Frame>& at,
+                                                       const Configuration& half, double enough,
+                                                       const Bubble::Approach& approach) const;
   bool is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const;
 
   Chain chain;
