@@ -24,8 +24,8 @@ bool near(const Capsule& a, const Capsule& b, double reach_m) {
 /// badly.
 Vec3 separation_from_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {
   const Shape& shape = piece.shape;
-  const Vec3 half = shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2)
-                                                 : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
+  const Vec3 half =
+      shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2) : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
   const Frame box = pose * shape.pose;
   return box.linear() * separation_from_box(placed(box.inverse(), hull).core, -half, half);
 }

@@ -147,6 +147,10 @@ void Scene::remove(Voxel v) {
   impl_->material.remove(v);
 }
 
+void Scene::leave(const VoxelSet& left) {
+  impl_->material = Material(left);
+}
+
 bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   const ToolLine line = impl_->tool_line(pose);
   const double radius = std::max(impl_->radii.ball, impl_->radii.shank) + tool_margin_voxels;

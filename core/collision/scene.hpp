@@ -29,6 +29,8 @@ class Scene {
   const Material& material() const;
   /// `v` stands no longer.
   void remove(Voxel v);
+  /// Only `left`, a part of what stood, stands any longer.
+  void leave(const VoxelSet& left);
 
   /// Could the tool alone come down its own axis to `pose` (stock frame)? True if a cylinder of the larger of ball's
   /// and shank's radius, from the ball's centre along the shank, is clear of all material but `exempt`. Exact.

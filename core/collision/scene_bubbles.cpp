@@ -34,7 +34,8 @@ double second_order(const Bubble::Approach& approach, const std::vector<Drive>& 
 
 }  // namespace
 
-/// A distance (m) that the two are surely apart beyond their margin, in closed form; looks no closer once it is `enough`.
+/// A distance (m) that the two are surely apart beyond their margin, in closed form; looks no closer once it is
+/// `enough`.
 double Scene::Impl::plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
   const Body& a = bodies[static_cast<std::size_t>(pair.first)];
   const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
@@ -82,8 +83,8 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
   return approach;
 }
 
-/// Where planes lie between all of the two: how the body that moves less comes nearer to them. `approach`: of that body,
-/// its room without the distance. Nothing if there is no such plane, or no room.
+/// Where planes lie between all of the two: how the body that moves less comes nearer to them. `approach`: of that
+/// body, its room without the distance. Nothing if there is no such plane, or no room.
 std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const Pair& pair, const std::vector<Frame>& at,
                                                                   const Configuration& half, double enough,
                                                                   const Bubble::Approach& approach) const {

@@ -194,33 +194,31 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   report.seconds.octree = building.seconds();
 
   Stopwatch planning;
-  auto scene = std::make_unique<Scene>(cell, result.grid, result.voxels.stock);
-  const Chain chain = scene->chain();
+  Scene scene(cell, result.grid, result.voxels.stock);
+  const Chain& chain = scene.chain();
   report.search = search_for(job, chain);
   const TrajectoryHeader header = make_header(job, report.search, cell, chain, result.grid);
-  if (const std::string contact = scene->describe_contact(header.home); !contact.empty())
+  if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
   Output output(trajectory, header, chain, report.voxels.remove, watch);
-  std::uint64_t checks = 0;
   if (chain.translating()) {
-    carve_with_gantry(*scene, result.voxels, octree, graph, header.home, report.search, output, watch);
+    carve_with_gantry(scene, result.voxels, octree, graph, header.home, report.search, output, watch);
   } else if (report.search == "sweep") {
     const VoxelSet left = carve_by_sweeps(
-        *scene, result.voxels, header.home, job.seed, job.threads,
+        scene, result.voxels, header.home, job.seed, job.threads,
         [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
-    checks = scene->checks();
-    scene = std::make_unique<Scene>(cell, result.grid, left);
-    VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, job.threads, watch)};
+    scene.leave(left);
+    VoxelGrid rest_voxels{left, find_out_of_tool_reach(scene, result.voxels.keep, job.threads, watch)};
     for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
     const Octree rest = build_octree(rest_voxels, watch);
-    carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
+    carve_with_arm(scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {
-    carve_with_arm(*scene, octree, graph, header.home, job.seed, output, report, watch);
+    carve_with_arm(scene, octree, graph, header.home, job.seed, output, report, watch);
   }
   report.plan_sha256 = output.finish(trajectory).sha256;
-  count_path(report, output.figures(), result.grid.voxel_m, checks + scene->checks());
-  result.residue = explain_residue(*scene, result.voxels, job.seed, watch);
+  count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
+  result.residue = explain_residue(scene, result.voxels, job.seed, watch);
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();
 

@@ -162,7 +162,7 @@ std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) 
   // asked for than is needed.
   constexpr double more = 1.08;
   std::vector<Configuration> wanted;
-  JointBox box{centre->array() - 1e-6, centre->array() + 1e-6};
+  Configuration half = Configuration::Constant(chain_.dof(), 1e-6);
   const int stride = std::min(cube.size, parts);
   for (int k = 0; k <= cube.size; k += stride)
     for (int j = 0; j <= cube.size; j += stride)
@@ -170,8 +170,9 @@ std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) 
         const auto q = corner_configuration(cube.corner + Voxel{i, j, k});
         if (!q || !chain_.within_limits(*q, -limit_margin)) return std::nullopt;
         wanted.push_back(*centre + more * (*q - *centre));
-        box = {box.low.cwiseMin(wanted.back()), box.high.cwiseMax(wanted.back())};
+        half = half.cwiseMax((wanted.back() - *centre).cwiseAbs());
       }
+  const JointBox box{*centre - half, *centre + half};
   if (!cube.around.box.holds(box)) cube.around = around_;
   if (!cube.around.box.holds(box)) return std::nullopt;
   cube.around.box = box;

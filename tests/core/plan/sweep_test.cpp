@@ -117,7 +117,7 @@ TEST(Sweep, SixMillimetreToolInItsHolderReplaysClean) {
 
 TEST(Sweep, KeepsOffAClampBesideAndOverTheStock) {
   const CellFiles with_clamp = clamped_cell();
-  const VoxelSet target = random_target(16, 80);
+  const VoxelSet target = random_target(16, 82);
   const ScratchFile file, careless;
   const JobResult result = run_job(sweep_job(with_clamp, target), file.path(), {});
   expect_sound(result);
