@@ -31,7 +31,7 @@ class BatchWriter {
 
  private:
   void run();
-  /// Of the batch at the front of the queue; false at the end.
+  /// Waits for a batch; false once there will be none.
   bool write_next();
   void close();
 
