@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "clients/cli/commands.hpp"
@@ -25,17 +26,6 @@ struct PlanOptions {
   std::string output;
 };
 
-/// The finished ndjson at `lines` in the form that the extension of the output asks for.
-void convert(const std::filesystem::path& lines, const std::string& path, const std::string& extension) {
-  std::ifstream in(lines, std::ios::binary);
-  PartFile output(path);
-  if (extension == "csv")
-    export_csv(in, output.stream());
-  else
-    export_binary(in, output.stream());
-  output.finish();
-}
-
 int run_plan(const PlanOptions& options) {
   const std::string extension = extension_of(options.output);
   if (extension != "ndjson" && extension != "csv" && extension != "sct")
@@ -48,13 +38,19 @@ int run_plan(const PlanOptions& options) {
   const Interrupt interrupt([&stop] { stop.request_stop(); });
   ProgressLine progress(2, false);
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
-  const bool as_lines = extension == "ndjson";
-  PartFile lines(options.output + (as_lines ? "" : ".lines"));
-  const JobResult result = run_job(job, lines.part(), watch);
-  if (as_lines)
-    lines.finish();
-  else
-    convert(lines.part(), options.output, extension);
+  // As a table it is only made once it is whole: until then it is kept in the shortest form.
+  const bool as_table = extension == "csv";
+  PartFile output(options.output);
+  std::optional<PartFile> plan;
+  if (as_table) plan.emplace(options.output + ".sct");
+  const std::filesystem::path& written = as_table ? plan->part() : output.part();
+  const JobResult result =
+      run_job(job, written, watch, extension == "ndjson" ? TrajectoryForm::text : TrajectoryForm::binary);
+  if (as_table) {
+    std::ifstream in(written, std::ios::binary);
+    export_csv(in, output.stream());
+  }
+  output.finish();
   progress.clear();
 
   const std::string report = report_json(result.report);

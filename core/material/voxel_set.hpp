@@ -1,6 +1,7 @@
 // A set of voxels of an n x n x n grid, one bit each.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,12 @@ class VoxelSet {
   void erase(Voxel v) {
     const std::size_t at = index(v);
     words_[at >> 6] &= ~(std::uint64_t{1} << (at & 63));
+  }
+  /// A straight run along one axis, both ends included.
+  void erase(Voxel first, Voxel last) {
+    const std::size_t from = std::min(index(first), index(last)), to = std::max(index(first), index(last));
+    const std::size_t step = first == last ? 1 : (to - from) / static_cast<std::size_t>(l1(first, last));
+    for (std::size_t at = from; at <= to; at += step) words_[at >> 6] &= ~(std::uint64_t{1} << (at & 63));
   }
   std::size_t size() const {
     std::size_t sum = 0;

@@ -1,6 +1,7 @@
 #include "core/motion/residue.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
@@ -96,15 +97,16 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
   const VoxelSet enclosed = find_enclosed(voxels);
   const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
-  const int n = voxels.n();
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const Voxel v{i, j, k};
-        if (!scene.material().contains(v) || voxels.label(v) != Label::remove) continue;
-        if (watch.stop.stop_requested()) throw Cancelled{};
-        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, holder, v, seed)});
-      }
+  const auto n = static_cast<std::size_t>(voxels.n());
+  for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {
+    const std::uint64_t removable = voxels.stock.words()[word] & ~voxels.keep.words()[word];
+    for (std::uint64_t left = scene.material().solid().words()[word] & removable; left != 0; left &= left - 1) {
+      if (watch.stop.stop_requested()) throw Cancelled{};
+      const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(left));
+      const Voxel v{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
+      residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, holder, v, seed)});
+    }
+  }
   return residue;
 }
 

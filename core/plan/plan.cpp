@@ -4,16 +4,19 @@
 
 #include <chrono>
 #include <fstream>
+#include <utility>
 
 #include "core/material/loose_pieces.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
 #include "core/motion/tool_reach.hpp"
+#include "core/plan/batch_writer.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/sweep/sweep.hpp"
+#include "core/trajectory/binary.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {
@@ -39,43 +42,77 @@ std::uint64_t peak_memory_bytes() {
 /// The trajectory file as it grows, and the figures of what was written.
 class Output {
  public:
-  Output(const std::filesystem::path& path, const TrajectoryHeader& header, const Chain& chain, std::uint64_t remove,
-         const Watch& watch)
-      : file_(path, std::ios::binary | std::ios::trunc),
-        writer_(file_, header),
+  Output(const std::filesystem::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
+         std::uint64_t remove, const Watch& watch)
+      : path_(path),
+        file_(path, std::ios::binary | std::ios::trunc),
+        text_(form == TrajectoryForm::text ? file_ : nowhere_, header),
         figures_(chain, header.home),
         remove_(remove),
-        watch_(watch) {
-    check(path);
+        watch_(watch),
+        writer_([this](const std::vector<Keyframe>& batch) { write(batch); }) {
+    if (form == TrajectoryForm::binary) binary_.emplace(file_, header);
     file_.flush();
+    check();
   }
 
-  void add(const Keyframe& keyframe) {
-    writer_.add(keyframe);
-    figures_.add(keyframe);
-    watch_.step(Stage::plan, figures_.removed, remove_);
+  void add(std::vector<Keyframe> batch) {
+    flush();
+    for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+    writer_.add(std::move(batch));
+    watch_.step(Stage::plan, removed_, remove_);
   }
-  void flush() { file_.flush(); }
-  TrajectoryEnd finish(const std::filesystem::path& path) {
-    const TrajectoryEnd end = writer_.finish();
+  void add(const Keyframe& keyframe) {
+    removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+    waiting_.push_back(keyframe);
+    if (waiting_.size() == most_waiting) flush();
+    watch_.step(Stage::plan, removed_, remove_);
+  }
+  /// What was added so far will be in the file soon.
+  void flush() {
+    if (!waiting_.empty()) writer_.add(std::exchange(waiting_, {}));
+  }
+  TrajectoryEnd finish() {
+    flush();
+    writer_.finish();
+    const TrajectoryEnd end = text_.finish();
+    if (binary_) binary_->finish();
     file_.flush();
-    check(path);
+    check();
     return end;
   }
+  /// Once finished.
   const PathFigures& figures() const { return figures_; }
 
  private:
-  void check(const std::filesystem::path& path) const {
-    if (!file_)
-      throw InputError("file_unwritable",
-                       "cannot write '" + path.string() + "': check the folder, its rights and the free space");
+  static constexpr std::size_t most_waiting = 1024;
+
+  void write(const std::vector<Keyframe>& batch) {
+    for (const Keyframe& keyframe : batch) {
+      text_.add(keyframe);
+      if (binary_) binary_->add(keyframe);
+      figures_.add(keyframe);
+    }
+    file_.flush();
+    check();
   }
 
+  void check() const {
+    if (!file_)
+      throw InputError("file_unwritable",
+                       "cannot write '" + path_.string() + "': check the folder, its rights and the free space");
+  }
+
+  std::filesystem::path path_;
   std::ofstream file_;
-  TrajectoryWriter writer_;
+  std::ostream nowhere_{nullptr};
+  TrajectoryWriter text_;  ///< makes the hash in either form
+  std::optional<BinaryWriter> binary_;
   PathFigures figures_;
-  std::uint64_t remove_;
+  std::uint64_t removed_ = 0, remove_;
   const Watch& watch_;
+  std::vector<Keyframe> waiting_;
+  BatchWriter writer_;  ///< last: what it writes to must outlive it
 };
 
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
@@ -166,7 +203,7 @@ void replay(Report& report, const std::filesystem::path& trajectory, const Cell&
 
 }  // namespace
 
-JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
   const Stopwatch total;
   JobResult result;
   Report& report = result.report;
@@ -189,7 +226,6 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
 
   Stopwatch building;
   const Octree octree = build_octree(result.voxels, watch);
-  const BlockGraph graph = build_block_graph(octree, watch);
   count_voxels(report, result.voxels, octree);
   report.seconds.octree = building.seconds();
 
@@ -201,22 +237,23 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
-  Output output(trajectory, header, chain, report.voxels.remove, watch);
+  Output output(trajectory, form, header, chain, report.voxels.remove, watch);
   if (chain.translating()) {
-    carve_with_gantry(scene, result.voxels, octree, graph, header.home, report.search, output, watch);
+    carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search,
+                      output, watch);
   } else if (report.search == "sweep") {
     const VoxelSet left = carve_by_sweeps(
         scene, result.voxels, header.home, job.seed, job.threads,
-        [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
+        [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, watch);
     scene.leave(left);
     VoxelGrid rest_voxels{left, find_out_of_tool_reach(scene, result.voxels.keep, job.threads, watch)};
     for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
     const Octree rest = build_octree(rest_voxels, watch);
     carve_with_arm(scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {
-    carve_with_arm(scene, octree, graph, header.home, job.seed, output, report, watch);
+    carve_with_arm(scene, octree, build_block_graph(octree, watch), header.home, job.seed, output, report, watch);
   }
-  report.plan_sha256 = output.finish(trajectory).sha256;
+  report.plan_sha256 = output.finish().sha256;
   count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
   result.residue = explain_residue(scene, result.voxels, job.seed, watch);
   count_residue(report, result.residue);

@@ -33,7 +33,7 @@ struct Stock {
 struct Job {
   MeshFile mesh;
   CellFiles cell;
-  int resolution = 0;  ///< power of two, 8 to 1024
+  int resolution = 0;            ///< power of two, 8 to 1024
   std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
   std::uint64_t seed = 0;
   int threads = 1;  ///< the plan is the same at any number
@@ -70,7 +70,7 @@ struct Report {
     double load = 0, voxelize = 0, octree = 0, plan = 0, verify = 0, total = 0;
   } seconds;
   std::uint64_t peak_memory_bytes = 0;
-  std::string plan_sha256;
+  std::string plan_sha256;  ///< of the lines, whatever the form of the file
   struct {
     bool clean = false;
     std::uint64_t collisions = 0, voxels_checked = 0;
@@ -93,10 +93,13 @@ void check_job(const Job& job, const Watch& watch);
 /// Mesh (or .binvox) to labelled voxels; used by planning, `voxelize` and `verify FILE`. Throws InputError, Cancelled.
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
 
-/// Plans, writing trajectory lines to `trajectory` as they become final (flushed at least once per block), then
-/// verifies the written file. Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error.
-/// Any thread; several jobs may run at once.
-JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch);
+enum class TrajectoryForm { text, binary };  // .ndjson, .sct
+
+/// Plans, writing to `trajectory` what is final beside the planning, on a thread of its own (lines are flushed at least
+/// once per block or layer), then verifies the written file. Throws InputError (refused) or Cancelled; a plan with
+/// residue is a result, not an error. Any thread; several jobs may run at once.
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
+                  TrajectoryForm form = TrajectoryForm::text);
 
 /// The report as the JSON object of DESIGN section 5, without "job" and "state", which the server adds; one line.
 std::string report_json(const Report& report);

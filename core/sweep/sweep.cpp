@@ -24,7 +24,7 @@ constexpr std::size_t first_side = 1;  // among the views
 class Sweep {
  public:
   Sweep(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed, int threads,
-        const std::function<void(const Keyframe&)>& emit, const Watch& watch)
+        const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch)
       : scene_(scene),
         voxels_(voxels),
         home_(home),
@@ -121,8 +121,9 @@ class Sweep {
     }
     Vec3 end = at_;
     const std::vector<Stroke> rise = columns.rise(end, stray);
-    const Followed up = follow(*field_, scene_.tool(), scene_.grid(), at_, rise);
-    if (commit(up, rise) < rise.size()) throw std::logic_error("the tool came down where it cannot go up again");
+    Followed up = follow(*field_, scene_.tool(), scene_.grid(), at_, rise);
+    if (commit(std::move(up), rise) < rise.size())
+      throw std::logic_error("the tool came down where it cannot go up again");
     used_up_[which] = removed_ == before;
   }
 
@@ -146,10 +147,10 @@ class Sweep {
   }
 
   /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
-  int commit(const std::vector<Layer>& layers, Columns& columns) {
+  int commit(std::vector<Layer>& layers, Columns& columns) {
     for (std::size_t at = 0; at < layers.size(); ++at) {
       const auto& strokes = layers[at].strokes;
-      const std::size_t done = commit(layers[at].followed, strokes);
+      const std::size_t done = commit(std::move(layers[at].followed), strokes);
       if (done == strokes.size()) continue;
       for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, columns, false);
       take_back(strokes, done, columns, true);
@@ -204,29 +205,29 @@ class Sweep {
   }
 
   void move(const std::vector<Configuration>& way) {
+    std::vector<Keyframe> keyframes;
     for (const Configuration& q : way) {
       if (q == q_) continue;
-      emit_({q, false, {}, {}});
+      keyframes.push_back({q, false, {}, {}});
       q_ = q;
     }
+    emit(std::move(keyframes));
   }
 
-  std::size_t commit(const Followed& followed, const std::vector<Stroke>& strokes) {
+  std::size_t commit(Followed followed, const std::vector<Stroke>& strokes) {
     for (const Keyframe& keyframe : followed.keyframes) {
-      emit_(keyframe);
-      q_ = keyframe.q;
-      if (keyframe.cut) remove(keyframe);
+      if (!keyframe.cut) continue;
+      standing_.erase(keyframe.first, keyframe.last);
+      removed_ += static_cast<std::uint64_t>(run_length(keyframe));
     }
+    if (!followed.keyframes.empty()) q_ = followed.keyframes.back().q;
     if (followed.strokes > 0) at_ = strokes[followed.strokes - 1].to;
+    emit(std::move(followed.keyframes));
     return followed.strokes;
   }
 
-  void remove(const Keyframe& cut) {
-    const int count = run_length(cut);
-    const Voxel way = cut.last - cut.first;
-    const Voxel step = count == 1 ? Voxel{} : Voxel{way.i / (count - 1), way.j / (count - 1), way.k / (count - 1)};
-    for (int m = 0; m < count; ++m) standing_.erase(cut.first + step * m);
-    removed_ += static_cast<std::uint64_t>(count);
+  void emit(std::vector<Keyframe> keyframes) const {
+    if (!keyframes.empty()) emit_(std::move(keyframes));
   }
 
   const Scene& scene_;
@@ -234,7 +235,7 @@ class Sweep {
   Configuration home_;
   std::uint64_t seed_, transits_ = 0, removed_ = 0;
   int threads_;
-  const std::function<void(const Keyframe&)>& emit_;
+  const std::function<void(std::vector<Keyframe>)>& emit_;
   const Watch& watch_;
   VoxelSet standing_;
   Configuration q_;
@@ -250,7 +251,7 @@ class Sweep {
 }  // namespace
 
 VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         int threads, const std::function<void(const Keyframe&)>& emit, const Watch& watch) {
+                         int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
   return Sweep(scene, voxels, home, seed, threads, emit, watch).run();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/base/watch.hpp"
 #include "core/collision/scene.hpp"
@@ -13,8 +14,9 @@ namespace sculpt {
 
 /// Carves what the tool reaches along the axes of the grid, from home and back to home; returns what stands then.
 /// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
-/// `emit` gets, on the calling thread, is certified. Deterministic, also in `threads`. Throws Cancelled.
+/// `emit` gets, a batch at a time on the calling thread, is certified. Deterministic, also in `threads`. Throws
+/// Cancelled.
 VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         int threads, const std::function<void(const Keyframe&)>& emit, const Watch& watch);
+                         int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
 
 }  // namespace sculpt

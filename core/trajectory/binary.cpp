@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t index_entry_bytes = 3 * 8, index_tail_bytes = 3 * 8 + 4;
 
 // Refuses an index whose segments are not one after the other, as a writer leaves them.
-void check_segments(const BinaryIn& in, const std::vector<Segment>& segments, std::uint64_t first_offset,
-                    const Segment& end) {
-  Segment expected{first_offset, 0, 0};
+void check_segments(const BinaryIn& in, const std::vector<FileSegment>& segments, std::uint64_t first_offset,
+                    const FileSegment& end) {
+  FileSegment expected{first_offset, 0, 0};
   for (std::size_t at = 0; at <= segments.size(); ++at) {
-    const Segment& segment = at < segments.size() ? segments[at] : end;
+    const FileSegment& segment = at < segments.size() ? segments[at] : end;
     const std::uint64_t keyframes = segment.first_keyframe - expected.first_keyframe;
     const bool in_order = at == 0 ? segment.offset == first_offset && keyframes == 0 && segment.first_removed == 0
                                   : segment.offset > expected.offset && keyframes >= 1 &&
@@ -55,7 +55,7 @@ struct BinaryWriter::Impl {
   Grid grid;
   std::uint64_t offset = 0, keyframes = 0, removed = 0;
   std::vector<Keyframe> pending;
-  std::vector<Segment> segments;
+  std::vector<FileSegment> segments;
   Sha256 hash;
 };
 
@@ -110,7 +110,7 @@ BinaryFile::BinaryFile(std::istream& in) : in_(in) {
 }
 
 std::vector<Keyframe> BinaryFile::read(std::size_t segment) const {
-  const Segment& wanted = segments_.at(segment);
+  const FileSegment& wanted = segments_.at(segment);
   const bool is_last = segment + 1 == segments_.size();
   const std::uint64_t next_keyframe = is_last ? keyframes_ : segments_[segment + 1].first_keyframe;
   const std::uint64_t next_removed = is_last ? removed_ : segments_[segment + 1].first_removed;
@@ -133,7 +133,7 @@ std::size_t BinaryFile::segment_that_removes(std::uint64_t ordinal) const {
     throw std::out_of_range("voxel " + std::to_string(ordinal) + " of " + std::to_string(removed_) + " removed ones");
   const auto after =
       std::upper_bound(segments_.begin(), segments_.end(), ordinal,
-                       [](std::uint64_t wanted, const Segment& segment) { return wanted < segment.first_removed; });
+                       [](std::uint64_t wanted, const FileSegment& segment) { return wanted < segment.first_removed; });
   return static_cast<std::size_t>(after - segments_.begin()) - 1;
 }
 

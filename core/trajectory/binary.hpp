@@ -10,7 +10,7 @@
 namespace sculpt {
 
 /// Up to 4096 keyframes that can be decoded without those before them.
-struct Segment {
+struct FileSegment {
   std::uint64_t offset = 0;  ///< bytes from the start of the file
   std::uint64_t first_keyframe = 0;
   std::uint64_t first_removed = 0;  ///< how many voxels the segments before it remove
@@ -40,7 +40,7 @@ class BinaryFile {
   const TrajectoryHeader& header() const { return header_; }
   std::uint64_t keyframes() const { return keyframes_; }
   std::uint64_t removed() const { return removed_; }
-  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<FileSegment>& segments() const { return segments_; }
 
   /// The keyframes of one segment, its checksum checked.
   std::vector<Keyframe> read(std::size_t segment) const;
@@ -51,7 +51,7 @@ class BinaryFile {
   std::istream& in_;
   TrajectoryHeader header_;
   std::uint64_t keyframes_ = 0, removed_ = 0;
-  std::vector<Segment> segments_;
+  std::vector<FileSegment> segments_;
 };
 
 }  // namespace sculpt

@@ -91,11 +91,11 @@ SegmentBytes read_segment(BinaryIn& in, std::size_t joints) {
   return segment;
 }
 
-std::string index_bytes(const std::vector<Segment>& segments, std::uint64_t keyframes, std::uint64_t removed,
+std::string index_bytes(const std::vector<FileSegment>& segments, std::uint64_t keyframes, std::uint64_t removed,
                         std::uint64_t offset) {
   std::string text(1, static_cast<char>(BinaryTag::index));
   append_word(text, static_cast<std::uint32_t>(segments.size()));
-  for (const Segment& segment : segments)
+  for (const FileSegment& segment : segments)
     for (std::uint64_t value : {segment.offset, segment.first_keyframe, segment.first_removed})
       append_word(text, value);
   for (std::uint64_t value : {keyframes, removed, offset}) append_word(text, value);

@@ -67,7 +67,7 @@ inline constexpr std::size_t segment_head_bytes = 1 + 4 + 8 + 4 + 4;
 SegmentBytes read_segment(BinaryIn& in, std::size_t joints);
 
 /// Everything from the index's tag to its checksum; `offset` = where it begins in the file.
-std::string index_bytes(const std::vector<Segment>& segments, std::uint64_t keyframes, std::uint64_t removed,
+std::string index_bytes(const std::vector<FileSegment>& segments, std::uint64_t keyframes, std::uint64_t removed,
                         std::uint64_t offset);
 
 }  // namespace sculpt

@@ -56,8 +56,8 @@ class BinarySource : public TrajectorySource {
 
   BinaryIn in_;
   Sha256 hash_;
-  std::vector<Segment> segments_;  // read so far
-  std::vector<Keyframe> segment_;  // the one at hand
+  std::vector<FileSegment> segments_;  // read so far
+  std::vector<Keyframe> segment_;      // the one at hand
   std::size_t at_ = 0;
 };
 
