@@ -9,7 +9,6 @@
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
-#include "core/motion/tool_reach.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/follow.hpp"
@@ -206,13 +205,13 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   if (chain.translating()) {
     carve_with_gantry(*scene, result.voxels, octree, graph, header.home, report.search, output, watch);
   } else if (report.search == "sweep") {
-    const VoxelSet left = carve_by_sweeps(
+    const SweepRest left = carve_by_sweeps(
         *scene, result.voxels, header.home, job.seed, job.threads,
         [&](const Keyframe& keyframe) { output.add(keyframe); }, watch);
     checks = scene->checks();
-    scene = std::make_unique<Scene>(cell, result.grid, left);
-    VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, job.threads, watch)};
-    for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
+    scene = std::make_unique<Scene>(cell, result.grid, left.standing);
+    VoxelGrid rest_voxels{left.standing, result.voxels.keep};
+    for (const Voxel v : left.out_of_tool_reach) rest_voxels.keep.insert(v);
     const Octree rest = build_octree(rest_voxels, watch);
     carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {
