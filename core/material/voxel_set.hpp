@@ -18,7 +18,9 @@ class VoxelSet {
       : n_(n), words_((static_cast<std::size_t>(n) * n * n + 63) / 64, full ? ~std::uint64_t{0} : 0) {}
 
   int n() const { return n_; }
-  std::size_t index(Voxel v) const { return static_cast<std::size_t>(v.i) + n_ * (v.j + static_cast<std::size_t>(n_) * v.k); }
+  std::size_t index(Voxel v) const {
+    return static_cast<std::size_t>(v.i) + n_ * (v.j + static_cast<std::size_t>(n_) * v.k);
+  }
   bool contains(Voxel v) const {
     const std::size_t at = index(v);
     return (words_[at >> 6] >> (at & 63)) & 1;
@@ -45,11 +47,28 @@ class VoxelSet {
   /// The bits, lowest index in the lowest bit of the first word. n^3 is a multiple of 64 for every n >= 4.
   const std::vector<std::uint64_t>& words() const { return words_; }
   std::vector<std::uint64_t>& words() { return words_; }
+
+  VoxelSet& operator-=(const VoxelSet& other) {
+    for (std::size_t at = 0; at < words_.size(); ++at) words_[at] &= ~other.words_[at];
+    return *this;
+  }
+
   bool operator==(const VoxelSet&) const = default;
 
  private:
   int n_ = 0;
   std::vector<std::uint64_t> words_;
 };
+
+/// Calls `visit` with every voxel of the set, by index.
+template <typename Visit>
+void for_each_voxel(const VoxelSet& set, const Visit& visit) {
+  const auto n = static_cast<std::size_t>(set.n());
+  for (std::size_t word = 0; word < set.words().size(); ++word)
+    for (std::uint64_t bits = set.words()[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+      visit(Voxel{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / (n * n))});
+    }
+}
 
 }  // namespace sculpt

@@ -1,63 +1,129 @@
 #include "core/motion/tool_reach.hpp"
 
 #include <algorithm>
-
-#include "core/base/parallel.hpp"
-#include "core/motion/tool_axes.hpp"
+#include <bit>
+#include <limits>
+#include <optional>
 
 namespace sculpt {
 namespace {
 
-constexpr double margin = 0.005;  // voxel edges, as in Scene
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-std::vector<Voxel> voxels_of(const VoxelSet& set) {
-  std::vector<Voxel> voxels;
-  for (int k = 0; k < set.n(); ++k)
-    for (int j = 0; j < set.n(); ++j)
-      for (int i = 0; i < set.n(); ++i)
-        if (set.contains({i, j, k})) voxels.push_back({i, j, k});
-  return voxels;
-}
+/// The voxels that a tool passes, from its ball's outwards: those beside each step of the ball.
+struct ToolRay {
+  ToolRay(Voxel axis, double length) : step(axis) {
+    for (int part = 1; part < 8; ++part)
+      if (const Voxel w{(part & 1) * axis.i, (part >> 1 & 1) * axis.j, (part >> 2) * axis.k};
+          std::popcount(static_cast<unsigned>(part)) == l1(w, {}))
+        beside.push_back(w);
+    steps = static_cast<int>(length / Vec3(axis.i, axis.j, axis.k).norm() + 0.5);
+  }
 
-bool has_open_face(const Material& material, Voxel v) {
-  return std::any_of(face_steps.begin(), face_steps.end(),
-                     [&](Voxel step) { return (v + step).k >= 0 && !material.contains(v + step); });
-}
+  Voxel step;
+  int steps;
+  std::vector<Voxel> beside;  ///< offsets whose components are each 0 or that of `step`, but 0 itself
+};
+
+/// Asks for each voxel with an open face, and each ray, what stands in the way, and again only once that is gone.
+class ToolReach {
+ public:
+  ToolReach(const VoxelSet& standing, const std::vector<Voxel>& wanted, const std::vector<Voxel>& steps, double length)
+      : standing_(standing),
+        wanted_(wanted),
+        states_(wanted.size(), State::buried),
+        last_waiting_(wanted.size(), none) {
+    for (const Voxel step : steps) rays_.emplace_back(step, length);
+  }
+
+  std::vector<Voxel> run(const Watch& watch) {
+    for (std::size_t number = 0; number < wanted_.size(); ++number) {
+      if (watch.stop.stop_requested()) throw Cancelled{};
+      const bool open = std::any_of(face_steps.begin(), face_steps.end(),
+                                    [&](Voxel step) { return !stands(wanted_[number] + step); });
+      if (open) look_around(number);
+      tell();
+    }
+    std::vector<Voxel> left;
+    for (std::size_t number = 0; number < wanted_.size(); ++number)
+      if (states_[number] != State::gone) left.push_back(wanted_[number]);
+    return left;
+  }
+
+ private:
+  enum class State : char { buried, open, gone };
+  /// A voxel that waits, along one ray, for another one to go.
+  struct Waiting {
+    std::size_t number, ray;
+    std::size_t before;  ///< who else waits for the same one
+  };
+
+  /// At first.
+  bool stands(Voxel v) const { return Grid{standing_.n(), 1, Vec3::Zero()}.contains(v) && standing_.contains(v); }
+
+  /// Of a wanted voxel, its place among them.
+  std::optional<std::size_t> number_of(Voxel v) const {
+    const auto before = [this](Voxel a, Voxel b) { return standing_.index(a) < standing_.index(b); };
+    const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), v, before);
+    if (at == wanted_.end() || *at != v) return std::nullopt;
+    return static_cast<std::size_t>(at - wanted_.begin());
+  }
+
+  void look_around(std::size_t number) {
+    if (states_[number] != State::buried) return;
+    states_[number] = State::open;
+    for (std::size_t ray = 0; ray < rays_.size(); ++ray) look(number, ray);
+  }
+
+  /// Takes the voxel away if nothing is in the way along the ray; waits for what is, unless it stays.
+  void look(std::size_t number, std::size_t which) {
+    if (states_[number] == State::gone) return;
+    const ToolRay& ray = rays_[which];
+    const Grid grid{standing_.n(), 1, Vec3::Zero()};
+    Voxel ball = wanted_[number];
+    for (int m = 0; m < ray.steps && grid.contains(ball); ++m, ball = ball + ray.step)
+      for (const Voxel w : ray.beside) {
+        if (!stands(ball + w)) continue;
+        const auto blocker = number_of(ball + w);
+        if (!blocker) return;
+        if (states_[*blocker] == State::gone) continue;
+        waiting_.push_back({number, which, last_waiting_[*blocker]});
+        last_waiting_[*blocker] = waiting_.size() - 1;
+        return;
+      }
+    states_[number] = State::gone;
+    to_tell_.push_back(number);
+  }
+
+  void tell() {
+    while (!to_tell_.empty()) {
+      const std::size_t gone = to_tell_.back();
+      to_tell_.pop_back();
+      for (std::size_t at = last_waiting_[gone]; at != none;) {
+        const Waiting waiting = waiting_[at];
+        look(waiting.number, waiting.ray);
+        at = waiting.before;
+      }
+      for (const Voxel step : face_steps)
+        if (stands(wanted_[gone] + step))
+          if (const auto beside = number_of(wanted_[gone] + step)) look_around(*beside);
+    }
+  }
+
+  const VoxelSet& standing_;
+  const std::vector<Voxel>& wanted_;  ///< a voxel's number is its place here
+  std::vector<ToolRay> rays_;
+  std::vector<State> states_;
+  std::vector<Waiting> waiting_;
+  std::vector<std::size_t> last_waiting_;  ///< per voxel, who waits for it
+  std::vector<std::size_t> to_tell_;       ///< voxels that are gone, of which those that wait for them do not know yet
+};
 
 }  // namespace
 
-VoxelSet find_out_of_tool_reach(const Scene& scene, const VoxelSet& keep, int threads, const Watch& watch) {
-  Material material(scene.material().solid());
-  VoxelSet left = material.solid();
-  for (std::size_t w = 0; w < left.words().size(); ++w) left.words()[w] &= ~keep.words()[w];
-  std::vector<Voxel> waiting = voxels_of(left);
-
-  const std::vector<Vec3> axes = tool_axes();
-  const double h = scene.grid().voxel_m, length = scene.tool().stickout_m / h;
-  const double radius = std::max(scene.tool().ball_radius_m, scene.tool().shank_radius_m) / h + margin;
-  const auto fits = [&](Voxel v) {
-    if (watch.stop.stop_requested()) throw Cancelled{};
-    const Vec3 ball(v.i + 0.5, v.j + 0.5, v.k + 0.5);
-    return has_open_face(material, v) && std::any_of(axes.begin(), axes.end(), [&](const Vec3& axis) {
-             return !material.meets_capsule({ball, ball + length * axis}, radius, v);
-           });
-  };
-  std::vector<char> fitting;
-  do {
-    fitting.assign(waiting.size(), 0);
-    for_each_index(threads, waiting.size(), [&](std::size_t at) { fitting[at] = fits(waiting[at]); });
-    std::vector<Voxel> still;
-    for (std::size_t at = 0; at < waiting.size(); ++at) {
-      if (!fitting[at]) {
-        still.push_back(waiting[at]);
-        continue;
-      }
-      material.remove(waiting[at]);
-      left.erase(waiting[at]);
-    }
-    waiting.swap(still);
-  } while (std::find(fitting.begin(), fitting.end(), 1) != fitting.end());
-  return left;
+std::vector<Voxel> find_out_of_tool_reach(const VoxelSet& standing, const std::vector<Voxel>& wanted,
+                                          const std::vector<Voxel>& steps, double length, const Watch& watch) {
+  return ToolReach(standing, wanted, steps, length).run(watch);
 }
 
 }  // namespace sculpt

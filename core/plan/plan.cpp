@@ -10,7 +10,6 @@
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
-#include "core/motion/tool_reach.hpp"
 #include "core/plan/batch_writer.hpp"
 #include "core/plan/path_figures.hpp"
 #include "core/search/voxel_search.hpp"
@@ -242,12 +241,12 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
     carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search,
                       output, watch);
   } else if (report.search == "sweep") {
-    const VoxelSet left = carve_by_sweeps(
+    const SweepRest left = carve_by_sweeps(
         scene, result.voxels, header.home, job.seed, job.threads,
         [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, watch);
-    scene.leave(left);
-    VoxelGrid rest_voxels{left, find_out_of_tool_reach(scene, result.voxels.keep, job.threads, watch)};
-    for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
+    scene.leave(left.standing);
+    VoxelGrid rest_voxels{left.standing, result.voxels.keep};
+    for (const Voxel v : left.out_of_tool_reach) rest_voxels.keep.insert(v);
     const Octree rest = build_octree(rest_voxels, watch);
     carve_with_arm(scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {

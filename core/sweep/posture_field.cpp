@@ -21,7 +21,7 @@ constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ
 constexpr double margin_voxels = 0.005;
 /// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
 constexpr double tool_room_voxels = 0.5 - margin_voxels;
-constexpr double headroom_cells = 2;  // above the grid: where the tool travels and comes in
+constexpr double headroom_cells = 2;  // beyond the grid, on the sides that the axis leans to: where the tool comes in
 constexpr int largest = 8;            // cubes of the fine lattice that are tried first
 
 }  // namespace
@@ -33,7 +33,7 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Confi
       view_(view),
       start_(start),
       low_(Vec3::Constant(-0.5)),
-      span_(view.n, view.n, view.n + headroom_cells),
+      span_(Vec3::Constant(view.n) + headroom_cells * Vec3(view.lean.i, view.lean.j, view.lean.k)),
       nodes_(static_cast<std::size_t>(nodes) * nodes * nodes),
       covered_(all_cells(), -1) {
   grow(start, watch);
@@ -63,6 +63,11 @@ void PostureField::refine(const Scene& scene, int threads, const Watch& watch) {
 
 Vec3 PostureField::corner_cell(Voxel corner) const {
   return low_ + Vec3(corner.i, corner.j, corner.k).cwiseProduct(span_) / fine;
+}
+
+/// The farthest that the ball comes: where there is no headroom, to the centres of the last voxels.
+Vec3 PostureField::last_cell() const {
+  return Vec3(low_ + span_) - 0.5 * Vec3(1 - view_.lean.i, 1 - view_.lean.j, 1 - view_.lean.k);
 }
 
 /// The cell of the fine lattice that a place is in.
@@ -237,16 +242,26 @@ void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room,
 bool PostureField::room_is_clear(const Scene& scene, const Cube& cube) const {
   const Vec3 first = corner_cell(cube.corner).cwiseMax(0);
   const Vec3 last = corner_cell(cube.corner + Voxel{1, 1, 1} * cube.size)
-                        .cwiseMin(Vec3(view_.n - 1, view_.n - 1, view_.n - 0.5 + headroom_cells));
+                        .cwiseMin(last_cell());
   return (first.array() > last.array()).any() || room_is_clear(scene, first, last, tool_room_voxels);
 }
 
-/// What can be come to can be left upwards: a cell under one that may not be used may not be used either.
+/// What can be come to can be left along the axis: a cell under one that may not be used may not be used either. A
+/// tilted axis leads through cells that share an edge or a corner, so all those around it count.
 void PostureField::close_upwards() {
-  constexpr int layer = fine * fine;
   bubble_ = covered_;
-  for (int at = layer * (fine - 1) - 1; at >= 0; --at)
-    if (bubble_[static_cast<std::size_t>(at + layer)] < 0) bubble_[static_cast<std::size_t>(at)] = -1;
+  const Voxel lean = view_.lean;
+  const auto usable_or_outside = [&](Voxel cell) {
+    return std::max({cell.i, cell.j, cell.k}) >= fine || bubble_[index_of(cell)] >= 0;
+  };
+  for (int k = fine - 1; k >= 0; --k)
+    for (int j = fine - 1; j >= 0; --j)
+      for (int i = fine - 1; i >= 0; --i)
+        for (int part = 1; part < 8; ++part) {
+          const Voxel up{part & 1, part >> 1 & 1, part >> 2};
+          if (up.i > lean.i || up.j > lean.j || up.k > lean.k) continue;
+          if (!usable_or_outside(Voxel{i, j, k} + up)) bubble_[index_of({i, j, k})] = -1;
+        }
   usable_ = static_cast<std::size_t>(std::count_if(bubble_.begin(), bubble_.end(), [](int id) { return id >= 0; }));
 }
 
@@ -261,7 +276,7 @@ bool PostureField::room_is_clear(const Scene& scene, const Vec3& first, const Ve
 /// The largest box of ball positions, as far as insets on all four sides go.
 void PostureField::find_roomy(const Scene& scene) {
   for (int inset : {0, 1, 2, 4}) {
-    const Vec3 first(inset, inset, 0), last(view_.n - 1 - inset, view_.n - 1 - inset, view_.n - 0.5 + headroom_cells);
+    const Vec3 first(inset, inset, 0), last = last_cell() - Vec3(inset, inset, 0);
     if (first.x() > last.x()) return;
     if (!room_is_clear(scene, first, last, 0.5 + tool_room_voxels)) continue;
     roomy_ = Eigen::AlignedBox3d(first, last);

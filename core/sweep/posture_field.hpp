@@ -9,10 +9,10 @@
 
 namespace sculpt {
 
-/// Configurations at the nodes of a lattice over the grid and two voxels above it, found from one node outwards;
-/// between nodes they are guessed by trilinear interpolation and made exact (find_posture). Every cell of the lattice
-/// that may be used lies in a bubble: there no link touches anything, whatever is carved. Reads are safe from several
-/// threads.
+/// Configurations at the nodes of a lattice over the grid and two voxels beyond it, on the sides that the tool's axis
+/// leans to, found from one node outwards; between nodes they are guessed by trilinear interpolation and made exact
+/// (find_posture). Every cell of the lattice that may be used lies in a bubble: there no link touches anything,
+/// whatever is carved. Reads are safe from several threads.
 class PostureField {
  public:
   /// `start`: a configuration to begin with, at about the middle of the top. `scene` only has to live during the call.
@@ -71,6 +71,7 @@ class PostureField {
   std::size_t node_index(int i, int j, int k) const { return static_cast<std::size_t>((k * nodes + j) * nodes + i); }
   /// Place of a corner of the fine lattice, in cells of the view.
   Vec3 corner_cell(Voxel corner) const;
+  Vec3 last_cell() const;
   std::optional<Configuration> corner_configuration(Voxel corner) const;
   bool has_nodes(Voxel corner, int size) const;
   /// A box of joint values, and what may touch in it.

@@ -1,7 +1,6 @@
 #include "core/sweep/sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -10,9 +9,12 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool_reach.hpp"
 #include "core/motion/transit.hpp"
 #include "core/sweep/find_field.hpp"
 #include "core/sweep/follow.hpp"
+#include "core/sweep/slanted_cuts.hpp"
 #include "core/sweep/stock_turn.hpp"
 
 namespace sculpt {
@@ -20,6 +22,9 @@ namespace {
 
 constexpr std::size_t most_layers_at_once = 16;
 constexpr std::size_t first_side = 1;  // among the views
+constexpr std::size_t most_sorties_at_once = 8, most_cuts = 256;
+/// Voxels that make a field of a tilted direction, and the way there and back, worth their while.
+constexpr std::uint64_t fewest_slanted = 4;
 
 class Sweep {
  public:
@@ -33,33 +38,46 @@ class Sweep {
         emit_(emit),
         watch_(watch),
         standing_(voxels.stock),
-        q_(home),
-        views_(tool_views(voxels.n())) {}
+        q_(home) {
+    for (const ToolView& view : tool_views(voxels.n())) views_.push_back(view);
+    straight_ = views_.size();
+    for (const ToolView& view : tilted_views(voxels.n())) views_.push_back(view);
+    fields_.resize(views_.size());
+    reach_.resize(straight_);
+    used_up_.resize(views_.size());
+  }
 
-  VoxelSet run() {
+  SweepRest run() {
     find_fields();
-    while (const auto view = best_view()) carve_along(*view);
-    if (transit(home_)) return standing_;
+    do {
+      std::fill_n(used_up_.begin(), straight_, 0);
+      while (const auto view = best_view()) carve_along(*view);
+    } while (carve_slanted());
+    go_home();
+    return {std::move(standing_), std::move(*out_of_reach_)};
+  }
+
+ private:
+  void go_home() {
+    if (transit(home_)) return;
     const auto way = way_home();
     if (!way)
       throw InputError("no_transit",
                        "the arm finds no way home from above the stock: keep what stands beside it lower");
     move(*way);
-    return standing_;
   }
 
- private:
   /// One after the other: the starts for the top and a side help to find the others, or the side is turned into them.
   void find_fields() {
     const auto turn = find_stock_turn(scene_.chain(), scene_.grid());
     std::vector<Configuration> known;
-    for (std::size_t view = 0; view < fields_.size(); ++view) {
+    for (std::size_t view = 0; view < straight_; ++view) {
       if (turn && view > first_side) fields_[view] = turn_side(*turn, view);
       if (fields_[view]) continue;
       fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
       if (view <= first_side) known.push_back(fields_[view]->start());
     }
-    for_each_index(threads_, fields_.size(), [&](std::size_t view) {
+    for_each_index(threads_, straight_, [&](std::size_t view) {
       const PostureField& field = *fields_[view];
       reach_[view].emplace(
           voxels_.n(), [&](const Vec3& cell) { return field.usable(cell); },
@@ -82,8 +100,8 @@ class Sweep {
 
   /// The direction along which most can be cut now, of those that are not used up.
   std::optional<std::size_t> best_view() const {
-    std::array<std::uint64_t, 5> counts{};
-    for_each_index(threads_, views_.size(), [&](std::size_t view) {
+    std::vector<std::uint64_t> counts(straight_);
+    for_each_index(threads_, straight_, [&](std::size_t view) {
       if (!used_up_[view]) counts[view] = columns_of(view).count_cuttable();
     });
     const auto most = std::max_element(counts.begin(), counts.end());
@@ -93,11 +111,15 @@ class Sweep {
 
   Columns columns_of(std::size_t view) const { return {views_[view], standing_, voxels_.keep, *reach_[view]}; }
 
-  /// Where the tool comes in: above the middle of the grid.
-  Vec3 hub_cell() const {
-    const int middle = voxels_.n() / 2;
-    return Vec3(middle, middle, voxels_.n() + 1);
+  /// A direction without a field may reach everything.
+  std::function<bool(const Vec3&)> reachable(std::size_t view) const {
+    const PostureField* field = fields_[view].get();
+    return [field](const Vec3& cell) { return field == nullptr || field->usable(cell); };
   }
+
+  /// Where the tool comes in: above the middle of the grid.
+  Voxel gate() const { return {voxels_.n() / 2, voxels_.n() / 2, voxels_.n() + 1}; }
+  Vec3 hub_cell() const { return Vec3(gate().i, gate().j, gate().k); }
 
   /// Cuts all that lies free along one direction, layer by layer.
   void carve_along(std::size_t which) {
@@ -164,6 +186,95 @@ class Sweep {
     std::size_t given_up = failed ? from : strokes.size();
     while (given_up < strokes.size() && strokes[given_up].count == 0) ++given_up;
     for (std::size_t s = strokes.size(); s-- > from;) columns.restore(strokes[s], s == given_up);
+  }
+
+  /// Along tilted directions what no straight one came to. False if nothing was cut.
+  bool carve_slanted() {
+    if (!out_of_reach_) {
+      VoxelSet rest = standing_;
+      rest -= voxels_.keep;
+      for_each_voxel(rest, [&](Voxel v) { wanted_.push_back(v); });
+      const double length = scene_.tool().stickout_m / scene_.grid().voxel_m;
+      out_of_reach_ = find_out_of_tool_reach(standing_, wanted_, tool_steps(), length, watch_);
+      for (const Voxel v : *out_of_reach_) rest.erase(v);
+      std::erase_if(wanted_, [&](Voxel v) { return !rest.contains(v); });
+    }
+    const std::uint64_t before = removed_;
+    while (const auto view = best_tilted_view()) carve_slanted(*view);
+    return removed_ > before;
+  }
+
+  std::optional<std::size_t> best_tilted_view() {
+    std::erase_if(wanted_, [&](Voxel v) { return !standing_.contains(v); });
+    if (wanted_.size() < fewest_slanted) return std::nullopt;
+    std::vector<std::uint64_t> counts(views_.size());
+    for_each_index(threads_, views_.size() - straight_, [&](std::size_t tilted) {
+      if (!used_up_[straight_ + tilted]) counts[straight_ + tilted] = count_slanted(straight_ + tilted);
+    });
+    const auto most = std::max_element(counts.begin(), counts.end());
+    if (*most < fewest_slanted) return std::nullopt;
+    return static_cast<std::size_t>(most - counts.begin());
+  }
+
+  std::uint64_t count_slanted(std::size_t which) const {
+    const ToolView& view = views_[which];
+    const auto may_reach = reachable(which);
+    std::vector<Voxel> wanted = wanted_;
+    std::erase_if(wanted, [&](Voxel v) {
+      const Voxel cell = view.cell(v);
+      return !may_reach(Vec3(cell.i, cell.j, cell.k));
+    });
+    const double all_through = 2.0 * voxels_.n();
+    return wanted.size() -
+           find_out_of_tool_reach(standing_, wanted, {view.along(view.lean)}, all_through, watch_).size();
+  }
+
+  void carve_slanted(std::size_t which) {
+    if (!fields_[which])
+      fields_[which] = find_field(scene_, views_[which], home_, {fields_[0]->start()}, mix(seed_, which), threads_, watch_);
+    const std::uint64_t before = removed_;
+    SlantedCuts cuts(views_[which], standing_, wanted_, gate(), reachable(which));
+    std::size_t at_once = most_sorties_at_once, each = most_cuts;
+    for (;;) {
+      const std::vector<Sortie> sorties = plan_sorties(cuts, at_once, each);
+      if (sorties.empty() || (field_ != fields_[which].get() && !enter(which))) break;
+      std::vector<Followed> followed(sorties.size());
+      for_each_index(threads_, sorties.size(), [&](std::size_t at) {
+        followed[at] = follow(*field_, scene_.tool(), scene_.grid(), hub_cell(), sorties[at].strokes);
+      });
+      const std::size_t done = commit(sorties, followed);
+      for (std::size_t later = sorties.size(); later-- > done;) cuts.take_back(sorties[later]);
+      if (done == sorties.size()) {
+        at_once = std::min(2 * at_once, most_sorties_at_once);
+        each = std::min(2 * each, most_cuts);
+      } else {
+        cuts.give_up(sorties[done].strokes[sorties[done].serves[followed[done].strokes]]);
+        at_once = 1;
+        each = std::max<std::size_t>(each / 4, 1);
+      }
+    }
+    used_up_[which] = removed_ == before;
+  }
+
+  /// As if none failed. Their number is the same at any number of threads.
+  static std::vector<Sortie> plan_sorties(SlantedCuts& cuts, std::size_t at_once, std::size_t most) {
+    std::vector<Sortie> sorties;
+    while (sorties.size() < at_once) {
+      Sortie sortie = cuts.plan_sortie(most);
+      if (sortie.cuts == 0) break;
+      sorties.push_back(std::move(sortie));
+    }
+    return sorties;
+  }
+
+  /// Emits the sorties before the first that could not be followed to its end, and says which that is.
+  std::size_t commit(const std::vector<Sortie>& sorties, const std::vector<Followed>& followed) {
+    for (std::size_t at = 0; at < sorties.size(); ++at) {
+      if (followed[at].strokes < sorties[at].strokes.size()) return at;
+      commit(followed[at], sorties[at].strokes);
+      if (at_ != hub_cell()) throw std::logic_error("a sortie does not end where the next one begins");
+    }
+    return sorties.size();
   }
 
   /// Goes over to the hub of another direction, remembering how to get home from there.
@@ -238,20 +349,23 @@ class Sweep {
   const std::function<void(std::vector<Keyframe>)>& emit_;
   const Watch& watch_;
   VoxelSet standing_;
+  std::vector<Voxel> wanted_;                       ///< of what straight directions left, what tilted ones might cut
+  std::optional<std::vector<Voxel>> out_of_reach_;  ///< what no direction can, once that was asked
   Configuration q_;
   Vec3 at_ = Vec3::Zero();               ///< the ball, in cells of the view of `field_`
   const PostureField* field_ = nullptr;  ///< of the direction in use; none at home
   std::vector<Configuration> way_home_;  ///< from the hub of that direction
-  std::array<ToolView, 5> views_;
-  std::array<std::unique_ptr<PostureField>, 5> fields_;
-  std::array<std::optional<ReachRows>, 5> reach_;  ///< where each field is usable
-  std::array<bool, 5> used_up_{};
+  std::vector<ToolView> views_;          ///< the straight ones, then the tilted ones
+  std::size_t straight_ = 0;             ///< how many
+  std::vector<std::unique_ptr<PostureField>> fields_;
+  std::vector<std::optional<ReachRows>> reach_;  ///< where the field of a straight one is usable
+  std::vector<char> used_up_;                    ///< the last pass along it cut nothing
 };
 
 }  // namespace
 
-VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
+SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
+                          int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
   return Sweep(scene, voxels, home, seed, threads, emit, watch).run();
 }
 

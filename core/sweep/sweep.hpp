@@ -12,11 +12,18 @@
 
 namespace sculpt {
 
-/// Carves what the tool reaches along the axes of the grid, from home and back to home; returns what stands then.
+/// What sweeps leave standing.
+struct SweepRest {
+  VoxelSet standing;
+  std::vector<Voxel>
+      out_of_tool_reach;  ///< of it, what is to be removed but never can be, as find_out_of_tool_reach has it
+};
+
+/// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home.
 /// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
 /// `emit` gets, a batch at a time on the calling thread, is certified. Deterministic, also in `threads`. Throws
 /// Cancelled.
-VoxelSet carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                         int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
+SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
+                          int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
 
 }  // namespace sculpt

@@ -2,20 +2,32 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/material/voxel.hpp"
 
 namespace sculpt {
 
 /// Turns a cell (a, b, c) into a voxel: c grows against the way in, that is along the tool's axis from the ball to the
-/// spindle, a along the rows that are cut. Cells outside 0..n-1 are voxels outside the grid.
+/// spindle, a along the rows that are cut. A tilted axis goes along more than one of them, always the way they grow.
+/// Cells outside 0..n-1 are voxels outside the grid.
 struct ToolView {
   int n = 0;
   Voxel corner;               ///< voxel of cell (0, 0, 0)
   std::array<Voxel, 3> step;  ///< one cell along a, b, c
+  Voxel lean{0, 0, 1};        ///< the tool's axis in cells: 0 or 1 each, along c always 1
 
-  Voxel voxel(Voxel cell) const { return corner + step[0] * cell.i + step[1] * cell.j + step[2] * cell.k; }
-  Vec3 axis() const { return {double(step[2].i), double(step[2].j), double(step[2].k)}; }
+  Voxel along(Voxel cells) const { return step[0] * cells.i + step[1] * cells.j + step[2] * cells.k; }
+  Voxel voxel(Voxel cell) const { return corner + along(cell); }
+  Voxel cell(Voxel voxel) const {
+    const Voxel off = voxel - corner;
+    const auto part = [off](Voxel unit) { return off.i * unit.i + off.j * unit.j + off.k * unit.k; };
+    return {part(step[0]), part(step[1]), part(step[2])};
+  }
+  Vec3 axis() const {
+    const Voxel way = along(lean);
+    return Vec3(way.i, way.j, way.k).normalized();
+  }
   /// Where the ball's centre is at a place given in cells, whole numbers being their centres (m, stock frame).
   Vec3 ball_m(const Grid& grid, const Vec3& cell) const {
     const auto real = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
@@ -33,6 +45,28 @@ inline std::array<ToolView, 5> tool_views(int n) {
            {n, {last, 0, 0}, {x * -1, z, y}},
            {n, {last, last, 0}, {y * -1, z, x * -1}},
            {n, {0, last, 0}, {x, z, y * -1}}}};
+}
+
+/// Tool axes between those: along the diagonals of the faces and of the cube that do not point down.
+inline std::vector<ToolView> tilted_views(int n) {
+  const auto facing = [n](Voxel a, Voxel b, Voxel c, Voxel lean) {
+    ToolView view{n, {}, {a, b, c}, lean};
+    for (const Voxel step : view.step)
+      if (step.i + step.j + step.k < 0) view.corner = view.corner - step * (n - 1);
+    return view;
+  };
+  const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  std::vector<ToolView> views;
+  for (int way : {1, -1}) {
+    views.push_back(facing(x * way, y, z, {1, 0, 1}));
+    views.push_back(facing(y * way, x, z, {1, 0, 1}));
+  }
+  for (int side : {1, -1})
+    for (int way : {1, -1}) {
+      views.push_back(facing(x * side, y * way, z, {1, 1, 1}));
+      views.push_back(facing(x * side, z, y * way, {1, 0, 1}));
+    }
+  return views;
 }
 
 }  // namespace sculpt

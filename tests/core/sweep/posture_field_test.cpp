@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "core/sweep/find_field.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 #include "tests/core/sweep/panda_field.hpp"
 
@@ -58,6 +59,33 @@ TEST(PostureField, WhatCanBeComeToCanBeLeftUpwards) {
     for (int a = 0; a < 16; ++a)
       for (double c = 0; c + 0.25 < top; c += 0.25)
         ASSERT_TRUE(!field.usable(Vec3(a, b, c)) || field.usable(Vec3(a, b, c + 0.25))) << a << ' ' << b << ' ' << c;
+}
+
+TEST(PostureField, OfATiltedDirectionReachesPastTheSidesThatItLeansTo) {
+  const PandaField& panda = PandaField::get();
+  const Configuration home = panda.cell.home(panda.scene.chain());
+  for (std::size_t which : {0u, 4u}) {
+    const ToolView view = tilted_views(16)[which];
+    SCOPED_TRACE(::testing::Message() << "axis " << view.axis().transpose());
+    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, which, 1, {});
+    EXPECT_GT(field->usable_cells(), PostureField::all_cells() * 3 / 4);
+    const Vec3 lean(view.lean.i, view.lean.j, view.lean.k), last = Vec3::Constant(15) + 2 * lean;
+    Random random(which);
+    int beyond = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+      Vec3 cell;
+      for (int axis = 0; axis < 3; ++axis) cell[axis] = random.between(0, last[axis]);
+      SCOPED_TRACE(::testing::Message() << "trial " << trial << ", cell " << cell.transpose());
+      const auto q = field->at(cell);
+      if (!q) continue;
+      beyond += (cell.array() > 15.5).any();
+      const ToolPose pose = field->chain().tool_pose(*q);
+      ASSERT_LT((pose.ball_m - field->ball_m(cell)).norm(), 1e-6);
+      ASSERT_LT((pose.axis - view.axis()).norm(), 1e-5);
+      for (Vec3 out = cell; (out.array() <= last.array()).all(); out += 0.1 * lean) ASSERT_TRUE(field->usable(out));
+    }
+    EXPECT_GT(beyond, 100);
+  }
 }
 
 /// Ball and shank for ball positions between two cells, off by `stray` voxel edges on all sides.

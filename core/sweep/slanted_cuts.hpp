@@ -1,0 +1,73 @@
+// What the ball does along a tilted tool direction, cell by cell: no joints yet.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/sweep/strokes.hpp"
+#include "core/sweep/tool_shadow.hpp"
+
+namespace sculpt {
+
+/// Strokes from outside the material to some cuts and out again to where they began.
+struct Sortie {
+  std::vector<Stroke> strokes;
+  /// Per stroke, which of them is the cut that it serves: it comes to that cut, or leaves from the last one.
+  std::vector<std::size_t> serves;
+  std::size_t cuts = 0;  ///< voxels
+};
+
+/// The ball goes from cell to cell, across a face or along the axis, through cells that hold nothing and at which the
+/// tool fits (ToolShadow); outside the grid it goes straight. Not shared between threads.
+class SlantedCuts {
+ public:
+  /// `wanted`: what to cut of what stands. `reachable`: may the ball's centre be at this cell, for links and limits?
+  /// Where it may be, it may also be all along the axis from there out. `gate`: where sorties begin and end, a voxel
+  /// above the grid's topmost cells.
+  SlantedCuts(const ToolView& view, const VoxelSet& standing, const std::vector<Voxel>& wanted, Voxel gate,
+              std::function<bool(const Vec3& cell)> reachable);
+
+  /// Cuts up to `most` voxels, always the nearest; no strokes if there is none left.
+  Sortie plan_sortie(std::size_t most);
+
+  /// As if a sortie had not been planned, the last ones first.
+  void take_back(const Sortie& sortie);
+  /// The voxels of this cut are not tried again.
+  void give_up(const Stroke& cut);
+
+ private:
+  struct Hop {
+    Voxel cell;
+    std::size_t before;  ///< which hop led here
+  };
+
+  bool is_in_bounds(Voxel cell) const;
+  bool is_reachable(Voxel cell) const;
+  bool is_free(Voxel cell) const;
+  bool can_cut(Voxel cell) const;
+  Voxel way_out(Voxel cell) const;
+  bool cut_near(Sortie& sortie);
+  bool cut_far(Sortie& sortie);
+  void retrace(Sortie& sortie);
+  std::optional<std::vector<Voxel>> route(Voxel out, Voxel in) const;
+  bool is_reachable_between(Voxel from, Voxel to) const;
+  void walk(std::size_t hop, Sortie& sortie);
+  void go(Voxel cell, double stray, Sortie& sortie);
+  void cut(Voxel cell, Sortie& sortie);
+  bool see(Voxel cell);
+
+  ToolView view_;
+  Voxel gate_;
+  std::function<bool(const Vec3&)> reachable_;
+  ToolShadow shadow_;
+  VoxelSet wanted_;         ///< less what was given up
+  std::vector<Voxel> lit_;  ///< cells that may be cut now, and some that no longer are there
+  Voxel at_;                ///< the ball
+  Voxel last_step_{};       ///< of the ball; none where it did not step to a neighbour
+  std::vector<Hop> hops_;   ///< of the search for the nearest cut, kept to save allocations
+  std::vector<std::uint32_t> seen_;
+  std::uint32_t search_ = 0;
+};
+
+}  // namespace sculpt
