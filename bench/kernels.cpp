@@ -157,28 +157,33 @@ void transit_from_home_to_above_the_stock(benchmark::State& state) {
 }
 BENCHMARK(transit_from_home_to_above_the_stock)->Unit(benchmark::kMicrosecond);
 
+ReachRows reach_of(const PostureField& field) {
+  return {field.view().n, [&](const Vec3& cell) { return field.usable(cell); },
+          [&](const Vec3& cell) { return field.part(cell); }};
+}
+
 void sweep_along_a_direction(benchmark::State& state) {
   const Sweeping s(static_cast<int>(state.range(0)));
-  const PostureField field = s.field();
-  const Columns columns(s.view, s.voxels.stock, s.voxels.keep, [&](const Vec3& cell) { return field.usable(cell); });
+  const ReachRows reach = reach_of(s.field());
+  const Columns columns(s.view, s.voxels.stock, s.voxels.keep, reach);
   for (auto _ : state) benchmark::DoNotOptimize(columns.count_cuttable());
   state.SetItemsProcessed(state.iterations() * s.n * s.n * s.n);
 }
 BENCHMARK(sweep_along_a_direction)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
 
 /// The columns with all above the middle layer cut.
-Columns columns_down_to_the_middle(const Sweeping& s, const PostureField& field, double stray, Vec3& at) {
-  Columns columns(s.view, s.voxels.stock, s.voxels.keep, [&field](const Vec3& cell) { return field.usable(cell); });
+Columns columns_down_to_the_middle(const Sweeping& s, const ReachRows& reach, double stray, Vec3& at) {
+  Columns columns(s.view, s.voxels.stock, s.voxels.keep, reach);
   for (int layer = s.n - 1; layer > s.n / 2; --layer) columns.cut_layer(layer, at, stray);
   return columns;
 }
 
 void strokes_of_the_middle_layer(benchmark::State& state) {
   const Sweeping s(static_cast<int>(state.range(0)));
-  const PostureField field = s.field();
+  const ReachRows reach = reach_of(s.field());
   const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
   Vec3 above = s.hub();
-  const Columns columns = columns_down_to_the_middle(s, field, stray, above);
+  const Columns columns = columns_down_to_the_middle(s, reach, stray, above);
   std::int64_t strokes = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -194,9 +199,10 @@ BENCHMARK(strokes_of_the_middle_layer)->Arg(64)->Arg(256)->Unit(benchmark::kMicr
 void keyframes_of_the_middle_layer(benchmark::State& state) {
   const Sweeping s(static_cast<int>(state.range(0)));
   const PostureField field = s.field();
+  const ReachRows reach = reach_of(field);
   const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
   Vec3 above = s.hub();
-  Columns columns = columns_down_to_the_middle(s, field, stray, above);
+  Columns columns = columns_down_to_the_middle(s, reach, stray, above);
   Vec3 at = above;
   const std::vector<Stroke> strokes = columns.cut_layer(s.n / 2, at, stray);
   std::int64_t keyframes = 0;
