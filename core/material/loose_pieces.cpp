@@ -108,13 +108,19 @@ std::uint64_t count_pieces(const VoxelSet& voxels) {
 }
 
 LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines) {
+  return find_loose_pieces(stock, lines.size(), [&lines](std::size_t number) { return lines[number]; });
+}
+
+LoosePieces find_loose_pieces(const VoxelSet& stock, std::size_t lines,
+                              const std::function<VoxelLine(std::size_t)>& line) {
   VoxelSet left = stock;
-  for (const VoxelLine& line : lines) {
-    const Voxel step = step_between(line.first, line.last);
-    for (int at = l1(line.first, line.last); at >= 0; --at) left.erase(line.first + step * at);
+  for (std::size_t number = 0; number < lines; ++number) {
+    const VoxelLine removed = line(number);
+    const Voxel step = step_between(removed.first, removed.last);
+    for (int at = l1(removed.first, removed.last); at >= 0; --at) left.erase(removed.first + step * at);
   }
   Refill refill(std::move(left));
-  for (std::size_t number = lines.size(); number-- > 0;) refill.add(lines[number], number);
+  for (std::size_t number = lines; number-- > 0;) refill.add(line(number), number);
   return refill.finish();
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <vector>
 
 #include "core/material/voxel_grid.hpp"
 
@@ -36,5 +38,9 @@ struct LoosePieces {
 /// what is never removed (keep, residue) and what is still to be removed, the rest of the same line included. Two
 /// grids of bits, and about 10 ns a voxel.
 LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines);
+
+/// The same for `lines` lines that are kept in another form: `line` gives one by its number, and is asked twice.
+LoosePieces find_loose_pieces(const VoxelSet& stock, std::size_t lines,
+                              const std::function<VoxelLine(std::size_t)>& line);
 
 }  // namespace sculpt
