@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -47,7 +48,14 @@ int run_plan(const PlanOptions& options) {
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
   ProgressLine progress(2, false);
-  const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
+  bool warned = false;
+  const Watch watch{stop.get_token(), [&](const Progress& at) {
+                      if (at.loose_keep > 0 && !std::exchange(warned, true)) {
+                        progress.clear();
+                        std::cerr << "sculpt: " << loose_keep_warning(at.loose_keep) << "\n";
+                      }
+                      progress.tell(name(at.stage), at.done, at.total);
+                    }};
   const bool as_lines = extension == "ndjson";
   PartFile lines(options.output + (as_lines ? "" : ".lines"));
   const JobResult result = run_job(job, lines.part(), watch);

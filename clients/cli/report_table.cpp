@@ -42,8 +42,10 @@ void voxel_rows(std::string& table, const Json& report) {
   rows(table, voxels, {{"total", "voxels"}, {"air", "  air"}, {"keep", "  keep"}, {"remove", "  remove"}});
   if (const auto loose = voxels.value("loose_keep", std::uint64_t{0}); loose > 0)
     row(table, "  loose keep",
-        std::to_string(loose) + "  (warning: hangs on nothing and will fall; pieces: " +
+        std::to_string(loose) + "  (warning: hangs on nothing once all around it is gone; pieces: " +
             voxels.value("loose_keep_pieces", Json()).dump() + ")");
+  if (const auto freed = voxels.value("freed", std::uint64_t{0}); freed > 0)
+    row(table, "  freed", std::to_string(freed) + "  (warning: comes loose while it is carved, and will fall)");
   if (!voxels.contains("removed") || !voxels.contains("residue") || !voxels.contains("remove")) return;
   row(table, "  removed", percent(voxels["removed"], voxels["remove"]));
   row(table, "  residue", percent(voxels["residue"], voxels["remove"]));
@@ -85,6 +87,11 @@ void run_rows(std::string& table, const Json& report) {
 }
 
 }  // namespace
+
+std::string loose_keep_warning(std::uint64_t voxels) {
+  return "warning: " + std::to_string(voxels) +
+         " voxels of the target hang on nothing once all around them is gone: make them reach the floor of the stock";
+}
 
 std::string report_table(const Json& report) {
   std::string table;

@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "core/collision/scene.hpp"
+#include "core/material/support.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
@@ -27,6 +28,8 @@ class Arm {
   const Scene& scene() const { return scene_; }
   const std::vector<Vec3>& axes() const { return axes_; }
 
+  /// Does a standing voxel hold nothing that would come free without it? Only such voxels may be cut.
+  bool holds_nothing(Voxel voxel) const { return !support_.frees(voxel); }
   /// Could the tool come down `axis` to the voxel, as far as material goes?
   bool fits(Voxel voxel, std::size_t axis) const;
 
@@ -68,6 +71,7 @@ class Arm {
   void move(const Path& moves);
 
   Scene& scene_;
+  Support support_;
   Configuration home_;
   std::uint64_t seed_, queries_ = 0, ompl_calls_ = 0, ompl_solved_ = 0;
   std::stop_token stop_;

@@ -6,6 +6,7 @@
 #include "core/cell/ik.hpp"
 #include "core/collision/clearance.hpp"
 #include "core/material/cavities.hpp"
+#include "core/material/support.hpp"
 #include "core/motion/random_configuration.hpp"
 #include "core/motion/tool_axes.hpp"
 
@@ -60,12 +61,14 @@ Reason explain_axis(const Scene& scene, const std::vector<Body>& holder, Voxel v
   return farthest;
 }
 
-Reason explain(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, std::uint64_t seed) {
+Reason explain(const Scene& scene, const Support& support, const std::vector<Body>& holder, Voxel voxel,
+               std::uint64_t seed) {
   Random random(mix(seed, scene.material().solid().index(voxel)));
   std::vector<Configuration> seeds;
   for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
   Reason farthest = Reason::tool_cannot_reach;
   for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, holder, voxel, axis, seeds));
+  if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
   return farthest;
 }
 
@@ -94,6 +97,7 @@ const char* name(Reason reason) {
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
                                      const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
+  const Support support(scene.material().solid());
   const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
   const int n = voxels.n();
@@ -103,7 +107,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
         const Voxel v{i, j, k};
         if (!scene.material().contains(v) || voxels.label(v) != Label::remove) continue;
         if (watch.stop.stop_requested()) throw Cancelled{};
-        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, holder, v, seed)});
+        residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, support, holder, v, seed)});
       }
   return residue;
 }

@@ -160,14 +160,16 @@ void replay(Report& report, const std::filesystem::path& trajectory, const Cell&
   std::ifstream in(trajectory, std::ios::binary);
   const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads);
   report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
+  report.voxels.freed = verdict.freed;
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
 }
 
 }  // namespace
 
-JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& told) {
   const Stopwatch total;
+  Watch watch = told;
   JobResult result;
   Report& report = result.report;
   report.mesh = job.mesh.name;
@@ -191,6 +193,8 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   const Octree octree = build_octree(result.voxels, watch);
   const BlockGraph graph = build_block_graph(octree, watch);
   count_voxels(report, result.voxels, octree);
+  watch.loose_keep = report.voxels.loose_keep;
+  watch.step(Stage::plan, 0, report.voxels.remove);
   report.seconds.octree = building.seconds();
 
   Stopwatch planning;

@@ -33,7 +33,7 @@ struct Stock {
 struct Job {
   MeshFile mesh;
   CellFiles cell;
-  int resolution = 0;  ///< power of two, 8 to 1024
+  int resolution = 0;            ///< power of two, 8 to 1024
   std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
   std::uint64_t seed = 0;
   int threads = 1;  ///< the plan is the same at any number
@@ -51,6 +51,7 @@ struct Report {
     std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0;
     std::uint64_t loose_keep = 0;         ///< of keep: what hangs on nothing once all around it is gone
     std::uint64_t loose_keep_pieces = 0;  ///< in how many pieces
+    std::uint64_t freed = 0;              ///< came loose from the table while it was carved, as the replay counts it
   } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
   struct {
@@ -94,8 +95,9 @@ void check_job(const Job& job, const Watch& watch);
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
 
 /// Plans, writing trajectory lines to `trajectory` as they become final (flushed at least once per block), then
-/// verifies the written file. Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error.
-/// Any thread; several jobs may run at once.
+/// verifies the written file. Before anything is planned `watch` is told how much of the target hangs on nothing.
+/// Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error. Any thread; several jobs
+/// may run at once.
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch);
 
 /// The report as the JSON object of DESIGN section 5, without "job" and "state", which the server adds; one line.

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/material/support.hpp"
 #include "core/motion/transit.hpp"
 #include "core/sweep/find_field.hpp"
 #include "core/sweep/follow.hpp"
@@ -17,6 +18,15 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t most_layers_at_once = 16;
+
+/// Voxels number `first` to `last` of a cut that comes from `start`.
+Stroke part_of(const Stroke& cut, const Vec3& start, int first, int last) {
+  const Voxel way = cut.last - cut.first;
+  const int steps = std::max(1, cut.count - 1);
+  const Voxel step{way.i / steps, way.j / steps, way.k / steps};
+  const Vec3 along = (cut.to - start) / cut.count;
+  return {start + along * (last + 1), last + 1 - first, cut.stray, cut.first + step * first, cut.first + step * last};
+}
 
 class Sweep {
  public:
@@ -29,20 +39,20 @@ class Sweep {
         threads_(threads),
         emit_(emit),
         watch_(watch),
-        standing_(voxels.stock),
+        support_(voxels.stock),
         q_(home),
         views_(tool_views(voxels.n())) {}
 
   VoxelSet run() {
     find_fields();
     while (const auto view = best_view()) carve_along(*view);
-    if (transit(home_)) return standing_;
+    if (transit(home_)) return support_.standing();
     const auto way = way_home();
     if (!way)
       throw InputError("no_transit",
                        "the arm finds no way home from above the stock: keep what stands beside it lower");
     move(*way);
-    return standing_;
+    return support_.standing();
   }
 
  private:
@@ -69,7 +79,7 @@ class Sweep {
 
   Columns columns_of(std::size_t view) const {
     const PostureField* field = fields_[view].get();
-    return {views_[view], standing_, voxels_.keep, [field](const Vec3& cell) { return field->usable(cell); }};
+    return {views_[view], support_.standing(), voxels_.keep, [field](const Vec3& cell) { return field->usable(cell); }};
   }
 
   /// Where the tool comes in: above the middle of the grid.
@@ -86,16 +96,17 @@ class Sweep {
       return;
     }
     Columns columns = columns_of(which);
+    spared_[which] = false;
     const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
     std::size_t at_once = most_layers_at_once;
     for (int layer = voxels_.n() - 1; layer >= 0;) {
-      std::vector<Layer> layers = plan_layers(columns, layer, at_once, stray);
+      std::vector<Layer> layers = plan_layers(which, columns, layer, at_once, stray);
       for_each_index(threads_, layers.size(), [&](std::size_t at) {
         layers[at].followed = follow(*field_, scene_.tool(), scene_.grid(), layers[at].from, layers[at].strokes);
       });
       const int next = commit(layers, columns);
       // Where one cut fails others do, and each time the rest was planned in vain.
-      at_once = next == layers.back().c - 1 ? std::min(2 * at_once, most_layers_at_once) : 1;
+      at_once = next == layers.back().next ? std::min(2 * at_once, most_layers_at_once) : 1;
       layer = next;
     }
     Vec3 end = at_;
@@ -103,10 +114,13 @@ class Sweep {
     const Followed up = follow(*field_, scene_.tool(), scene_.grid(), at_, rise);
     if (commit(up, rise) < rise.size()) throw std::logic_error("the tool came down where it cannot go up again");
     used_up_[which] = removed_ == before;
+    // What was spared lest a piece come free may now be cut.
+    if (removed_ > before)
+      for (std::size_t view = 0; view < views_.size(); ++view) used_up_[view] = used_up_[view] && !spared_[view];
   }
 
   struct Layer {
-    int c;
+    int c, next;  ///< the layer, and the one to go on with: itself, if a cut was given up
     Vec3 from;
     std::vector<Stroke> strokes;
     Followed followed;
@@ -114,14 +128,39 @@ class Sweep {
 
   /// What is to be done in the next layers from `c` down, as if nothing failed. Their number is the same at any number
   /// of threads.
-  std::vector<Layer> plan_layers(Columns& columns, int c, std::size_t at_once, double stray) const {
+  std::vector<Layer> plan_layers(std::size_t which, Columns& columns, int c, std::size_t at_once, double stray) {
     std::vector<Layer> layers;
     Vec3 end = at_;
-    for (; c >= 0 && layers.size() < at_once; --c) {
+    while (c >= 0 && layers.size() < at_once) {
       const Vec3 from = end;
-      layers.push_back({c, from, columns.cut_layer(c, end, stray), {}});
+      std::vector<Stroke> strokes = columns.cut_layer(c, end, stray);
+      const bool whole = remove_held(from, strokes, columns);
+      if (!whole) end = strokes.empty() ? from : strokes.back().to;
+      spared_[which] |= !whole;
+      layers.push_back({c, whole ? c - 1 : c, from, std::move(strokes), {}});
+      c = layers.back().next;
     }
     return layers;
+  }
+
+  /// Ends the strokes before the first cut that would free a piece of material. That voxel is given up for this pass,
+  /// what comes behind it is taken back.
+  bool remove_held(const Vec3& from, std::vector<Stroke>& strokes, Columns& columns) {
+    for (std::size_t s = 0; s < strokes.size(); ++s) {
+      const Stroke stroke = strokes[s];
+      if (stroke.count == 0) continue;
+      const int held = support_.remove(VoxelLine{stroke.first, stroke.last});
+      if (held == stroke.count) continue;
+      const Vec3 start = s == 0 ? from : strokes[s - 1].to;
+      for (std::size_t later = strokes.size(); later-- > s + 1;) columns.restore(strokes[later], false);
+      if (held + 1 < stroke.count) columns.restore(part_of(stroke, start, held + 1, stroke.count - 1), false);
+      columns.restore(part_of(stroke, start, held, held), true);
+      strokes.resize(s);
+      if (held > 0) strokes.push_back(part_of(stroke, start, 0, held - 1));
+      while (!strokes.empty() && strokes.back().count == 0) strokes.pop_back();
+      return false;
+    }
+    return true;
   }
 
   /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
@@ -134,14 +173,17 @@ class Sweep {
       take_back(strokes, done, columns, true);
       return layers[at].c;
     }
-    return layers.back().c - 1;
+    return layers.back().next;
   }
 
   /// Of a failed layer the first cut that could not be come to or not be made is given up.
-  static void take_back(const std::vector<Stroke>& strokes, std::size_t from, Columns& columns, bool failed) {
+  void take_back(const std::vector<Stroke>& strokes, std::size_t from, Columns& columns, bool failed) {
     std::size_t given_up = failed ? from : strokes.size();
     while (given_up < strokes.size() && strokes[given_up].count == 0) ++given_up;
-    for (std::size_t s = strokes.size(); s-- > from;) columns.restore(strokes[s], s == given_up);
+    for (std::size_t s = strokes.size(); s-- > from;) {
+      columns.restore(strokes[s], s == given_up);
+      if (strokes[s].count > 0) support_.restore(VoxelLine{strokes[s].first, strokes[s].last});
+    }
   }
 
   /// Goes over to the hub of another direction, remembering how to get home from there.
@@ -194,18 +236,10 @@ class Sweep {
     for (const Keyframe& keyframe : followed.keyframes) {
       emit_(keyframe);
       q_ = keyframe.q;
-      if (keyframe.cut) remove(keyframe);
+      removed_ += static_cast<std::uint64_t>(run_length(keyframe));
     }
     if (followed.strokes > 0) at_ = strokes[followed.strokes - 1].to;
     return followed.strokes;
-  }
-
-  void remove(const Keyframe& cut) {
-    const int count = run_length(cut);
-    const Voxel way = cut.last - cut.first;
-    const Voxel step = count == 1 ? Voxel{} : Voxel{way.i / (count - 1), way.j / (count - 1), way.k / (count - 1)};
-    for (int m = 0; m < count; ++m) standing_.erase(cut.first + step * m);
-    removed_ += static_cast<std::uint64_t>(count);
   }
 
   const Scene& scene_;
@@ -215,7 +249,7 @@ class Sweep {
   int threads_;
   const std::function<void(const Keyframe&)>& emit_;
   const Watch& watch_;
-  VoxelSet standing_;
+  Support support_;  ///< of what stands when all that is planned is cut
   Configuration q_;
   Vec3 at_ = Vec3::Zero();               ///< the ball, in cells of the view of `field_`
   const PostureField* field_ = nullptr;  ///< of the direction in use; none at home
@@ -223,6 +257,7 @@ class Sweep {
   std::array<ToolView, 5> views_;
   std::array<std::unique_ptr<PostureField>, 5> fields_;
   std::array<bool, 5> used_up_{};
+  std::array<bool, 5> spared_{};  ///< something was given up in the last pass lest a piece come free
 };
 
 }  // namespace
