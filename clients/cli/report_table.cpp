@@ -20,9 +20,8 @@ std::string text_of(const Json& value) {
 }
 
 void row(std::string& table, const std::string& label, const std::string& value) {
-  char head[32];
-  std::snprintf(head, sizeof head, "%-22s", label.c_str());
-  table += head + value + "\n";
+  constexpr std::size_t width = 22;
+  table += label + std::string(label.size() < width ? width - label.size() : 2, ' ') + value + "\n";
 }
 
 /// A row per field of `object` that is there: `fields` are pairs of field and label.
