@@ -13,6 +13,10 @@ namespace sculpt {
 /// The standing voxels that hang on nothing.
 VoxelSet find_loose(const VoxelSet& standing);
 
+/// The parts of the finished sculpture that hang on nothing, with what they enclose: once all around them is gone
+/// nothing can hold them.
+VoxelSet find_unheld(const VoxelGrid& voxels);
+
 /// Face-connected pieces of a set.
 std::uint64_t count_pieces(const VoxelSet& voxels);
 
@@ -26,6 +30,7 @@ struct Loosening {
   std::size_t line;
   Voxel removed;
   std::uint64_t freed;
+  std::uint64_t unforeseen;  ///< of them, those that were not said to fall
 };
 
 struct LoosePieces {
@@ -40,7 +45,8 @@ struct LoosePieces {
 LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines);
 
 /// The same for `lines` lines that are kept in another form: `line` gives one by its number, and is asked twice.
-LoosePieces find_loose_pieces(const VoxelSet& stock, std::size_t lines,
+/// `may_fall`: voxels that are known to come loose.
+LoosePieces find_loose_pieces(const VoxelSet& stock, const VoxelSet& may_fall, std::size_t lines,
                               const std::function<VoxelLine(std::size_t)>& line);
 
 }  // namespace sculpt

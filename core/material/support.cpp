@@ -85,9 +85,10 @@ class Support::Surroundings {
   bool any_rooted_ = false;
 };
 
-Support::Support(const VoxelSet& standing)
+Support::Support(const VoxelSet& standing, const VoxelSet& may_fall)
     : standing_(standing),
       loose_(find_loose(standing)),
+      may_fall_(may_fall),
       rooted_(static_cast<std::size_t>(standing.n() + 2) * static_cast<std::size_t>(standing.n() + 2), beyond) {
   const int n = standing.n();
   for (int j = 0; j < n; ++j)
@@ -138,7 +139,7 @@ bool Support::frees_if_apart(Voxel voxel) const {
     const Way way = search(from, voxel, left, any_held);
     if (way == Way::none) return true;
     if (way == Way::long_) return frees_by_flood(voxel);
-    any_held = true;
+    any_held |= way == Way::held;
   }
   return false;
 }
@@ -164,7 +165,8 @@ Support::Way Support::search(Voxel from, Voxel gone, std::vector<Voxel>& others,
     }
     if (queue.size() > most_looked_at) return Way::long_;
   }
-  return Way::none;
+  const bool foreseen = std::all_of(queue.begin(), queue.end(), [&](Voxel each) { return may_fall_.contains(each); });
+  return foreseen ? Way::falls : Way::none;
 }
 
 bool Support::frees_by_flood(Voxel voxel) const {
@@ -172,7 +174,7 @@ bool Support::frees_by_flood(Voxel voxel) const {
   after.erase(voxel);
   const VoxelSet loose = find_loose(after);
   for (std::size_t word = 0; word < loose.words().size(); ++word)
-    if ((loose.words()[word] & ~loose_.words()[word]) != 0) return true;
+    if ((loose.words()[word] & ~loose_.words()[word] & ~may_fall_.words()[word]) != 0) return true;
   return false;
 }
 

@@ -15,12 +15,14 @@ namespace sculpt {
 /// threads are safe, changes are not. Needs n a power of two, n >= 4.
 class Support {
  public:
-  explicit Support(const VoxelSet& standing);
+  /// A piece of nothing but voxels of `may_fall` may be freed.
+  Support(const VoxelSet& standing, const VoxelSet& may_fall);
 
   const VoxelSet& standing() const { return standing_; }
 
-  /// Would the removal of this standing voxel free a piece? A few ns where the voxel is the top of a column that stands
-  /// on the table, between such columns; tens of ns where its neighbours are joined right around it; else a search.
+  /// Would the removal of this standing voxel free a piece that may not fall? A few ns where the voxel is the top of a
+  /// column that stands on the table, between such columns; tens of ns where its neighbours are joined right around it;
+  /// else a search.
   bool frees(Voxel voxel) const;
 
   /// Removes a voxel that frees nothing.
@@ -46,12 +48,13 @@ class Support {
   bool frees_if_apart(Voxel voxel) const;
   void remove(std::size_t column, std::size_t voxel, int k);
   bool is_rooted(Voxel voxel, Voxel gone) const;
-  enum class Way { held, none, long_ };
+  enum class Way { held, none, falls, long_ };
   Way search(Voxel from, Voxel gone, std::vector<Voxel>& others, bool any_held) const;
   bool frees_by_flood(Voxel voxel) const;
 
   VoxelSet standing_;
-  VoxelSet loose_;                    ///< what hung on nothing at the start
+  VoxelSet loose_;  ///< what hung on nothing at the start
+  VoxelSet may_fall_;
   std::vector<std::int16_t> rooted_;  ///< per column: voxels from k = 0 up without a gap; with a border
   std::int64_t unrooted_;             ///< voxels that stand above such a gap
 };

@@ -27,9 +27,10 @@ std::vector<Configuration> reversed(std::vector<Configuration> path) {
 
 }  // namespace
 
-Arm::Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit)
+Arm::Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
+         Emit emit)
     : scene_(scene),
-      support_(scene.material().solid()),
+      support_(scene.material().solid(), may_fall),
       home_(home),
       seed_(seed),
       stop_(std::move(stop)),

@@ -18,8 +18,9 @@ class Arm {
  public:
   using Emit = std::function<void(const Keyframe&)>;
 
-  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut.
-  Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit);
+  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut. `may_fall`: what cannot be held.
+  Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
+      Emit emit);
 
   /// The voxel whose centre the ball stands at (or stood at before it left the stock).
   Voxel at() const { return at_; }

@@ -97,7 +97,7 @@ const char* name(Reason reason) {
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
                                      const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
-  const Support support(scene.material().solid());
+  const Support support(scene.material().solid(), find_unheld(voxels));
   const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
   const int n = voxels.n();

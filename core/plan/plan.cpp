@@ -89,9 +89,9 @@ void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octr
   gantry.go_home();
 }
 
-void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph, const Configuration& home,
-                    std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
-  Arm arm(scene, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
+void carve_with_arm(Scene& scene, const VoxelSet& may_fall, const Octree& octree, const BlockGraph& graph,
+                    const Configuration& home, std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
+  Arm arm(scene, may_fall, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
   const auto try_block = [&](int block, int effort) {
     const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
     if (trial.removed > 0) output.flush();
@@ -218,9 +218,10 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
     VoxelGrid rest_voxels{left, find_out_of_tool_reach(*scene, result.voxels.keep, job.threads, watch)};
     for (std::size_t w = 0; w < left.words().size(); ++w) rest_voxels.keep.words()[w] |= result.voxels.keep.words()[w];
     const Octree rest = build_octree(rest_voxels, watch);
-    carve_with_arm(*scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
+    carve_with_arm(*scene, find_unheld(result.voxels), rest, build_block_graph(rest, watch), header.home, job.seed,
+                   output, report, watch);
   } else {
-    carve_with_arm(*scene, octree, graph, header.home, job.seed, output, report, watch);
+    carve_with_arm(*scene, find_unheld(result.voxels), octree, graph, header.home, job.seed, output, report, watch);
   }
   report.plan_sha256 = output.finish(trajectory).sha256;
   count_path(report, output.figures(), result.grid.voxel_m, checks + scene->checks());

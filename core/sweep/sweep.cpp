@@ -39,7 +39,7 @@ class Sweep {
         threads_(threads),
         emit_(emit),
         watch_(watch),
-        support_(voxels.stock),
+        support_(voxels.stock, find_unheld(voxels)),
         q_(home),
         views_(tool_views(voxels.n())) {}
 

@@ -22,14 +22,15 @@ bool CutLog::removes_each_once(const VoxelSet& stock, const VoxelSet& left) cons
   return left.size() + removed_ == stock.size();
 }
 
-std::vector<FreedPiece> CutLog::find_freed(const VoxelSet& stock, const std::function<void()>& step) const {
+std::vector<FreedPiece> CutLog::find_freed(const VoxelSet& stock, const VoxelSet& may_fall,
+                                           const std::function<void()>& step) const {
   const auto line_of = [&](std::size_t cut) {
     if (cut % cuts_a_step == 0) step();
     return VoxelLine{voxel(cuts_[cut].first), voxel(cuts_[cut].last)};
   };
   std::vector<FreedPiece> pieces;
-  for (const Loosening& each : find_loose_pieces(stock, cuts_.size(), line_of).loosenings)
-    pieces.push_back({cuts_[each.line].line, each.removed, each.freed});
+  for (const Loosening& each : find_loose_pieces(stock, may_fall, cuts_.size(), line_of).loosenings)
+    pieces.push_back({cuts_[each.line].line, each.removed, each.freed, each.unforeseen});
   return pieces;
 }
 

@@ -14,6 +14,7 @@ struct FreedPiece {
   std::uint64_t line;  ///< 1-based, of the trajectory
   Voxel removed;
   std::uint64_t voxels;
+  std::uint64_t unforeseen;  ///< of them, those that were not said to fall
 };
 
 /// 12 bytes a cut.
@@ -29,7 +30,8 @@ class CutLog {
   bool removes_each_once(const VoxelSet& stock, const VoxelSet& left) const;
 
   /// Exact: the cuts are undone from the last to the first. Calls `step` now and then; what that throws passes through.
-  std::vector<FreedPiece> find_freed(const VoxelSet& stock, const std::function<void()>& step) const;
+  std::vector<FreedPiece> find_freed(const VoxelSet& stock, const VoxelSet& may_fall,
+                                     const std::function<void()>& step) const;
 
  private:
   struct Cut {

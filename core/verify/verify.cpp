@@ -197,9 +197,9 @@ class Replay {
     const auto step = [this] {
       if (watch_.stop.stop_requested()) throw Cancelled{};
     };
-    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, step)) {
+    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_unheld(voxels_), step)) {
       verdict_.freed += piece.voxels;
-      if (turns)
+      if (turns && piece.unforeseen > 0)
         found_.find(piece.line, "voxel (" + std::to_string(piece.removed.i) + ", " + std::to_string(piece.removed.j) +
                                     ", " + std::to_string(piece.removed.k) + ") is removed, and " +
                                     std::to_string(piece.voxels) + " voxels that it held come loose");

@@ -39,7 +39,7 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
   const VoxelGrid voxels = make_voxels(job, grid, {});
   const Octree octree = build_octree(voxels, {});
   Scene scene(cell, grid, voxels.stock);
-  Arm arm(scene, rounded(cell.home(scene.chain())), job.seed, {}, [](const Keyframe&) {});
+  Arm arm(scene, find_unheld(voxels), rounded(cell.home(scene.chain())), job.seed, {}, [](const Keyframe&) {});
   std::vector<Block> left;
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) left.push_back(block);
