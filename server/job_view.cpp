@@ -10,6 +10,12 @@ JobRecord find_job(JobStore& store, const std::string& job) {
   return std::move(*record);
 }
 
+Json progress_view(const Progress& progress) {
+  Json view{{"stage", name(progress.stage)}, {"done", progress.done}, {"total", progress.total}};
+  if (progress.loose_keep > 0) view["loose_keep"] = progress.loose_keep;
+  return view;
+}
+
 Json error_view(const JobRecord& job) {
   return {{"code", job.error_code}, {"message", job.error_sentence}};
 }
@@ -30,7 +36,7 @@ Json job_view(const Services& services, const JobRecord& job) {
   if (!job.finished_at.empty()) view["finished_at"] = job.finished_at;
   if (job.state == JobState::queued) view["position"] = services.store.position(job);
   if (const std::optional<Progress> progress = services.scheduler.progress(job.id)) {
-    view["progress"] = {{"stage", name(progress->stage)}, {"done", progress->done}, {"total", progress->total}};
+    view["progress"] = progress_view(*progress);
   }
   if (job.state == JobState::failed) view["error"] = error_view(job);
   return view;

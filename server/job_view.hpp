@@ -7,6 +7,8 @@ namespace sculpt {
 
 /// With progress while it runs and its position while it is queued.
 Json job_view(const Services& services, const JobRecord& job);
+/// `{stage, done, total}`, and `loose_keep` where some of the target hangs on nothing.
+Json progress_view(const Progress& progress);
 /// `{code, message}` of a failed job.
 Json error_view(const JobRecord& job);
 /// Throws ProtocolError `not_found`.

@@ -113,8 +113,10 @@ std::optional<JobRecord> Scheduler::claim(const std::shared_ptr<Run>& run) {
 
 void Scheduler::run_one(const JobRecord& job, Run& run) {
   spdlog::info("job={} attempt={} running", job.id, job.attempt);
-  const Watch watch{run.stop.get_token(), [&run](const Progress& progress) {
+  const Watch watch{run.stop.get_token(), [&run, &job](const Progress& progress) {
                       const std::lock_guard lock(run.mutex);
+                      if (progress.loose_keep > 0 && (!run.progress || run.progress->loose_keep == 0))
+                        spdlog::warn("job={} {} voxels of the target hang on nothing", job.id, progress.loose_keep);
                       run.progress = progress;
                     }};
   const std::optional<Ending> ending = guarded(run_, job, watch);

@@ -1,5 +1,6 @@
 #include "server/streams.hpp"
 
+#include "server/job_view.hpp"
 #include "server/scheduler.hpp"
 #include "server/session.hpp"
 
@@ -91,11 +92,7 @@ void Streams::tell(const std::string& job, Subscription& subscription, const Pro
   if (!session || !session->writable() || !subscription.live) return;
   const bool silent = now - subscription.told_at >= longest_silence;
   if (subscription.told && same(*subscription.told, progress) && !silent) return;
-  session->send_event({job,
-                       std::nullopt,
-                       {},
-                       "progress",
-                       {{"stage", name(progress.stage)}, {"done", progress.done}, {"total", progress.total}}});
+  session->send_event({job, std::nullopt, {}, "progress", progress_view(progress)});
   subscription.told = progress;
   subscription.told_at = now;
 }

@@ -1,8 +1,10 @@
 #include "clients/cli/job_end.hpp"
 
 #include <iostream>
+#include <utility>
 
 #include "clients/cli/exit_code.hpp"
+#include "clients/cli/report_table.hpp"
 
 namespace sculpt {
 
@@ -12,12 +14,15 @@ bool is_final(const std::string& state) {
 
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
   client.subscribe(job);
+  bool warned = false;
   for (bool ended = false; !ended;) {
     const Json event = *client.next_event();
     const std::string type = event.value("type", "");
     if (event.value("job", "") != job || !event.contains("data")) continue;
     const Json& data = event["data"];
     if (type == "progress") {
+      const auto loose = data.value("loose_keep", std::uint64_t{0});
+      if (loose > 0 && !std::exchange(warned, true)) progress.say(loose_keep_warning(loose));
       progress.tell(data.value("stage", ""), data.value("done", std::uint64_t{0}),
                     data.value("total", std::uint64_t{0}));
     } else if (type == "state") {

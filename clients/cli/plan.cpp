@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -37,7 +38,14 @@ int run_plan(const PlanOptions& options) {
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
   ProgressLine progress(2, false);
-  const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
+  bool warned = false;
+  const Watch watch{stop.get_token(), [&](const Progress& at) {
+                      if (at.loose_keep > 0 && !std::exchange(warned, true)) {
+                        progress.clear();
+                        std::cerr << "sculpt: " << loose_keep_warning(at.loose_keep) << "\n";
+                      }
+                      progress.tell(name(at.stage), at.done, at.total);
+                    }};
   // As a table it is only made once it is whole: until then it is kept in the shortest form.
   const bool as_table = extension == "csv";
   PartFile output(options.output);

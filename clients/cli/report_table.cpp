@@ -20,9 +20,8 @@ std::string text_of(const Json& value) {
 }
 
 void row(std::string& table, const std::string& label, const std::string& value) {
-  char head[32];
-  std::snprintf(head, sizeof head, "%-22s", label.c_str());
-  table += head + value + "\n";
+  constexpr std::size_t width = 22;
+  table += label + std::string(label.size() < width ? width - label.size() : 2, ' ') + value + "\n";
 }
 
 /// A row per field of `object` that is there: `fields` are pairs of field and label.
@@ -42,8 +41,10 @@ void voxel_rows(std::string& table, const Json& report) {
   rows(table, voxels, {{"total", "voxels"}, {"air", "  air"}, {"keep", "  keep"}, {"remove", "  remove"}});
   if (const auto loose = voxels.value("loose_keep", std::uint64_t{0}); loose > 0)
     row(table, "  loose keep",
-        std::to_string(loose) + "  (warning: hangs on nothing and will fall; pieces: " +
+        std::to_string(loose) + "  (warning: hangs on nothing once all around it is gone; pieces: " +
             voxels.value("loose_keep_pieces", Json()).dump() + ")");
+  if (const auto freed = voxels.value("freed", std::uint64_t{0}); freed > 0)
+    row(table, "  freed", std::to_string(freed) + "  (warning: comes loose while it is carved, and will fall)");
   if (!voxels.contains("removed") || !voxels.contains("residue") || !voxels.contains("remove")) return;
   row(table, "  removed", percent(voxels["removed"], voxels["remove"]));
   row(table, "  residue", percent(voxels["residue"], voxels["remove"]));
@@ -85,6 +86,11 @@ void run_rows(std::string& table, const Json& report) {
 }
 
 }  // namespace
+
+std::string loose_keep_warning(std::uint64_t voxels) {
+  return "warning: " + std::to_string(voxels) +
+         " voxels of the target hang on nothing once all around them is gone: make them reach the floor of the stock";
+}
 
 std::string report_table(const Json& report) {
   std::string table;

@@ -48,11 +48,9 @@ Json to_json(const VerifyOptions& options, const Verdict& verdict) {
   Json findings = Json::array();
   for (const Finding& finding : verdict.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});
-  return {{"file", options.subject},
-          {"clean", verdict.clean},
-          {"collisions", verdict.collisions},
-          {"voxels_checked", verdict.voxels_checked},
-          {"findings", findings}};
+  return {{"file", options.subject},          {"clean", verdict.clean},
+          {"collisions", verdict.collisions}, {"voxels_checked", verdict.voxels_checked},
+          {"freed", verdict.freed},           {"findings", findings}};
 }
 
 /// A plan of a fine block is long: it is read from the file as it is needed.

@@ -507,7 +507,7 @@ def run_verify(options):
 
 def follow(client, job, out, plain):
     """Shows a job live until it has ended: a bar on a terminal, else (if `plain`) lines; gives the job."""
-    bar, shown = out.isatty(), None
+    bar, shown, warned = out.isatty(), None, False
     client.call("events.subscribe", job=job)
     while True:
         event = client.next_event()
@@ -520,6 +520,9 @@ def follow(client, job, out, plain):
         elif event["type"] == "progress":
             share = data["done"] / data["total"] if data["total"] else 0
             counts = f"{data['stage']:9} {data['done']}/{data['total']}"
+            if data.get("loose_keep") and not warned:
+                print(f"warning: {data['loose_keep']} voxels of the target hang on nothing once all around them is gone", file=sys.stderr, flush=True)
+                warned = True
             if bar:
                 cells = int(30 * share)
                 print(f"\r\x1b[K{counts} [{'#' * cells}{'.' * (30 - cells)}] {share:4.0%}", end="", file=out, flush=True)

@@ -16,28 +16,36 @@ struct Progress {
   Stage stage = Stage::load;
   std::uint64_t done = 0;
   std::uint64_t total = 0;
+  std::uint64_t loose_keep = 0;  ///< voxels of the target that hang on nothing; known from the first step of `plan` on
 };
 
 /// Copyable. `tell` is called on the thread that does the work, as often as the work likes: receivers thin it out.
 struct Watch {
   std::stop_token stop;
   std::function<void(const Progress&)> tell;
+  std::uint64_t loose_keep = 0;  ///< told with every step
 
   /// Reports, and throws `Cancelled` if a stop was requested. Cheap enough for every voxel row, block or node.
   void step(Stage stage, std::uint64_t done, std::uint64_t total) const {
     if (stop.stop_requested()) throw Cancelled{};
-    if (tell) tell({stage, done, total});
+    if (tell) tell({stage, done, total, loose_keep});
   }
 };
 
 constexpr const char* name(Stage stage) {
   switch (stage) {
-    case Stage::load: return "load";
-    case Stage::voxelize: return "voxelize";
-    case Stage::octree: return "octree";
-    case Stage::plan: return "plan";
-    case Stage::verify: return "verify";
-    case Stage::write: return "write";
+    case Stage::load:
+      return "load";
+    case Stage::voxelize:
+      return "voxelize";
+    case Stage::octree:
+      return "octree";
+    case Stage::plan:
+      return "plan";
+    case Stage::verify:
+      return "verify";
+    case Stage::write:
+      return "write";
   }
   return "unknown";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/material/cavities.hpp"
 #include "core/material/flood.hpp"
 
 namespace sculpt {
@@ -13,10 +14,15 @@ Voxel step_between(Voxel from, Voxel to) {
   return {sign(to.i - from.i), sign(to.j - from.j), sign(to.k - from.k)};
 }
 
-/// Erases the voxels of `set` that face-connected paths inside it join to a neighbour of `start`; returns how many.
-std::uint64_t erase_beside(VoxelSet& set, Voxel start, std::vector<Voxel>& stack) {
+struct Erased {
+  std::uint64_t all = 0, unforeseen = 0;
+};
+
+/// Erases the voxels of `set` that face-connected paths inside it join to a neighbour of `start`; returns how many, and
+/// how many of them are not in `foreseen`.
+Erased erase_beside(VoxelSet& set, Voxel start, const VoxelSet& foreseen, std::vector<Voxel>& stack) {
   const Grid bounds{set.n(), 1, Vec3::Zero()};
-  std::uint64_t erased = 0;
+  Erased erased;
   stack.assign(1, start);
   while (!stack.empty()) {
     const Voxel here = stack.back();
@@ -25,7 +31,8 @@ std::uint64_t erase_beside(VoxelSet& set, Voxel start, std::vector<Voxel>& stack
       const Voxel beside = here + step;
       if (!bounds.contains(beside) || !set.contains(beside)) continue;
       set.erase(beside);
-      ++erased;
+      ++erased.all;
+      erased.unforeseen += !foreseen.contains(beside);
       stack.push_back(beside);
     }
   }
@@ -36,8 +43,8 @@ std::uint64_t erase_beside(VoxelSet& set, Voxel start, std::vector<Voxel>& stack
 /// loose to held at most once, and all of it costs one flood.
 class Refill {
  public:
-  explicit Refill(VoxelSet left)
-      : bounds_{left.n(), 1, Vec3::Zero()}, loose_(find_loose(left)), standing_(std::move(left)) {
+  Refill(VoxelSet left, const VoxelSet& may_fall)
+      : may_fall_(may_fall), bounds_{left.n(), 1, Vec3::Zero()}, loose_(find_loose(left)), standing_(std::move(left)) {
     pieces_.most = loose_count_ = loose_.size();
   }
 
@@ -53,9 +60,9 @@ class Refill {
         loose_.insert(voxel);
         pieces_.most = std::max(pieces_.most, ++loose_count_);
       } else if (loose_count_ > 0) {
-        const std::uint64_t freed = erase_beside(loose_, voxel, stack_);
-        if (freed > 0) pieces_.loosenings.push_back({number, voxel, freed});
-        loose_count_ -= freed;
+        const Erased freed = erase_beside(loose_, voxel, may_fall_, stack_);
+        if (freed.all > 0) pieces_.loosenings.push_back({number, voxel, freed.all, freed.unforeseen});
+        loose_count_ -= freed.all;
       }
     }
   }
@@ -75,6 +82,7 @@ class Refill {
     });
   }
 
+  const VoxelSet& may_fall_;
   Grid bounds_;
   VoxelSet loose_, standing_;
   std::uint64_t loose_count_ = 0;
@@ -91,6 +99,12 @@ VoxelSet find_loose(const VoxelSet& standing) {
   return loose;
 }
 
+VoxelSet find_unheld(const VoxelGrid& voxels) {
+  VoxelSet finished = find_enclosed(voxels);
+  for (std::size_t at = 0; at < finished.words().size(); ++at) finished.words()[at] |= voxels.keep.words()[at];
+  return find_loose(finished);
+}
+
 std::uint64_t count_pieces(const VoxelSet& voxels) {
   VoxelSet rest = voxels;
   const auto n = static_cast<std::size_t>(rest.n());
@@ -101,20 +115,27 @@ std::uint64_t count_pieces(const VoxelSet& voxels) {
       const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(rest.words()[word]));
       const Voxel start{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
       rest.erase(start);
-      erase_beside(rest, start, stack);
+      erase_beside(rest, start, rest, stack);
       ++pieces;
     }
   return pieces;
 }
 
 LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines) {
+  return find_loose_pieces(stock, VoxelSet(stock.n()), lines.size(),
+                           [&lines](std::size_t number) { return lines[number]; });
+}
+
+LoosePieces find_loose_pieces(const VoxelSet& stock, const VoxelSet& may_fall, std::size_t lines,
+                              const std::function<VoxelLine(std::size_t)>& line) {
   VoxelSet left = stock;
-  for (const VoxelLine& line : lines) {
-    const Voxel step = step_between(line.first, line.last);
-    for (int at = l1(line.first, line.last); at >= 0; --at) left.erase(line.first + step * at);
+  for (std::size_t number = 0; number < lines; ++number) {
+    const VoxelLine removed = line(number);
+    const Voxel step = step_between(removed.first, removed.last);
+    for (int at = l1(removed.first, removed.last); at >= 0; --at) left.erase(removed.first + step * at);
   }
-  Refill refill(std::move(left));
-  for (std::size_t number = lines.size(); number-- > 0;) refill.add(lines[number], number);
+  Refill refill(std::move(left), may_fall);
+  for (std::size_t number = lines; number-- > 0;) refill.add(line(number), number);
   return refill.finish();
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <vector>
 
 #include "core/material/voxel_grid.hpp"
 
@@ -10,6 +12,10 @@ namespace sculpt {
 
 /// The standing voxels that hang on nothing.
 VoxelSet find_loose(const VoxelSet& standing);
+
+/// The parts of the finished sculpture that hang on nothing, with what they enclose: once all around them is gone
+/// nothing can hold them.
+VoxelSet find_unheld(const VoxelGrid& voxels);
 
 /// Face-connected pieces of a set.
 std::uint64_t count_pieces(const VoxelSet& voxels);
@@ -24,6 +30,7 @@ struct Loosening {
   std::size_t line;
   Voxel removed;
   std::uint64_t freed;
+  std::uint64_t unforeseen;  ///< of them, those that were not said to fall
 };
 
 struct LoosePieces {
@@ -36,5 +43,10 @@ struct LoosePieces {
 /// what is never removed (keep, residue) and what is still to be removed, the rest of the same line included. Two
 /// grids of bits, and about 10 ns a voxel.
 LoosePieces find_loose_pieces(const VoxelSet& stock, const std::vector<VoxelLine>& lines);
+
+/// The same for `lines` lines that are kept in another form: `line` gives one by its number, and is asked twice.
+/// `may_fall`: voxels that are known to come loose.
+LoosePieces find_loose_pieces(const VoxelSet& stock, const VoxelSet& may_fall, std::size_t lines,
+                              const std::function<VoxelLine(std::size_t)>& line);
 
 }  // namespace sculpt

@@ -27,8 +27,10 @@ std::vector<Configuration> reversed(std::vector<Configuration> path) {
 
 }  // namespace
 
-Arm::Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit)
+Arm::Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
+         Emit emit)
     : scene_(scene),
+      support_(scene.material().solid(), may_fall),
       home_(home),
       seed_(seed),
       stop_(std::move(stop)),
@@ -192,6 +194,7 @@ void Arm::commit(const Path& moves, const Configuration& cut, Voxel voxel) {
   emit_({cut, true, voxel, voxel});
   trail_.push_back(cut);
   scene_.remove(voxel);
+  support_.remove(voxel);
   last_step_ = voxel - at_;
   at_ = voxel;
   q_ = cut;

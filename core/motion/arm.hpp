@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "core/collision/scene.hpp"
+#include "core/material/support.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
@@ -17,8 +18,9 @@ class Arm {
  public:
   using Emit = std::function<void(const Keyframe&)>;
 
-  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut.
-  Arm(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit);
+  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut. `may_fall`: what cannot be held.
+  Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
+      Emit emit);
 
   /// The voxel whose centre the ball stands at (or stood at before it left the stock).
   Voxel at() const { return at_; }
@@ -27,6 +29,8 @@ class Arm {
   const Scene& scene() const { return scene_; }
   const std::vector<Vec3>& axes() const { return axes_; }
 
+  /// Does a standing voxel hold nothing that would come free without it? Only such voxels may be cut.
+  bool holds_nothing(Voxel voxel) const { return !support_.frees(voxel); }
   /// Could the tool come down `axis` to the voxel, as far as material goes?
   bool fits(Voxel voxel, std::size_t axis) const;
 
@@ -68,6 +72,7 @@ class Arm {
   void move(const Path& moves);
 
   Scene& scene_;
+  Support support_;
   Configuration home_;
   std::uint64_t seed_, queries_ = 0, ompl_calls_ = 0, ompl_solved_ = 0;
   std::stop_token stop_;

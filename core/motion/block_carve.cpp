@@ -40,7 +40,7 @@ class BlockCarve {
     std::vector<Candidate> near;
     for (Voxel step : face_steps) {
       const Voxel v = arm_.at() + step;
-      if (block_.contains(v) && material().contains(v)) near.push_back({cost(v), v});
+      if (block_.contains(v) && material().contains(v) && arm_.holds_nothing(v)) near.push_back({cost(v), v});
     }
     std::sort(near.begin(), near.end());
     return std::any_of(near.begin(), near.end(), [&](const Candidate& c) { return arm_.cut_neighbour(c.voxel); });
@@ -87,7 +87,7 @@ class BlockCarve {
   std::vector<Candidate> candidates() const {
     std::vector<Candidate> all;
     for (Voxel v : standing())
-      if (is_open(material(), v)) all.push_back({cost(v), v});
+      if (is_open(material(), v) && arm_.holds_nothing(v)) all.push_back({cost(v), v});
     std::sort(all.begin(), all.end());
     return all;
   }

@@ -8,8 +8,8 @@
 namespace sculpt {
 
 /// Greedy best-first over the block's standing voxels with an open face; prefers near ones, then those in line with the
-/// last step, then those not towards the inside of the block. What was cut stays cut, also when some voxels cannot be
-/// reached now (material only shrinks).
+/// last step, then those not towards the inside of the block. A voxel that would free a piece of material is not tried.
+/// What was cut stays cut, also when some voxels cannot be reached now (material only shrinks).
 BlockTrial carve_block(Arm& arm, const Block& block, int effort);
 
 }  // namespace sculpt

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
 #include "core/collision/clearance.hpp"
 #include "core/material/cavities.hpp"
+#include "core/material/support.hpp"
 #include "core/motion/random_configuration.hpp"
 #include "core/motion/tool_axes.hpp"
 
@@ -61,12 +63,14 @@ Reason explain_axis(const Scene& scene, const std::vector<Body>& holder, Voxel v
   return farthest;
 }
 
-Reason explain(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, std::uint64_t seed) {
+Reason explain(const Scene& scene, const Support& support, const std::vector<Body>& holder, Voxel voxel,
+               std::uint64_t seed) {
   Random random(mix(seed, scene.material().solid().index(voxel)));
   std::vector<Configuration> seeds;
   for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
   Reason farthest = Reason::tool_cannot_reach;
   for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, holder, voxel, axis, seeds));
+  if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
   return farthest;
 }
 
@@ -92,21 +96,29 @@ const char* name(Reason reason) {
   return "unknown";
 }
 
-std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed,
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed, int threads,
                                      const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
+  const Support support(scene.material().solid(), find_unheld(voxels));
   const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
   const auto n = static_cast<std::size_t>(voxels.n());
   for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {
     const std::uint64_t removable = voxels.stock.words()[word] & ~voxels.keep.words()[word];
     for (std::uint64_t left = scene.material().solid().words()[word] & removable; left != 0; left &= left - 1) {
-      if (watch.stop.stop_requested()) throw Cancelled{};
       const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(left));
       const Voxel v{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
-      residue.push_back({v, enclosed.contains(v) ? Reason::enclosed : explain(scene, holder, v, seed)});
+      residue.push_back({v, Reason::enclosed});
     }
   }
+  constexpr std::size_t at_once = 64;
+  for_each_index(threads, (residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
+    for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
+      if (watch.stop.stop_requested()) throw Cancelled{};
+      auto& [voxel, reason] = residue[at];
+      if (!enclosed.contains(voxel)) reason = explain(scene, support, holder, voxel, seed);
+    }
+  });
   return residue;
 }
 

@@ -125,9 +125,9 @@ void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octr
   gantry.go_home();
 }
 
-void carve_with_arm(Scene& scene, const Octree& octree, const BlockGraph& graph, const Configuration& home,
-                    std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
-  Arm arm(scene, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
+void carve_with_arm(Scene& scene, const VoxelSet& may_fall, const Octree& octree, const BlockGraph& graph,
+                    const Configuration& home, std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
+  Arm arm(scene, may_fall, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
   const auto try_block = [&](int block, int effort) {
     const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
     if (trial.removed > 0) output.flush();
@@ -196,14 +196,16 @@ void replay(Report& report, const std::filesystem::path& trajectory, const Cell&
   std::ifstream in(trajectory, std::ios::binary);
   const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads);
   report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
+  report.voxels.freed = verdict.freed;
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
 }
 
 }  // namespace
 
-JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form) {
   const Stopwatch total;
+  Watch watch = told;
   JobResult result;
   Report& report = result.report;
   report.mesh = job.mesh.name;
@@ -226,6 +228,8 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   Stopwatch building;
   const Octree octree = build_octree(result.voxels, watch);
   count_voxels(report, result.voxels, octree);
+  watch.loose_keep = report.voxels.loose_keep;
+  watch.step(Stage::plan, 0, report.voxels.remove);
   report.seconds.octree = building.seconds();
 
   Stopwatch planning;
@@ -248,13 +252,15 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
     VoxelGrid rest_voxels{left.standing, result.voxels.keep};
     for (const Voxel v : left.out_of_tool_reach) rest_voxels.keep.insert(v);
     const Octree rest = build_octree(rest_voxels, watch);
-    carve_with_arm(scene, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
+    carve_with_arm(scene, find_unheld(result.voxels), rest, build_block_graph(rest, watch), header.home, job.seed,
+                   output, report, watch);
   } else {
-    carve_with_arm(scene, octree, build_block_graph(octree, watch), header.home, job.seed, output, report, watch);
+    carve_with_arm(scene, find_unheld(result.voxels), octree, build_block_graph(octree, watch), header.home, job.seed,
+                   output, report, watch);
   }
   report.plan_sha256 = output.finish().sha256;
   count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
-  result.residue = explain_residue(scene, result.voxels, job.seed, watch);
+  result.residue = explain_residue(scene, result.voxels, job.seed, job.threads, watch);
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();
 

@@ -51,6 +51,7 @@ struct Report {
     std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0;
     std::uint64_t loose_keep = 0;         ///< of keep: what hangs on nothing once all around it is gone
     std::uint64_t loose_keep_pieces = 0;  ///< in how many pieces
+    std::uint64_t freed = 0;              ///< came loose from the table while it was carved, as the replay counts it
   } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
   struct {
@@ -96,8 +97,9 @@ VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
 enum class TrajectoryForm { text, binary };  // .ndjson, .sct
 
 /// Plans, writing to `trajectory` what is final beside the planning, on a thread of its own (lines are flushed at least
-/// once per block or layer), then verifies the written file. Throws InputError (refused) or Cancelled; a plan with
-/// residue is a result, not an error. Any thread; several jobs may run at once.
+/// once per block or layer), then verifies the written file. Before anything is planned `watch` is told how much of the
+/// target hangs on nothing. Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error.
+/// Any thread; several jobs may run at once.
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
                   TrajectoryForm form = TrajectoryForm::text);
 

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/material/support.hpp"
 #include "core/motion/tool_axes.hpp"
 #include "core/motion/tool_reach.hpp"
 #include "core/motion/transit.hpp"
@@ -26,6 +27,15 @@ constexpr std::size_t most_sorties_at_once = 8, most_cuts = 256;
 /// Voxels that make a field of a tilted direction, and the way there and back, worth their while.
 constexpr std::uint64_t fewest_slanted = 4;
 
+/// Voxels number `first` to `last` of a cut that comes from `start`.
+Stroke part_of(const Stroke& cut, const Vec3& start, int first, int last) {
+  const Voxel way = cut.last - cut.first;
+  const int steps = std::max(1, cut.count - 1);
+  const Voxel step{way.i / steps, way.j / steps, way.k / steps};
+  const Vec3 along = (cut.to - start) / cut.count;
+  return {start + along * (last + 1), last + 1 - first, cut.stray, cut.first + step * first, cut.first + step * last};
+}
+
 class Sweep {
  public:
   Sweep(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed, int threads,
@@ -37,7 +47,7 @@ class Sweep {
         threads_(threads),
         emit_(emit),
         watch_(watch),
-        standing_(voxels.stock),
+        support_(voxels.stock, find_unheld(voxels)),
         q_(home) {
     for (const ToolView& view : tool_views(voxels.n())) views_.push_back(view);
     straight_ = views_.size();
@@ -45,6 +55,7 @@ class Sweep {
     fields_.resize(views_.size());
     reach_.resize(straight_);
     used_up_.resize(views_.size());
+    spared_.resize(views_.size());
   }
 
   SweepRest run() {
@@ -54,7 +65,7 @@ class Sweep {
       while (const auto view = best_view()) carve_along(*view);
     } while (carve_slanted());
     go_home();
-    return {std::move(standing_), std::move(*out_of_reach_)};
+    return {support_.standing(), std::move(*out_of_reach_)};
   }
 
  private:
@@ -109,7 +120,9 @@ class Sweep {
     return static_cast<std::size_t>(most - counts.begin());
   }
 
-  Columns columns_of(std::size_t view) const { return {views_[view], standing_, voxels_.keep, *reach_[view]}; }
+  Columns columns_of(std::size_t view) const {
+    return {views_[view], support_.standing(), voxels_.keep, *reach_[view]};
+  }
 
   /// A direction without a field may reach everything.
   std::function<bool(const Vec3&)> reachable(std::size_t view) const {
@@ -129,16 +142,17 @@ class Sweep {
       return;
     }
     Columns columns = columns_of(which);
+    spared_[which] = false;
     const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
     std::size_t at_once = most_layers_at_once;
     for (int layer = voxels_.n() - 1; layer >= 0;) {
-      std::vector<Layer> layers = plan_layers(columns, layer, at_once, stray);
+      std::vector<Layer> layers = plan_layers(which, columns, layer, at_once, stray);
       for_each_index(threads_, layers.size(), [&](std::size_t at) {
         layers[at].followed = follow(*field_, scene_.tool(), scene_.grid(), layers[at].from, layers[at].strokes);
       });
       const int next = commit(layers, columns);
       // Where one cut fails others do, and each time the rest was planned in vain.
-      at_once = next == layers.back().c - 1 ? std::min(2 * at_once, most_layers_at_once) : 1;
+      at_once = next == layers.back().next ? std::min(2 * at_once, most_layers_at_once) : 1;
       layer = next;
     }
     Vec3 end = at_;
@@ -146,11 +160,18 @@ class Sweep {
     Followed up = follow(*field_, scene_.tool(), scene_.grid(), at_, rise);
     if (commit(std::move(up), rise) < rise.size())
       throw std::logic_error("the tool came down where it cannot go up again");
-    used_up_[which] = removed_ == before;
+    end_pass(which, removed_ > before);
+  }
+
+  void end_pass(std::size_t which, bool cut) {
+    used_up_[which] = !cut;
+    if (!cut) return;
+    // What was spared lest a piece come free may now be cut.
+    for (std::size_t view = 0; view < views_.size(); ++view) used_up_[view] = used_up_[view] && !spared_[view];
   }
 
   struct Layer {
-    int c;
+    int c, next;  ///< the layer, and the one to go on with: itself, if a cut was given up
     Vec3 from;
     std::vector<Stroke> strokes;
     Followed followed;
@@ -158,14 +179,39 @@ class Sweep {
 
   /// What is to be done in the next layers from `c` down, as if nothing failed. Their number is the same at any number
   /// of threads.
-  std::vector<Layer> plan_layers(Columns& columns, int c, std::size_t at_once, double stray) const {
+  std::vector<Layer> plan_layers(std::size_t which, Columns& columns, int c, std::size_t at_once, double stray) {
     std::vector<Layer> layers;
     Vec3 end = at_;
-    for (; c >= 0 && layers.size() < at_once; --c) {
+    while (c >= 0 && layers.size() < at_once) {
       const Vec3 from = end;
-      layers.push_back({c, from, columns.cut_layer(c, end, stray), {}});
+      std::vector<Stroke> strokes = columns.cut_layer(c, end, stray);
+      const bool whole = remove_held(from, strokes, columns);
+      if (!whole) end = strokes.empty() ? from : strokes.back().to;
+      spared_[which] |= !whole;
+      layers.push_back({c, whole ? c - 1 : c, from, std::move(strokes), {}});
+      c = layers.back().next;
     }
     return layers;
+  }
+
+  /// Ends the strokes before the first cut that would free a piece of material. That voxel is given up for this pass,
+  /// what comes behind it is taken back.
+  bool remove_held(const Vec3& from, std::vector<Stroke>& strokes, Columns& columns) {
+    for (std::size_t s = 0; s < strokes.size(); ++s) {
+      const Stroke stroke = strokes[s];
+      if (stroke.count == 0) continue;
+      const int held = support_.remove(VoxelLine{stroke.first, stroke.last});
+      if (held == stroke.count) continue;
+      const Vec3 start = s == 0 ? from : strokes[s - 1].to;
+      for (std::size_t later = strokes.size(); later-- > s + 1;) columns.restore(strokes[later], false);
+      if (held + 1 < stroke.count) columns.restore(part_of(stroke, start, held + 1, stroke.count - 1), false);
+      columns.restore(part_of(stroke, start, held, held), true);
+      strokes.resize(s);
+      if (held > 0) strokes.push_back(part_of(stroke, start, 0, held - 1));
+      while (!strokes.empty() && strokes.back().count == 0) strokes.pop_back();
+      return false;
+    }
+    return true;
   }
 
   /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
@@ -178,24 +224,27 @@ class Sweep {
       take_back(strokes, done, columns, true);
       return layers[at].c;
     }
-    return layers.back().c - 1;
+    return layers.back().next;
   }
 
   /// Of a failed layer the first cut that could not be come to or not be made is given up.
-  static void take_back(const std::vector<Stroke>& strokes, std::size_t from, Columns& columns, bool failed) {
+  void take_back(const std::vector<Stroke>& strokes, std::size_t from, Columns& columns, bool failed) {
     std::size_t given_up = failed ? from : strokes.size();
     while (given_up < strokes.size() && strokes[given_up].count == 0) ++given_up;
-    for (std::size_t s = strokes.size(); s-- > from;) columns.restore(strokes[s], s == given_up);
+    for (std::size_t s = strokes.size(); s-- > from;) {
+      columns.restore(strokes[s], s == given_up);
+      restore(strokes[s]);
+    }
   }
 
   /// Along tilted directions what no straight one came to. False if nothing was cut.
   bool carve_slanted() {
     if (!out_of_reach_) {
-      VoxelSet rest = standing_;
+      VoxelSet rest = support_.standing();
       rest -= voxels_.keep;
       for_each_voxel(rest, [&](Voxel v) { wanted_.push_back(v); });
       const double length = scene_.tool().stickout_m / scene_.grid().voxel_m;
-      out_of_reach_ = find_out_of_tool_reach(standing_, wanted_, tool_steps(), length, watch_);
+      out_of_reach_ = find_out_of_tool_reach(support_.standing(), wanted_, tool_steps(), length, watch_);
       for (const Voxel v : *out_of_reach_) rest.erase(v);
       std::erase_if(wanted_, [&](Voxel v) { return !rest.contains(v); });
     }
@@ -205,7 +254,7 @@ class Sweep {
   }
 
   std::optional<std::size_t> best_tilted_view() {
-    std::erase_if(wanted_, [&](Voxel v) { return !standing_.contains(v); });
+    std::erase_if(wanted_, [&](Voxel v) { return !support_.standing().contains(v); });
     if (wanted_.size() < fewest_slanted) return std::nullopt;
     std::vector<std::uint64_t> counts(views_.size());
     for_each_index(threads_, views_.size() - straight_, [&](std::size_t tilted) {
@@ -226,24 +275,34 @@ class Sweep {
     });
     const double all_through = 2.0 * voxels_.n();
     return wanted.size() -
-           find_out_of_tool_reach(standing_, wanted, {view.along(view.lean)}, all_through, watch_).size();
+           find_out_of_tool_reach(support_.standing(), wanted, {view.along(view.lean)}, all_through, watch_).size();
   }
 
   void carve_slanted(std::size_t which) {
     if (!fields_[which])
-      fields_[which] = find_field(scene_, views_[which], home_, {fields_[0]->start()}, mix(seed_, which), threads_, watch_);
+      fields_[which] =
+          find_field(scene_, views_[which], home_, {fields_[0]->start()}, mix(seed_, which), threads_, watch_);
     const std::uint64_t before = removed_;
-    SlantedCuts cuts(views_[which], standing_, wanted_, gate(), reachable(which));
+    spared_[which] = false;
+    SlantedCuts cuts(views_[which], support_.standing(), wanted_, gate(), reachable(which));
     std::size_t at_once = most_sorties_at_once, each = most_cuts;
     for (;;) {
-      const std::vector<Sortie> sorties = plan_sorties(cuts, at_once, each);
-      if (sorties.empty() || (field_ != fields_[which].get() && !enter(which))) break;
+      std::vector<Sortie> sorties = plan_sorties(cuts, at_once, each);
+      if (sorties.empty()) break;
+      const std::optional<Stroke> freeing = remove_held(sorties, cuts);
+      spared_[which] |= freeing.has_value();
+      if (freeing) cuts.give_up(*freeing);
+      if (sorties.empty()) continue;
+      if (field_ != fields_[which].get() && !enter(which)) {
+        for (std::size_t planned = sorties.size(); planned-- > 0;) take_back(sorties[planned], cuts);
+        break;
+      }
       std::vector<Followed> followed(sorties.size());
       for_each_index(threads_, sorties.size(), [&](std::size_t at) {
         followed[at] = follow(*field_, scene_.tool(), scene_.grid(), hub_cell(), sorties[at].strokes);
       });
       const std::size_t done = commit(sorties, followed);
-      for (std::size_t later = sorties.size(); later-- > done;) cuts.take_back(sorties[later]);
+      for (std::size_t later = sorties.size(); later-- > done;) take_back(sorties[later], cuts);
       if (done == sorties.size()) {
         at_once = std::min(2 * at_once, most_sorties_at_once);
         each = std::min(2 * each, most_cuts);
@@ -253,7 +312,7 @@ class Sweep {
         each = std::max<std::size_t>(each / 4, 1);
       }
     }
-    used_up_[which] = removed_ == before;
+    end_pass(which, removed_ > before);
   }
 
   /// As if none failed. Their number is the same at any number of threads.
@@ -265,6 +324,34 @@ class Sweep {
       sorties.push_back(std::move(sortie));
     }
     return sorties;
+  }
+
+  /// Drops the first sortie that would free a piece of material and all behind it; says which cut would.
+  std::optional<Stroke> remove_held(std::vector<Sortie>& sorties, SlantedCuts& cuts) {
+    for (std::size_t at = 0; at < sorties.size(); ++at) {
+      auto& strokes = sorties[at].strokes;
+      for (std::size_t s = 0; s < strokes.size(); ++s) {
+        const Stroke stroke = strokes[s];
+        if (stroke.count == 0) continue;
+        const int held = support_.remove(VoxelLine{stroke.first, stroke.last});
+        if (held == stroke.count) continue;
+        if (held > 0) restore(part_of(stroke, Vec3::Zero(), 0, held - 1));
+        for (std::size_t before = s; before-- > 0;) restore(strokes[before]);
+        for (std::size_t later = sorties.size(); later-- > at;) cuts.take_back(sorties[later]);
+        sorties.resize(at);
+        return stroke;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void take_back(const Sortie& sortie, SlantedCuts& cuts) {
+    for (std::size_t s = sortie.strokes.size(); s-- > 0;) restore(sortie.strokes[s]);
+    cuts.take_back(sortie);
+  }
+
+  void restore(const Stroke& stroke) {
+    if (stroke.count > 0) support_.restore(VoxelLine{stroke.first, stroke.last});
   }
 
   /// Emits the sorties before the first that could not be followed to its end, and says which that is.
@@ -326,11 +413,8 @@ class Sweep {
   }
 
   std::size_t commit(Followed followed, const std::vector<Stroke>& strokes) {
-    for (const Keyframe& keyframe : followed.keyframes) {
-      if (!keyframe.cut) continue;
-      standing_.erase(keyframe.first, keyframe.last);
-      removed_ += static_cast<std::uint64_t>(run_length(keyframe));
-    }
+    for (const Keyframe& keyframe : followed.keyframes)
+      if (keyframe.cut) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
     if (!followed.keyframes.empty()) q_ = followed.keyframes.back().q;
     if (followed.strokes > 0) at_ = strokes[followed.strokes - 1].to;
     emit(std::move(followed.keyframes));
@@ -348,7 +432,7 @@ class Sweep {
   int threads_;
   const std::function<void(std::vector<Keyframe>)>& emit_;
   const Watch& watch_;
-  VoxelSet standing_;
+  Support support_;                                 ///< of what stands when all that is planned is cut
   std::vector<Voxel> wanted_;                       ///< of what straight directions left, what tilted ones might cut
   std::optional<std::vector<Voxel>> out_of_reach_;  ///< what no direction can, once that was asked
   Configuration q_;
@@ -360,6 +444,7 @@ class Sweep {
   std::vector<std::unique_ptr<PostureField>> fields_;
   std::vector<std::optional<ReachRows>> reach_;  ///< where the field of a straight one is usable
   std::vector<char> used_up_;                    ///< the last pass along it cut nothing
+  std::vector<char> spared_;                     ///< something was given up in the last pass lest a piece come free
 };
 
 }  // namespace

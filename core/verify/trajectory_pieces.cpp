@@ -15,6 +15,7 @@ constexpr std::chrono::milliseconds idle_every(100);
 TrajectoryPieces::TrajectoryPieces(TrajectoryReader& reader, int workers)
     : reader_(reader),
       at_(reader.header().home),
+      cuts_(reader.header().grid.n),
       unseen_(static_cast<std::size_t>(workers)),
       busy_(static_cast<std::size_t>(workers), false) {}
 
@@ -29,6 +30,7 @@ TrajectoryPieces::Piece TrajectoryPieces::read() {
       break;
     }
     if (piece->keyframes.empty()) piece->first_line = reader_.line();
+    if (keyframe->cut) cuts_.add(*keyframe, reader_.line());
     piece->keyframes.push_back(std::move(*keyframe));
   }
   if (piece->keyframes.empty()) return nullptr;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/trajectory/trajectory.hpp"
+#include "core/verify/cut_log.hpp"
 
 namespace sculpt {
 
@@ -40,6 +41,8 @@ class TrajectoryPieces {
 
   /// Where the trajectory ends, once `next` gave null.
   const Configuration& end() const { return at_; }
+  /// All that it cuts, once `next` gave null.
+  const CutLog& cuts() const { return cuts_; }
 
  private:
   Piece read();
@@ -47,6 +50,7 @@ class TrajectoryPieces {
 
   TrajectoryReader& reader_;
   Configuration at_;
+  CutLog cuts_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::vector<Piece>> unseen_;  // by worker

@@ -68,6 +68,7 @@ class Crew {
   PieceFindings& found() { return found_; }
   VoxelSet& left() { return left_; }
   const Configuration& end() const { return pieces_.end(); }
+  const CutLog& cuts() const { return pieces_.cuts(); }
 
  private:
   void work(std::size_t worker) {
@@ -183,7 +184,26 @@ class Replay {
     crew.run();
     found_.add(std::move(crew.found()));
     verdict_.left = std::move(crew.left());
+    find_freed_pieces(crew.cuts());
     if ((crew.end() - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
+  }
+
+  // Of a plan that removes what does not stand nothing is said: it has findings enough.
+  void find_freed_pieces(const CutLog& cuts) {
+    if (!cuts.removes_each_once(voxels_.stock, verdict_.left)) return;
+    const bool turns = std::any_of(joints_.begin(), joints_.end(), [&](int joint) {
+      return cell_.robot.joints[static_cast<std::size_t>(joint)].kind == JointKind::revolute;
+    });
+    const auto step = [this] {
+      if (watch_.stop.stop_requested()) throw Cancelled{};
+    };
+    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_unheld(voxels_), step)) {
+      verdict_.freed += piece.voxels;
+      if (turns && piece.unforeseen > 0)
+        found_.find(piece.line, "voxel (" + std::to_string(piece.removed.i) + ", " + std::to_string(piece.removed.j) +
+                                    ", " + std::to_string(piece.removed.k) + ") is removed, and " +
+                                    std::to_string(piece.voxels) + " voxels that it held come loose");
+    }
   }
 
   const Cell& cell_;

@@ -21,6 +21,7 @@ struct Verdict {
   bool clean = false;
   std::uint64_t collisions = 0;      ///< all findings, also those not listed
   std::uint64_t voxels_checked = 0;  ///< voxels whose removal was replayed
+  std::uint64_t freed = 0;           ///< voxels that came loose from the table, counted when they did
   VoxelSet left;                     ///< material that still stands at the end
   std::vector<Finding> findings;     ///< the first 100
 };
@@ -28,9 +29,11 @@ struct Verdict {
 /// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell
 /// and grid, start and end at home, joint limits kept, every removed voxel a remove voxel removed once with the ball
 /// within tolerance of its centre, no contact of tool or link with material, room or itself at any time (the tool may
-/// touch the voxel being cut, nothing else may), nothing of keep removed. Throws InputError `trajectory_invalid` for
-/// text that is no trajectory; Cancelled. The verdict is the same at any number of threads (each one has a material of
-/// its own); `watch` is told from the calling one.
+/// touch the voxel being cut, nothing else may), nothing of keep removed; and, unless the
+/// chain only translates, no removal frees a piece of the material that the table held, but for parts of
+/// the target that nothing can hold. Throws InputError
+/// `trajectory_invalid` for text that is no trajectory; Cancelled. The verdict is the same at any number of threads
+/// (each one has a material of its own); `watch` is told from the calling one.
 Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
                           int threads = 1);
 

@@ -103,7 +103,7 @@ class Plan(ClientTest):
         fields = {"mesh", "robot", "search", "seed", "resolution", "voxels", "residue", "octree", "path", "seconds", "peak_memory_bytes",
                   "threads", "plan_sha256", "verify"}
         self.assertLessEqual(fields, set(report))
-        self.assertEqual(set(report["voxels"]), {"total", "air", "keep", "remove", "removed", "residue", "loose_keep", "loose_keep_pieces"})
+        self.assertEqual(set(report["voxels"]), {"total", "air", "keep", "remove", "removed", "residue", "loose_keep", "loose_keep_pieces", "freed"})
         self.assertLessEqual({"keyframes", "rows", "transits", "cut_m", "travel_m", "joint_travel_rad"}, set(report["path"]))
         self.assertLessEqual({"load", "voxelize", "octree", "plan", "verify", "total"}, set(report["seconds"]))
         self.assertEqual((report["mesh"], report["seed"], report["resolution"]), ("steps.stl", 7, 8))

@@ -54,7 +54,7 @@ LoosePieces watch_by_brute_force(const VoxelSet& stock, const std::vector<VoxelL
       const VoxelSet after = loose_by_brute_force(standing);
       std::uint64_t freed = 0;
       for (Voxel each : members(after)) freed += !loose.contains(each);
-      if (freed > 0) pieces.loosenings.push_back({number, voxel, freed});
+      if (freed > 0) pieces.loosenings.push_back({number, voxel, freed, freed});
       pieces.most = std::max<std::uint64_t>(pieces.most, after.size());
       loose = after;
     }

@@ -79,7 +79,8 @@ TEST(ToolReach, IsJustWhatTheArmsSearchLeaves) {
   int out_of_reach = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const VoxelSet target = seed % 2 == 0 ? jar(seed) : random_target(8, seed);
+    // A part that hangs on nothing would keep some of what is about it standing.
+    const VoxelSet target = on_the_floor(seed % 2 == 0 ? jar(seed) : random_target(8, seed));
     std::vector<Voxel> wanted;
     for_each_voxel(VoxelSet(8, true), [&](Voxel v) {
       if (!target.contains(v)) wanted.push_back(v);

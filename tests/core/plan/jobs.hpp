@@ -10,6 +10,7 @@
 
 #include "core/base/random.hpp"
 #include "core/material/binvox.hpp"
+#include "core/material/loose_pieces.hpp"
 #include "core/plan/plan.hpp"
 
 namespace sculpt {
@@ -48,6 +49,13 @@ inline VoxelSet random_target(int n, std::uint64_t seed) {
           if (ball ? off.norm() < 1 : off.cwiseAbs().maxCoeff() < 1) target.insert({i, j, k});
         }
   }
+  return target;
+}
+
+/// Without the parts that hang on nothing.
+inline VoxelSet on_the_floor(VoxelSet target) {
+  const VoxelSet loose = find_loose(target);
+  for (std::size_t word = 0; word < loose.words().size(); ++word) target.words()[word] &= ~loose.words()[word];
   return target;
 }
 

@@ -20,6 +20,7 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"removed\":",
                             "\"loose_keep\":",
                             "\"loose_keep_pieces\":",
+                            "\"freed\":",
                             "\"residue\":[{\"reason\":\"tool cannot reach\",\"voxels\":3}]",
                             "\"octree\":{\"leaves\":",
                             "\"remove_leaves\":",

@@ -15,6 +15,9 @@ inline void expect_sound(const JobResult& result) {
   const Report& report = result.report;
   EXPECT_TRUE(report.verify.clean) << (report.findings.empty() ? "" : report.findings.front());
   EXPECT_EQ(report.verify.voxels_checked, report.voxels.removed);
+  if (report.robot != "gantry" && report.voxels.loose_keep == 0) {
+    EXPECT_EQ(report.voxels.freed, 0u);
+  }
   EXPECT_EQ(report.voxels.removed + report.voxels.residue, report.voxels.remove);
   EXPECT_EQ(report.voxels.air + report.voxels.keep + report.voxels.remove, report.voxels.total);
   EXPECT_EQ(result.residue.size(), report.voxels.residue);

@@ -37,7 +37,8 @@ TEST(Sweep, LeavesWhatOctreeLeavesForTheSameReasons) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const ScratchFile by_sweep, by_octree;
-    Job job = sweep_job(cell, seed % 3 == 0 ? random_target(8, seed) : riddled_target(8, seed), seed);
+    // What holds a loose part is one thing in one order and another in another.
+    Job job = sweep_job(cell, on_the_floor(seed % 3 == 0 ? random_target(8, seed) : riddled_target(8, seed)), seed);
     const JobResult sweep = run_job(job, by_sweep.path(), {});
     EXPECT_EQ(sweep.report.search, "sweep");
     expect_sound(sweep);

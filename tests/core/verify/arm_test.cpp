@@ -80,6 +80,22 @@ TEST(ArmReplay, LayersCarvedRowByRowAreClean) {
   EXPECT_EQ(verdict.left.size(), static_cast<std::size_t>((16 - layers) * 16 * 16));
 }
 
+TEST(ArmReplay, ACutThatFreesAPieceIsFound) {
+  ArmProgram program;
+  const Voxel foot{0, 0, 0};  // of the one column that holds both layers
+  for (int k = 0; k < 16 - layers; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 16; ++i)
+        if (Voxel{i, j, 0} != foot) program.voxels.stock.erase({i, j, k});
+  const Verdict verdict = program.verdict();
+  EXPECT_EQ(verdict.collisions, 1u);
+  EXPECT_EQ(verdict.freed, 16u * 16 - 1);
+  EXPECT_TRUE(found(verdict, {"voxel (0, 0, 14)", "255 voxels"})) << sentences(verdict);
+  const std::uint64_t line = verdict.findings.at(0).line;
+  const Keyframe& keyframe = program.keyframes.at(line - 2);
+  EXPECT_EQ(keyframe.first, (Voxel{0, 0, 14}));
+}
+
 TEST(ArmReplay, OneKeyframeOffByATenthOfAVoxelIsFound) {
   for (std::uint64_t seed = 0; seed < 15; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -12,6 +12,19 @@ VoxelGrid full_block(int n) {
   return {VoxelSet(n, true), VoxelSet(n)};
 }
 
+TEST(Verify, CountsWhatATranslatingRobotFrees) {
+  const Cell cell = gantry_cell();
+  VoxelGrid voxels{VoxelSet(8), VoxelSet(8)};
+  for (int k = 0; k < 8; ++k) voxels.stock.insert({1, 1, k});
+  for (int i = 2; i < 6; ++i) voxels.stock.insert({i, 1, 5});
+  GantryProgram program(cell, 8);
+  program.plunge(1, 1, 4);
+  program.go_home();
+  const Verdict verdict = verify_text(program.text(), cell, voxels);
+  EXPECT_TRUE(verdict.clean) << sentences(verdict);
+  EXPECT_EQ(verdict.freed, 4u);
+}
+
 TEST(Verify, LandscapesCarvedColumnByColumnAreClean) {
   const Cell cell = gantry_cell();
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

@@ -1,0 +1,223 @@
+#include "core/material/support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <unordered_set>
+
+namespace sculpt {
+namespace {
+
+/// Voxels that a search looks at before the whole grid is flooded, a row of words at a time.
+constexpr std::size_t most_looked_at = 8192;
+/// Height of the columns around the grid: nothing stands there that could come loose.
+constexpr std::int16_t beyond = std::numeric_limits<std::int16_t>::max();
+
+Voxel step_along(const VoxelLine& line) {
+  const Voxel way = line.last - line.first;
+  const auto sign = [](int x) { return (x > 0) - (x < 0); };
+  return {sign(way.i), sign(way.j), sign(way.k)};
+}
+
+/// Of an offset in the 3 x 3 x 3 voxels about one.
+constexpr std::uint32_t bit_of(Voxel offset) {
+  return std::uint32_t{1} << (offset.i + 1 + 3 * (offset.j + 1) + 9 * (offset.k + 1));
+}
+
+constexpr std::uint32_t faces = bit_of({-1, 0, 0}) | bit_of({1, 0, 0}) | bit_of({0, -1, 0}) | bit_of({0, 1, 0}) |
+                                bit_of({0, 0, -1}) | bit_of({0, 0, 1});
+
+}  // namespace
+
+/// The 3 x 3 x 3 voxels about one, which is taken as gone. Below layer 0 is the table, as if it stood
+/// there.
+class Support::Surroundings {
+ public:
+  Surroundings(const Support& support, Voxel middle) {
+    const int n = support.standing_.n();
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const Voxel voxel = middle + Voxel{i, j, k};
+          const bool own_column = i == 0 && j == 0;
+          if (std::min(voxel.i, voxel.j) < 0 || std::max({voxel.i, voxel.j, voxel.k}) >= n || (own_column && k == 0))
+            continue;
+          const std::uint32_t bit = bit_of({i, j, k});
+          if (voxel.k < 0 || support.standing_.contains(voxel)) standing_ |= bit;
+          if (voxel.k < support.rooted(voxel.i, voxel.j) && !(own_column && k > 0)) rooted_ |= bit;
+        }
+    for (std::uint32_t left = standing_ & faces; left != 0; left &= ~joined_to(left & (~left + 1)))
+      ++parts_, any_rooted_ |= (joined_to(left & (~left + 1)) & rooted_) != 0;
+  }
+
+  /// Face neighbours that stand, in groups that are joined within the surroundings.
+  int parts() const { return parts_; }
+  bool any_rooted() const { return any_rooted_; }
+
+  /// One offset of each group that nothing here joins to the table.
+  std::vector<Voxel> unrooted() const {
+    std::vector<Voxel> offsets;
+    for (std::uint32_t left = standing_ & faces; left != 0;) {
+      const int first = std::countr_zero(left);
+      const std::uint32_t part = joined_to(std::uint32_t{1} << first);
+      if ((part & rooted_) == 0) offsets.push_back({first % 3 - 1, first / 3 % 3 - 1, first / 9 - 1});
+      left &= ~part;
+    }
+    return offsets;
+  }
+
+ private:
+  std::uint32_t joined_to(std::uint32_t seeds) const {
+    constexpr std::uint32_t every_third = 0x1249249, low_i = every_third, high_i = every_third << 2;
+    constexpr std::uint32_t low_j = 0x1C0E07, high_j = low_j << 6;
+    for (;;) {
+      const std::uint32_t grown = seeds | (((seeds & ~high_i) << 1 | (seeds & ~low_i) >> 1 | (seeds & ~high_j) << 3 |
+                                            (seeds & ~low_j) >> 3 | seeds << 9 | seeds >> 9) &
+                                           standing_);
+      if (grown == seeds) return grown;
+      seeds = grown;
+    }
+  }
+
+  std::uint32_t standing_ = 0, rooted_ = 0;
+  int parts_ = 0;
+  bool any_rooted_ = false;
+};
+
+Support::Support(const VoxelSet& standing, const VoxelSet& may_fall)
+    : standing_(standing),
+      loose_(find_loose(standing)),
+      may_fall_(may_fall),
+      rooted_(static_cast<std::size_t>(standing.n() + 2) * static_cast<std::size_t>(standing.n() + 2), beyond) {
+  const int n = standing.n();
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      std::int16_t height = 0;
+      while (height < n && standing.contains({i, j, height})) ++height;
+      rooted(i, j) = height;
+      unrooted_ -= height;
+    }
+}
+
+/// Does each neighbour that stands stand on the table in its own column, or beside a column that is as high and stands
+/// on the table? The voxel's own column does not count from the voxel up.
+bool Support::is_among_columns(std::size_t column, std::size_t voxel, int k) const {
+  const int n = standing_.n();
+  const auto stands = [&](std::size_t at) { return (standing_.words()[at >> 6] >> (at & 63) & 1) != 0; };
+  const std::int16_t* height = rooted_.data() + column;
+  const std::ptrdiff_t row = n + 2, sides[] = {-1, 1, -row, row};
+  const auto column_beside = [&](std::ptrdiff_t at, int level) {
+    return std::any_of(std::begin(sides), std::end(sides), [&](std::ptrdiff_t side) {
+      return at + side != 0 && height[at + side] > level && height[at + side] != beyond;
+    });
+  };
+  const std::ptrdiff_t step = n, voxels[] = {-1, 1, -step, step};
+  for (std::size_t side = 0; side < 4; ++side)
+    if (height[sides[side]] <= k && stands(voxel + static_cast<std::size_t>(voxels[side])) &&
+        !column_beside(sides[side], k))
+      return false;
+  const auto layer = static_cast<std::size_t>(step * step);
+  if (height[0] < k && stands(voxel - layer) && !column_beside(0, k - 1)) return false;
+  return k + 1 == n || !stands(voxel + layer) || column_beside(0, k + 1);
+}
+
+bool Support::frees(Voxel voxel) const {
+  return !is_among_columns(column(voxel.i, voxel.j), standing_.index(voxel), voxel.k) && frees_if_apart(voxel);
+}
+
+bool Support::frees_if_apart(Voxel voxel) const {
+  const Surroundings around(*this, voxel);
+  // What is joined stays as supported as the voxel was: through itself, or through one of them.
+  if (around.parts() < 2 || loose_.contains(voxel)) return false;
+  std::vector<Voxel> left = around.unrooted();
+  for (Voxel& neighbour : left) neighbour = neighbour + voxel;
+  bool any_held = around.any_rooted();
+  while (!left.empty()) {
+    const Voxel from = left.back();
+    left.pop_back();
+    const Way way = search(from, voxel, left, any_held);
+    if (way == Way::none) return true;
+    if (way == Way::long_) return frees_by_flood(voxel);
+    any_held |= way == Way::held;
+  }
+  return false;
+}
+
+/// Does a column that stands on the table hold this voxel, once `gone` is gone?
+bool Support::is_rooted(Voxel voxel, Voxel gone) const {
+  const int height = rooted(voxel.i, voxel.j);
+  return voxel.k < (voxel.i == gone.i && voxel.j == gone.j ? std::min(height, gone.k) : height);
+}
+
+/// From a neighbour of `gone` to all that it is joined to, until that is known to be held, or too much.
+Support::Way Support::search(Voxel from, Voxel gone, std::vector<Voxel>& others, bool any_held) const {
+  const Grid bounds{standing_.n(), 1, Vec3::Zero()};
+  std::unordered_set<std::size_t> seen{standing_.index(from), standing_.index(gone)};
+  std::vector<Voxel> queue{from};
+  for (std::size_t at = 0; at < queue.size(); ++at) {
+    for (Voxel step : face_steps) {
+      const Voxel next = queue[at] + step;
+      if (!bounds.contains(next) || !standing_.contains(next) || !seen.insert(standing_.index(next)).second) continue;
+      if (is_rooted(next, gone)) return Way::held;
+      if (std::erase(others, next) > 0 && others.empty() && !any_held) return Way::held;
+      queue.push_back(next);
+    }
+    if (queue.size() > most_looked_at) return Way::long_;
+  }
+  const bool foreseen = std::all_of(queue.begin(), queue.end(), [&](Voxel each) { return may_fall_.contains(each); });
+  return foreseen ? Way::falls : Way::none;
+}
+
+bool Support::frees_by_flood(Voxel voxel) const {
+  VoxelSet after = standing_;
+  after.erase(voxel);
+  const VoxelSet loose = find_loose(after);
+  for (std::size_t word = 0; word < loose.words().size(); ++word)
+    if ((loose.words()[word] & ~loose_.words()[word] & ~may_fall_.words()[word]) != 0) return true;
+  return false;
+}
+
+void Support::remove(Voxel voxel) {
+  remove(column(voxel.i, voxel.j), standing_.index(voxel), voxel.k);
+}
+
+void Support::remove(std::size_t column, std::size_t voxel, int k) {
+  standing_.words()[voxel >> 6] &= ~(std::uint64_t{1} << (voxel & 63));
+  std::int16_t& height = rooted_[column];
+  unrooted_ += height > k ? height - k - 1 : -1;
+  height = std::min(height, static_cast<std::int16_t>(k));
+}
+
+int Support::remove(const VoxelLine& line) {
+  const Voxel step = step_along(line);
+  const int count = l1(line.first, line.last) + 1, n = standing_.n();
+  const auto column_step = static_cast<std::size_t>(step.i + (n + 2) * static_cast<std::ptrdiff_t>(step.j)),
+             voxel_step = static_cast<std::size_t>(step.i + n * (step.j + n * static_cast<std::ptrdiff_t>(step.k)));
+  std::size_t at_column = column(line.first.i, line.first.j), voxel = standing_.index(line.first);
+  int k = line.first.k;
+  for (int at = 0; at < count; ++at, k += step.k) {
+    const bool top_of_columns_only = unrooted_ == 0 && rooted_[at_column] == k + 1;
+    if (!top_of_columns_only && !is_among_columns(at_column, voxel, k) && frees_if_apart(line.first + step * at))
+      return at;
+    remove(at_column, voxel, k);
+    at_column += column_step;  // steps back wrap around
+    voxel += voxel_step;
+  }
+  return count;
+}
+
+void Support::restore(Voxel voxel) {
+  standing_.insert(voxel);
+  std::int16_t& height = rooted(voxel.i, voxel.j);
+  ++unrooted_;
+  if (height != voxel.k) return;
+  while (height < standing_.n() && standing_.contains({voxel.i, voxel.j, height})) ++height, --unrooted_;
+}
+
+void Support::restore(const VoxelLine& line) {
+  const Voxel step = step_along(line);
+  for (int at = l1(line.first, line.last); at >= 0; --at) restore(line.first + step * at);
+}
+
+}  // namespace sculpt
