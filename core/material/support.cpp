@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <queue>
 #include <unordered_set>
 
 namespace sculpt {
@@ -154,18 +155,24 @@ bool Support::is_rooted(Voxel voxel, Voxel gone) const {
 Support::Way Support::search(Voxel from, Voxel gone, std::vector<Voxel>& others, bool any_held) const {
   const Grid bounds{standing_.n(), 1, Vec3::Zero()};
   std::unordered_set<std::size_t> seen{standing_.index(from), standing_.index(gone)};
-  std::vector<Voxel> queue{from};
-  for (std::size_t at = 0; at < queue.size(); ++at) {
+  // The lowest first: that is where the table is.
+  const auto higher = [](Voxel a, Voxel b) { return a.k > b.k; };
+  std::priority_queue<Voxel, std::vector<Voxel>, decltype(higher)> open(higher);
+  open.push(from);
+  bool foreseen = may_fall_.contains(from);
+  while (!open.empty()) {
+    const Voxel here = open.top();
+    open.pop();
     for (Voxel step : face_steps) {
-      const Voxel next = queue[at] + step;
+      const Voxel next = here + step;
       if (!bounds.contains(next) || !standing_.contains(next) || !seen.insert(standing_.index(next)).second) continue;
       if (is_rooted(next, gone)) return Way::held;
       if (std::erase(others, next) > 0 && others.empty() && !any_held) return Way::held;
-      queue.push_back(next);
+      foreseen = foreseen && may_fall_.contains(next);
+      open.push(next);
     }
-    if (queue.size() > most_looked_at) return Way::long_;
+    if (seen.size() > most_looked_at) return Way::long_;
   }
-  const bool foreseen = std::all_of(queue.begin(), queue.end(), [&](Voxel each) { return may_fall_.contains(each); });
   return foreseen ? Way::falls : Way::none;
 }
 

@@ -25,11 +25,14 @@ void transpose(Tile& tile) {
   }
 }
 
-/// The first bit last.
+/// The first bit last: neighbours change places, then pairs, nibbles, bytes...
 std::uint64_t reversed(std::uint64_t word) {
-  std::uint64_t out = 0;
-  for (int bit = 0; bit < 64; ++bit) out |= (word >> bit & 1) << (63 - bit);
-  return out;
+  std::uint64_t low = ~std::uint64_t{0};
+  for (int half = 32; half > 0; half /= 2) {
+    low ^= low << half;  // the lower half of every 2 * half bits
+    word = ((word >> half) & low) | ((word & low) << half);
+  }
+  return word;
 }
 
 bool all_equal(const Tile& tile, std::size_t width, std::uint64_t word) {
