@@ -81,7 +81,7 @@ TEST(Sweep, SameJobAndSeedGiveTheSameBytesAtAnyNumberOfThreads) {
 }
 
 TEST(Sweep, StopsAtAnyStepOfThePlan) {
-  const std::pair<int, std::uint64_t> stops[] = {{1, 1}, {1, 60}, {2, 7}, {2, 30}};
+  const std::pair<int, std::uint64_t> stops[] = {{1, 1}, {1, 40}, {2, 7}, {2, 30}};
   for (const auto& [threads, after] : stops) {
     SCOPED_TRACE("step " + std::to_string(after) + ", threads " + std::to_string(threads));
     Job job = sweep_job(shipped_cell("panda-turntable"), random_target(16, 1));
