@@ -42,23 +42,23 @@ std::uint64_t peak_memory_bytes() {
 class Output {
  public:
   Output(const std::filesystem::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
-         std::uint64_t remove, const Watch& watch)
+         std::uint64_t remove, int threads, const Watch& watch)
       : path_(path),
         file_(path, std::ios::binary | std::ios::trunc),
         text_(form == TrajectoryForm::text ? file_ : nowhere_, header),
         figures_(chain, header.home),
         remove_(remove),
-        watch_(watch),
-        writer_([this](const std::vector<Keyframe>& batch) { write(batch); }) {
+        watch_(watch) {
     if (form == TrajectoryForm::binary) binary_.emplace(file_, header);
     file_.flush();
     check();
+    if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
   }
 
   void add(std::vector<Keyframe> batch) {
     flush();
     for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
-    writer_.add(std::move(batch));
+    hand_over(std::move(batch));
     watch_.step(Stage::plan, removed_, remove_);
   }
   void add(const Keyframe& keyframe) {
@@ -69,11 +69,11 @@ class Output {
   }
   /// What was added so far will be in the file soon.
   void flush() {
-    if (!waiting_.empty()) writer_.add(std::exchange(waiting_, {}));
+    if (!waiting_.empty()) hand_over(std::exchange(waiting_, {}));
   }
   TrajectoryEnd finish() {
     flush();
-    writer_.finish();
+    if (beside_) beside_->finish();
     const TrajectoryEnd end = text_.finish();
     if (binary_) binary_->finish();
     file_.flush();
@@ -85,6 +85,13 @@ class Output {
 
  private:
   static constexpr std::size_t most_waiting = 1024;
+
+  void hand_over(std::vector<Keyframe> batch) {
+    if (beside_)
+      beside_->add(std::move(batch));
+    else
+      write(batch);
+  }
 
   void write(const std::vector<Keyframe>& batch) {
     for (const Keyframe& keyframe : batch) {
@@ -111,7 +118,7 @@ class Output {
   std::uint64_t removed_ = 0, remove_;
   const Watch& watch_;
   std::vector<Keyframe> waiting_;
-  BatchWriter writer_;  ///< last: what it writes to must outlive it
+  std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it
 };
 
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
@@ -240,7 +247,7 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
-  Output output(trajectory, form, header, chain, report.voxels.remove, watch);
+  Output output(trajectory, form, header, chain, report.voxels.remove, job.threads, watch);
   if (chain.translating()) {
     carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search,
                       output, watch);

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/cell/ik.hpp"
 #include "core/material/support.hpp"
 #include "core/motion/tool_axes.hpp"
 #include "core/motion/tool_reach.hpp"
@@ -78,15 +79,14 @@ class Sweep {
     move(*way);
   }
 
-  /// One after the other: the starts for the top and a side help to find the others, or the side is turned into them.
+  /// Those of the top and a side; the side's is turned into those of the others, if the stock can be.
   void find_fields() {
     const auto turn = find_stock_turn(scene_.chain(), scene_.grid());
-    std::vector<Configuration> known;
-    for (std::size_t view = 0; view < straight_; ++view) {
-      if (turn && view > first_side) fields_[view] = turn_side(*turn, view);
-      if (fields_[view]) continue;
-      fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
-      if (view <= first_side) known.push_back(fields_[view]->start());
+    const std::size_t to_find = turn ? first_side + 1 : straight_;
+    for_each_index(threads_, to_find, [&](std::size_t view) { find_field_of(view); });
+    for (std::size_t view = to_find; view < straight_; ++view) {
+      fields_[view] = turn_side(*turn, view);
+      if (!fields_[view]) find_field_of(view);
     }
     for_each_index(threads_, straight_, [&](std::size_t view) {
       const PostureField& field = *fields_[view];
@@ -94,6 +94,14 @@ class Sweep {
           voxels_.n(), [&](const Vec3& cell) { return field.usable(cell); },
           [&](const Vec3& cell) { return field.part(cell); });
     });
+  }
+
+  void find_field_of(std::size_t view) {
+    // Held as from home above the stock, with some joint turned, the arm may well come from another side.
+    std::vector<Configuration> known;
+    const IkGoal hub{views_[0].ball_m(scene_.grid(), hub_cell()), views_[0].axis()};
+    if (const auto above = solve_ik(scene_.chain(), hub, home_); above && view > 0) known.push_back(*above);
+    fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
   }
 
   /// The first side's field for another side; nothing if the joint does not turn so far.
@@ -279,9 +287,7 @@ class Sweep {
   }
 
   void carve_slanted(std::size_t which) {
-    if (!fields_[which])
-      fields_[which] =
-          find_field(scene_, views_[which], home_, {fields_[0]->start()}, mix(seed_, which), threads_, watch_);
+    if (!fields_[which]) find_field_of(which);
     const std::uint64_t before = removed_;
     spared_[which] = false;
     SlantedCuts cuts(views_[which], support_.standing(), wanted_, gate(), reachable(which));
