@@ -153,15 +153,25 @@ class Sweep {
     spared_[which] = false;
     const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
     std::size_t at_once = most_layers_at_once;
-    for (int layer = voxels_.n() - 1; layer >= 0;) {
-      std::vector<Layer> layers = plan_layers(which, columns, layer, at_once, stray);
-      for_each_index(threads_, layers.size(), [&](std::size_t at) {
-        layers[at].followed = follow(*field_, scene_.tool(), scene_.grid(), layers[at].from, layers[at].strokes);
+    Batch batch = plan_layers(which, columns, voxels_.n() - 1, at_, at_once, stray);
+    while (!batch.layers.empty()) {
+      // As if nothing failed, what comes next is planned beside.
+      at_once = std::min(2 * at_once, most_layers_at_once);
+      Batch ahead;
+      for_each_index(threads_, 1 + batch.layers.size(), [&](std::size_t task) {
+        if (task == 0) {
+          ahead = plan_layers(which, columns, batch.layers.back().next, batch.end, at_once, stray);
+          return;
+        }
+        Layer& layer = batch.layers[task - 1];
+        layer.followed = follow(*field_, scene_.tool(), scene_.grid(), layer.from, layer.strokes);
       });
-      const int next = commit(layers, columns);
-      // Where one cut fails others do, and each time the rest was planned in vain.
-      at_once = next == layers.back().next ? std::min(2 * at_once, most_layers_at_once) : 1;
-      layer = next;
+      if (const auto failed = commit(batch, ahead, columns)) {
+        // Where one cut fails others do, and each time the rest was planned in vain.
+        at_once = 1;
+        ahead = plan_layers(which, columns, *failed, at_, at_once, stray);
+      }
+      batch = std::move(ahead);
     }
     Vec3 end = at_;
     const std::vector<Stroke> rise = columns.rise(end, stray);
@@ -185,11 +195,16 @@ class Sweep {
     Followed followed;
   };
 
-  /// What is to be done in the next layers from `c` down, as if nothing failed. Their number is the same at any number
-  /// of threads.
-  std::vector<Layer> plan_layers(std::size_t which, Columns& columns, int c, std::size_t at_once, double stray) {
+  struct Batch {
     std::vector<Layer> layers;
-    Vec3 end = at_;
+    Vec3 end;  ///< where the ball is then
+  };
+
+  /// What is to be done in the next layers from `c` down with the ball at `start`, as if nothing failed. Their number
+  /// is the same at any number of threads.
+  Batch plan_layers(std::size_t which, Columns& columns, int c, const Vec3& start, std::size_t at_once, double stray) {
+    Batch batch{{}, start};
+    auto& [layers, end] = batch;
     while (c >= 0 && layers.size() < at_once) {
       const Vec3 from = end;
       std::vector<Stroke> strokes = columns.cut_layer(c, end, stray);
@@ -199,7 +214,7 @@ class Sweep {
       layers.push_back({c, whole ? c - 1 : c, from, std::move(strokes), {}});
       c = layers.back().next;
     }
-    return layers;
+    return batch;
   }
 
   /// Ends the strokes before the first cut that would free a piece of material. That voxel is given up for this pass,
@@ -222,17 +237,21 @@ class Sweep {
     return true;
   }
 
-  /// Emits what could be followed, takes back what comes after a failure, and returns the layer to go on with.
-  int commit(std::vector<Layer>& layers, Columns& columns) {
+  /// Emits what could be followed. Where something failed it takes back what comes after, `ahead` as well, and says
+  /// which layer to go on with.
+  std::optional<int> commit(Batch& batch, const Batch& ahead, Columns& columns) {
+    auto& layers = batch.layers;
     for (std::size_t at = 0; at < layers.size(); ++at) {
       const auto& strokes = layers[at].strokes;
       const std::size_t done = commit(std::move(layers[at].followed), strokes);
       if (done == strokes.size()) continue;
+      for (auto later = ahead.layers.rbegin(); later != ahead.layers.rend(); ++later)
+        take_back(later->strokes, 0, columns, false);
       for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, columns, false);
       take_back(strokes, done, columns, true);
       return layers[at].c;
     }
-    return layers.back().next;
+    return std::nullopt;
   }
 
   /// Of a failed layer the first cut that could not be come to or not be made is given up.
