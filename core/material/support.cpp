@@ -7,6 +7,8 @@
 #include <queue>
 #include <unordered_set>
 
+#include "core/material/voxel_rows.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -90,14 +92,19 @@ Support::Support(const VoxelSet& standing, const VoxelSet& may_fall)
     : standing_(standing),
       loose_(find_loose(standing)),
       may_fall_(may_fall),
-      rooted_(static_cast<std::size_t>(standing.n() + 2) * static_cast<std::size_t>(standing.n() + 2), beyond) {
-  const int n = standing.n();
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      std::int16_t height = 0;
-      while (height < n && standing.contains({i, j, height})) ++height;
-      rooted(i, j) = height;
-      unrooted_ -= height;
+      rooted_(static_cast<std::size_t>(standing.n() + 2) * static_cast<std::size_t>(standing.n() + 2), beyond),
+      unrooted_(static_cast<std::int64_t>(standing.size())) {
+  const VoxelRows rows(standing.n());
+  for (int j = 0; j < rows.n; ++j)
+    for (int chunk = 0; chunk < rows.chunks; ++chunk) {
+      std::uint64_t whole = rows.mask();  // columns without a gap so far
+      for (int k = 0; k <= rows.n && whole != 0; ++k) {
+        const std::uint64_t still = k < rows.n ? whole & rows.get(standing, j, k, chunk) : 0;
+        for (std::uint64_t ended = whole & ~still; ended != 0; ended &= ended - 1)
+          rooted(rows.width * chunk + std::countr_zero(ended), j) = static_cast<std::int16_t>(k);
+        unrooted_ -= std::popcount(still);
+        whole = still;
+      }
     }
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <new>
 
 #include "tests/core/material/shapes.hpp"
 
@@ -164,6 +166,20 @@ TEST(Support, ALargeOverhangIsFollowedToItsOnlyPost) {
   EXPECT_FALSE(support.frees({32, 32, 41}));
   fill(table, {20, 0, 0}, {20, 0, 39});
   EXPECT_FALSE(Support(table, VoxelSet(64)).frees({0, 0, 20})) << "the other post holds all";
+}
+
+TEST(Support, WhatWasInItsMemoryBeforeChangesNothing) {
+  // A post of three voxels with one more hanging beside its top. Its height once made the count of what hangs zero.
+  VoxelSet standing(4);
+  fill(standing, {1, 1, 0}, {1, 1, 2});
+  standing.insert({2, 1, 2});
+  alignas(Support) std::array<std::int64_t, (sizeof(Support) + 7) / 8> memory;
+  for (std::int64_t value : {0, 3, 4, -1}) {
+    memory.fill(value);
+    auto* support = new (memory.data()) Support(standing, VoxelSet(4));
+    EXPECT_EQ(support->remove(VoxelLine{{1, 1, 2}, {1, 1, 2}}), 0) << "memory " << value;
+    support->~Support();
+  }
 }
 
 }  // namespace
