@@ -84,9 +84,11 @@ bool piece_near_material(const Piece& piece, const Frame& link_pose, const Mater
   const Frame pose = link_pose * piece.shape.pose;
   const Vec3 half = half_extents(piece.shape, pose.linear()) + Vec3::Constant(reach_m);
   const Vec3 middle = pose.translation() - grid.origin_m;
+  const Eigen::AlignedBox3d around((middle - half) / h, (middle + half) / h);
   const auto grown = make_fcl_geometry(piece.shape, reach_m);
-  return material.any_block((middle - half) / h, (middle + half) / h, [&](Voxel corner, int size) {
+  return material.any_cube([&](Voxel corner, int size) {
     const Vec3 low(corner.i, corner.j, corner.k), side = Vec3::Constant(size);
+    if (!around.intersects(Eigen::AlignedBox3d(low, low + side))) return false;
     if (distance_to_box(hull.core, low, low + side) > radius) return false;
     const fcl::Boxd block(fcl_mm * h * side);
     Frame at = Frame::Identity();

@@ -27,11 +27,11 @@ class Material {
   /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
   bool meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
 
-  /// Calls `visit(corner, size)` for the full cubes, as large as they come, that overlap the box [low, high], until it
-  /// returns true; returns whether it did.
-  template <typename Visit>
-  bool any_block(const Vec3& low, const Vec3& high, Visit&& visit) const {
-    return any_block_below(static_cast<int>(counts_.size()), {0, 0, 0}, low, high, visit);
+  /// Is there a full cube, as large as they come, that `meets(corner, size)` is true of? It is also asked of cubes that
+  /// are not full, from the largest down, and must be true of every cube that holds one it is true of.
+  template <typename Meets>
+  bool any_cube(const Meets& meets) const {
+    return any_cube_below(static_cast<int>(counts_.size()), {0, 0, 0}, meets);
   }
 
  private:
@@ -39,18 +39,14 @@ class Material {
   bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,
                           std::optional<Voxel> exempt) const;
 
-  template <typename Visit>
-  bool any_block_below(int level, Voxel at, const Vec3& low, const Vec3& high, Visit&& visit) const {
-    const int size = 1 << level;
+  template <typename Meets>
+  bool any_cube_below(int level, Voxel at, const Meets& meets) const {
     const std::uint32_t standing = count(level, at);
-    if (standing == 0) return false;
-    const Voxel corner = at * size;
-    if (corner.i >= high.x() || corner.j >= high.y() || corner.k >= high.z()) return false;
-    if (corner.i + size <= low.x() || corner.j + size <= low.y() || corner.k + size <= low.z()) return false;
-    if (standing == volume(level)) return visit(corner, size);
+    if (standing == 0 || !meets(at * (1 << level), 1 << level)) return false;
+    if (standing == volume(level)) return true;
     for (int child = 0; child < 8; ++child) {
       const Voxel below{2 * at.i + (child & 1), 2 * at.j + (child >> 1 & 1), 2 * at.k + (child >> 2)};
-      if (any_block_below(level - 1, below, low, high, visit)) return true;
+      if (any_cube_below(level - 1, below, meets)) return true;
     }
     return false;
   }
