@@ -96,10 +96,10 @@ const char* name(Reason reason) {
   return "unknown";
 }
 
-std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed, int threads,
-                                     const Watch& watch) {
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                                     std::uint64_t seed, int threads, const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
-  const Support support(scene.material().solid(), find_unheld(voxels));
+  const Support support(scene.material().solid(), may_fall);
   const std::vector<Body> holder = find_holder(scene.chain());
   std::vector<Residue> residue;
   const auto n = static_cast<std::size_t>(voxels.n());

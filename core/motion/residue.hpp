@@ -23,8 +23,8 @@ struct Residue {
 /// The remove voxels of `voxels` that still stand in `scene`, in index order, each with the first condition that no
 /// tool axis meets in the final state: joined to the outside; room for ball, shank and holder; a configuration at all;
 /// one within limits; one without contact. What meets all of them was left because its removal would free a loose
-/// piece, or else for want of a transit. Throws Cancelled.
-std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, std::uint64_t seed, int threads,
-                                     const Watch& watch);
+/// piece, or else for want of a transit. `may_fall`: what cannot be held. Throws Cancelled.
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                                     std::uint64_t seed, int threads, const Watch& watch);
 
 }  // namespace sculpt

@@ -146,6 +146,25 @@ void carve_with_arm(Scene& scene, const VoxelSet& may_fall, const Octree& octree
   report.quality.ompl_solved = arm.ompl_solved();
 }
 
+/// What sweeps left that may still be cut, and of what else stands that which touches it: no more matters to its
+/// blocks.
+VoxelGrid left_to_cut(const SweepRest& left, const VoxelSet& keep) {
+  const Grid bounds{keep.n(), 1, Vec3::Zero()};
+  VoxelSet wanted = left.standing;
+  wanted -= keep;
+  for (const Voxel v : left.out_of_tool_reach) wanted.erase(v);
+  VoxelGrid voxels{wanted, VoxelSet(keep.n())};
+  for_each_voxel(wanted, [&](Voxel v) {
+    for (const Voxel step : face_steps) {
+      const Voxel beside = v + step;
+      if (!bounds.contains(beside) || !left.standing.contains(beside) || wanted.contains(beside)) continue;
+      voxels.stock.insert(beside);
+      voxels.keep.insert(beside);
+    }
+  });
+  return voxels;
+}
+
 /// A translating robot has one tool direction only; what `sweep` is for an arm, `octree` is for it.
 std::string search_for(const Job& job, const Chain& chain) {
   return chain.translating() && job.search == "sweep" ? "octree" : job.search;
@@ -247,27 +266,25 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
   if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
+  const VoxelSet may_fall = find_unheld(result.voxels);
   Output output(trajectory, form, header, chain, report.voxels.remove, job.threads, watch);
   if (chain.translating()) {
     carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search,
                       output, watch);
   } else if (report.search == "sweep") {
     const SweepRest left = carve_by_sweeps(
-        scene, result.voxels, header.home, job.seed, job.threads,
+        scene, result.voxels, may_fall, header.home, job.seed, job.threads,
         [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, watch);
     scene.leave(left.standing);
-    VoxelGrid rest_voxels{left.standing, result.voxels.keep};
-    for (const Voxel v : left.out_of_tool_reach) rest_voxels.keep.insert(v);
-    const Octree rest = build_octree(rest_voxels, watch);
-    carve_with_arm(scene, find_unheld(result.voxels), rest, build_block_graph(rest, watch), header.home, job.seed,
-                   output, report, watch);
+    const Octree rest = build_octree(left_to_cut(left, result.voxels.keep), watch);
+    carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
   } else {
-    carve_with_arm(scene, find_unheld(result.voxels), octree, build_block_graph(octree, watch), header.home, job.seed,
-                   output, report, watch);
+    carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, output, report,
+                   watch);
   }
   report.plan_sha256 = output.finish().sha256;
   count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
-  result.residue = explain_residue(scene, result.voxels, job.seed, job.threads, watch);
+  result.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();
 

@@ -241,8 +241,7 @@ void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room,
 /// side of the grid than half a voxel.
 bool PostureField::room_is_clear(const Scene& scene, const Cube& cube) const {
   const Vec3 first = corner_cell(cube.corner).cwiseMax(0);
-  const Vec3 last = corner_cell(cube.corner + Voxel{1, 1, 1} * cube.size)
-                        .cwiseMin(last_cell());
+  const Vec3 last = corner_cell(cube.corner + Voxel{1, 1, 1} * cube.size).cwiseMin(last_cell());
   return (first.array() > last.array()).any() || room_is_clear(scene, first, last, tool_room_voxels);
 }
 

@@ -58,13 +58,21 @@ Voxel Columns::cell(Voxel voxel) const {
   return {along(view_.step[0]), along(view_.step[1]), along(view_.step[2])};
 }
 
+Columns::Run Columns::run_of(const Stroke& stroke) const {
+  const Voxel first = cell(stroke.first), last = cell(stroke.last);
+  return {std::min(first.i, last.i), std::max(first.i, last.i), first.j, first.k};
+}
+
 void Columns::restore(const Stroke& stroke, bool give_up) {
   if (stroke.count == 0) return;
-  const Voxel first = cell(stroke.first), last = cell(stroke.last);
-  const Run run{std::min(first.i, last.i), std::max(first.i, last.i), first.j, first.k};
+  const Run run = run_of(stroke);
   set_cells(standing_.row(run.b, run.c), run.first, run.last);
   covered_from_ = std::max(covered_from_, run.c + 1);
   if (give_up) given_up_.push_back(run);
+}
+
+void Columns::try_again(const Stroke& stroke) {
+  std::erase(given_up_, run_of(stroke));
 }
 
 /// What is cut in a layer uncovers cells below it, so those layers are covered anew after each.

@@ -36,14 +36,18 @@ class Columns {
 
   /// Takes back a stroke of `cut_layer`, the last ones first. What it cut is not tried again if `give_up`.
   void restore(const Stroke& stroke, bool give_up);
+  /// What was given up is tried again.
+  void try_again(const Stroke& stroke);
 
  private:
   /// Cells first..last of row b of layer c.
   struct Run {
     int first, last, b, c;
+    bool operator==(const Run&) const = default;
   };
 
   Voxel cell(Voxel voxel) const;
+  Run run_of(const Stroke& stroke) const;
   void cover_down_to(int c);
   std::vector<std::vector<Run>> find_runs(int c) const;
   bool in_layer_free(int a0, int b0, int a1, int b1, int c) const;

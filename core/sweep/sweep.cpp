@@ -23,7 +23,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t most_layers_at_once = 16;
-constexpr std::size_t first_side = 1;  // among the views
+constexpr std::size_t first_side = 1;  // of the views; four each of a kind follow
 constexpr std::size_t most_sorties_at_once = 8, most_cuts = 256;
 /// Voxels that make a field of a tilted direction, and the way there and back, worth their while.
 constexpr std::uint64_t fewest_slanted = 4;
@@ -39,8 +39,8 @@ Stroke part_of(const Stroke& cut, const Vec3& start, int first, int last) {
 
 class Sweep {
  public:
-  Sweep(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed, int threads,
-        const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch)
+  Sweep(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall, const Configuration& home,
+        std::uint64_t seed, int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch)
       : scene_(scene),
         voxels_(voxels),
         home_(home),
@@ -48,7 +48,8 @@ class Sweep {
         threads_(threads),
         emit_(emit),
         watch_(watch),
-        support_(voxels.stock, find_unheld(voxels)),
+        support_(voxels.stock, may_fall),
+        turn_(find_stock_turn(scene.chain(), scene.grid())),
         q_(home) {
     for (const ToolView& view : tool_views(voxels.n())) views_.push_back(view);
     straight_ = views_.size();
@@ -79,15 +80,11 @@ class Sweep {
     move(*way);
   }
 
-  /// Those of the top and a side; the side's is turned into those of the others, if the stock can be.
+  /// Those of the straight directions.
   void find_fields() {
-    const auto turn = find_stock_turn(scene_.chain(), scene_.grid());
-    const std::size_t to_find = turn ? first_side + 1 : straight_;
-    for_each_index(threads_, to_find, [&](std::size_t view) { find_field_of(view); });
-    for (std::size_t view = to_find; view < straight_; ++view) {
-      fields_[view] = turn_side(*turn, view);
-      if (!fields_[view]) find_field_of(view);
-    }
+    const std::size_t apart = turn_ ? first_side + 1 : straight_;
+    for_each_index(threads_, apart, [&](std::size_t view) { find_field_of(view); });
+    for (std::size_t view = apart; view < straight_; ++view) find_field_of(view);
     for_each_index(threads_, straight_, [&](std::size_t view) {
       const PostureField& field = *fields_[view];
       reach_[view].emplace(
@@ -96,23 +93,33 @@ class Sweep {
     });
   }
 
+  /// The first of each four sides that are quarter turns of each other is searched for. It is turned into the others',
+  /// if the stock can be.
   void find_field_of(std::size_t view) {
+    if (fields_[view]) return;
+    const std::size_t quarters = view < first_side ? 0 : (view - first_side) % 4;
+    if (turn_ && quarters > 0) {
+      find_field_of(view - quarters);
+      fields_[view] = turn_field(*fields_[view - quarters], view, static_cast<double>(quarters));
+    }
+    if (!fields_[view]) fields_[view] = search_field(view);
+  }
+
+  std::unique_ptr<PostureField> search_field(std::size_t view) const {
     // Held as from home above the stock, with some joint turned, the arm may well come from another side.
     std::vector<Configuration> known;
     const IkGoal hub{views_[0].ball_m(scene_.grid(), hub_cell()), views_[0].axis()};
     if (const auto above = solve_ik(scene_.chain(), hub, home_); above && view > 0) known.push_back(*above);
-    fields_[view] = find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
+    return find_field(scene_, views_[view], home_, known, mix(seed_, view), threads_, watch_);
   }
 
-  /// The first side's field for another side; nothing if the joint does not turn so far.
-  std::unique_ptr<PostureField> turn_side(const StockTurn& stock, std::size_t view) const {
-    const PostureField& side = *fields_[first_side];
-    const auto quarters = static_cast<double>(view - first_side);
+  /// Nothing if the joint does not turn so far.
+  std::unique_ptr<PostureField> turn_field(const PostureField& field, std::size_t view, double quarters) const {
     for (double rounds : {0, -1, 1}) {
-      const double by = stock.direction * (quarters / 4 + rounds) * 2 * std::numbers::pi;
-      if (side.can_turn(stock.coordinate, by))
-        return std::make_unique<PostureField>(side, views_[view],
-                                              by * Configuration::Unit(scene_.chain().dof(), stock.coordinate));
+      const double by = turn_->direction * (quarters / 4 + rounds) * 2 * std::numbers::pi;
+      if (field.can_turn(turn_->coordinate, by))
+        return std::make_unique<PostureField>(field, views_[view],
+                                              by * Configuration::Unit(scene_.chain().dof(), turn_->coordinate));
     }
     return nullptr;
   }
@@ -150,7 +157,8 @@ class Sweep {
       return;
     }
     Columns columns = columns_of(which);
-    spared_[which] = false;
+    spared_[which] = cut_since_ = false;
+    held_here_.clear();
     const double stray = stray_of(scene_.tool(), scene_.grid().voxel_m).ball;
     std::size_t at_once = most_layers_at_once;
     Batch batch = plan_layers(which, columns, voxels_.n() - 1, at_, at_once, stray);
@@ -169,6 +177,9 @@ class Sweep {
       if (const auto failed = commit(batch, ahead, columns)) {
         // Where one cut fails others do, and each time the rest was planned in vain.
         at_once = 1;
+        spared_[which] |= !held_here_.empty();
+        held_here_.clear();
+        cut_since_ = false;
         ahead = plan_layers(which, columns, *failed, at_, at_once, stray);
       }
       batch = std::move(ahead);
@@ -208,18 +219,38 @@ class Sweep {
     while (c >= 0 && layers.size() < at_once) {
       const Vec3 from = end;
       std::vector<Stroke> strokes = columns.cut_layer(c, end, stray);
-      const bool whole = remove_held(from, strokes, columns);
-      if (!whole) end = strokes.empty() ? from : strokes.back().to;
-      spared_[which] |= !whole;
-      layers.push_back({c, whole ? c - 1 : c, from, std::move(strokes), {}});
+      const std::optional<Stroke> freeing = remove_held(from, strokes, columns);
+      if (freeing) end = strokes.empty() ? from : strokes.back().to;
+      const bool done = is_done(which, strokes, freeing, columns);
+      layers.push_back({c, done ? c - 1 : c, from, std::move(strokes), {}});
       c = layers.back().next;
     }
     return batch;
   }
 
-  /// Ends the strokes before the first cut that would free a piece of material. That voxel is given up for this pass,
+  /// After one more try of a layer. What was given up in it is tried again when more was cut since: a piece that hangs
+  /// on one side can be cut from its free end.
+  bool is_done(std::size_t which, const std::vector<Stroke>& strokes, const std::optional<Stroke>& freeing,
+               Columns& columns) {
+    const auto cuts = [](const Stroke& stroke) { return stroke.count > 0; };
+    cut_since_ |= !held_here_.empty() && std::any_of(strokes.begin(), strokes.end(), cuts);
+    if (freeing) {
+      held_here_.push_back(*freeing);
+      return false;
+    }
+    const bool done = !cut_since_;
+    if (done)
+      spared_[which] |= !held_here_.empty();
+    else
+      for (const Stroke& held : held_here_) columns.try_again(held);
+    held_here_.clear();
+    cut_since_ = false;
+    return done;
+  }
+
+  /// Ends the strokes before the first cut that would free a piece of material, and returns it. That voxel is given up,
   /// what comes behind it is taken back.
-  bool remove_held(const Vec3& from, std::vector<Stroke>& strokes, Columns& columns) {
+  std::optional<Stroke> remove_held(const Vec3& from, std::vector<Stroke>& strokes, Columns& columns) {
     for (std::size_t s = 0; s < strokes.size(); ++s) {
       const Stroke stroke = strokes[s];
       if (stroke.count == 0) continue;
@@ -228,13 +259,14 @@ class Sweep {
       const Vec3 start = s == 0 ? from : strokes[s - 1].to;
       for (std::size_t later = strokes.size(); later-- > s + 1;) columns.restore(strokes[later], false);
       if (held + 1 < stroke.count) columns.restore(part_of(stroke, start, held + 1, stroke.count - 1), false);
-      columns.restore(part_of(stroke, start, held, held), true);
+      const Stroke freeing = part_of(stroke, start, held, held);
+      columns.restore(freeing, true);
       strokes.resize(s);
       if (held > 0) strokes.push_back(part_of(stroke, start, 0, held - 1));
       while (!strokes.empty() && strokes.back().count == 0) strokes.pop_back();
-      return false;
+      return freeing;
     }
-    return true;
+    return std::nullopt;
   }
 
   /// Emits what could be followed. Where something failed it takes back what comes after, `ahead` as well, and says
@@ -306,7 +338,7 @@ class Sweep {
   }
 
   void carve_slanted(std::size_t which) {
-    if (!fields_[which]) find_field_of(which);
+    find_field_of(which);
     const std::uint64_t before = removed_;
     spared_[which] = false;
     SlantedCuts cuts(views_[which], support_.standing(), wanted_, gate(), reachable(which));
@@ -457,7 +489,8 @@ class Sweep {
   int threads_;
   const std::function<void(std::vector<Keyframe>)>& emit_;
   const Watch& watch_;
-  Support support_;                                 ///< of what stands when all that is planned is cut
+  Support support_;  ///< of what stands when all that is planned is cut
+  std::optional<StockTurn> turn_;
   std::vector<Voxel> wanted_;                       ///< of what straight directions left, what tilted ones might cut
   std::optional<std::vector<Voxel>> out_of_reach_;  ///< what no direction can, once that was asked
   Configuration q_;
@@ -469,14 +502,17 @@ class Sweep {
   std::vector<std::unique_ptr<PostureField>> fields_;
   std::vector<std::optional<ReachRows>> reach_;  ///< where the field of a straight one is usable
   std::vector<char> used_up_;                    ///< the last pass along it cut nothing
+  std::vector<Stroke> held_here_;                ///< given up in the layer at hand: each held a piece of material
+  bool cut_since_ = false;                       ///< something was cut in that layer since
   std::vector<char> spared_;                     ///< something was given up in the last pass lest a piece come free
 };
 
 }  // namespace
 
-SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                          int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
-  return Sweep(scene, voxels, home, seed, threads, emit, watch).run();
+SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                          const Configuration& home, std::uint64_t seed, int threads,
+                          const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
+  return Sweep(scene, voxels, may_fall, home, seed, threads, emit, watch).run();
 }
 
 }  // namespace sculpt

@@ -21,9 +21,10 @@ struct SweepRest {
 
 /// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home.
 /// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
-/// `emit` gets, a batch at a time on the calling thread, is certified. Deterministic, also in `threads`. Throws
-/// Cancelled.
-SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Configuration& home, std::uint64_t seed,
-                          int threads, const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
+/// `emit` gets, a batch at a time on the calling thread, is certified. `may_fall`: what cannot be held. Deterministic,
+/// also in `threads`. Throws Cancelled.
+SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                          const Configuration& home, std::uint64_t seed, int threads,
+                          const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
 
 }  // namespace sculpt

@@ -47,24 +47,21 @@ inline std::array<ToolView, 5> tool_views(int n) {
            {n, {0, last, 0}, {x, z, y * -1}}}};
 }
 
-/// Tool axes between those: along the diagonals of the faces and of the cube that do not point down.
+/// Tool axes between those, along the diagonals of the faces and of the cube that do not point down: leaning over one
+/// side from above, lying between two sides, and between two sides and above. Of each four, every one but the first the
+/// one before it turned by a quarter about z.
 inline std::vector<ToolView> tilted_views(int n) {
-  const auto facing = [n](Voxel a, Voxel b, Voxel c, Voxel lean) {
-    ToolView view{n, {}, {a, b, c}, lean};
-    for (const Voxel step : view.step)
-      if (step.i + step.j + step.k < 0) view.corner = view.corner - step * (n - 1);
-    return view;
-  };
   const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const auto turned = [](Voxel v) { return Voxel{-v.j, v.i, v.k}; };
   std::vector<ToolView> views;
-  for (int way : {1, -1}) {
-    views.push_back(facing(x * way, y, z, {1, 0, 1}));
-    views.push_back(facing(y * way, x, z, {1, 0, 1}));
-  }
-  for (int side : {1, -1})
-    for (int way : {1, -1}) {
-      views.push_back(facing(x * side, y * way, z, {1, 1, 1}));
-      views.push_back(facing(x * side, z, y * way, {1, 0, 1}));
+  for (ToolView view : {ToolView{n, {}, {x, y, z}, {1, 0, 1}}, ToolView{n, {}, {x, z, y}, {1, 0, 1}},
+                        ToolView{n, {}, {x, y, z}, {1, 1, 1}}})
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      view.corner = {};
+      for (const Voxel step : view.step)
+        if (step.i + step.j + step.k < 0) view.corner = view.corner - step * (n - 1);
+      views.push_back(view);
+      for (Voxel& step : view.step) step = turned(step);
     }
   return views;
 }

@@ -13,7 +13,7 @@ std::vector<Residue> explain(const Cell& cell, const VoxelSet& keep, Voxel left)
   standing.insert(left);
   const VoxelGrid voxels{standing, keep};
   const Scene scene(cell, cell.grid(keep.n()), standing);
-  return explain_residue(scene, voxels, 0, 2, {});
+  return explain_residue(scene, voxels, find_unheld(voxels), 0, 2, {});
 }
 
 TEST(Residue, AVoxelInTheOpenThatWasLeftLacksATransit) {

@@ -81,20 +81,27 @@ TEST(Sweep, SameJobAndSeedGiveTheSameBytesAtAnyNumberOfThreads) {
 }
 
 TEST(Sweep, StopsAtAnyStepOfThePlan) {
-  const std::pair<int, std::uint64_t> stops[] = {{1, 1}, {1, 40}, {2, 7}, {2, 30}};
-  for (const auto& [threads, after] : stops) {
-    SCOPED_TRACE("step " + std::to_string(after) + ", threads " + std::to_string(threads));
-    Job job = sweep_job(shipped_cell("panda-turntable"), random_target(16, 1));
-    job.threads = threads;
+  Job job = sweep_job(shipped_cell("panda-turntable"), random_target(16, 1));
+  const auto count_steps = [&job](std::uint64_t stop_after) {
     std::stop_source stop;
     std::uint64_t steps = 0;
     const Watch watch{stop.get_token(), [&](const Progress& progress) {
-                        if (progress.stage == Stage::plan && ++steps == after) stop.request_stop();
+                        if (progress.stage == Stage::plan && ++steps == stop_after) stop.request_stop();
                       }};
     const ScratchFile file;
-    EXPECT_THROW(run_job(job, file.path(), watch), Cancelled);
-    EXPECT_EQ(steps, after) << "no step is taken after the stop";
-  }
+    if (stop_after > 0)
+      EXPECT_THROW(run_job(job, file.path(), watch), Cancelled);
+    else
+      run_job(job, file.path(), watch);
+    return steps;
+  };
+  const std::uint64_t all = count_steps(0);
+  ASSERT_GT(all, 10u);
+  for (const std::uint64_t after : {std::uint64_t{1}, all / 3, all - 2})
+    for (int threads : {1, 2}) {
+      job.threads = threads;
+      EXPECT_EQ(count_steps(after), after) << "a step is taken after the stop; threads " << threads;
+    }
 }
 
 TEST(Sweep, StockSmallerThanTheGridIsNotCutWhereThereIsNone) {
@@ -167,7 +174,8 @@ TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
     const Scene scene(cell, cell.grid(16), voxels.stock);
     const Chain& chain = scene.chain();
     const Configuration home = rounded(cell.home(chain), chain.lower(), chain.upper());
-    const SweepRest rest = carve_by_sweeps(scene, voxels, home, seed, 2, [](const std::vector<Keyframe>&) {}, {});
+    const SweepRest rest =
+        carve_by_sweeps(scene, voxels, find_unheld(voxels), home, seed, 2, [](const std::vector<Keyframe>&) {}, {});
     std::vector<Voxel> wanted;
     std::size_t standing = 0;
     for_each_voxel(voxels.stock, [&](Voxel v) {

@@ -135,6 +135,7 @@ TEST(SlantedCuts, CutAllThatTheToolCanComeToAndTouchNothingElse) {
 
 TEST(SlantedCuts, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
   const int n = 8;
+  std::size_t removed = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Shape shape = random_shape(n, seed);
     VoxelSet left_out = shape.keep;
@@ -161,8 +162,9 @@ TEST(SlantedCuts, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
       for (int part = 0; part < culprit.count; ++part) left_out.insert(voxel_of(culprit, part));
     }
     ASSERT_EQ(count_within_reach(view, replay.standing(), list(replay.standing(), left_out)), 0u);
-    EXPECT_GT(replay.removed(), 0u);
+    removed += replay.removed();
   }
+  EXPECT_GT(removed, 600u);
 }
 
 TEST(SlantedCuts, KeepToWhereTheBallMayBe) {
