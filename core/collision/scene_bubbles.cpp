@@ -83,8 +83,9 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
   return approach;
 }
 
-/// Where planes lie between all of the two: how the body that moves less comes nearer to them. `approach`: of that
-/// body, its room without the distance. Nothing if there is no such plane, or no room.
+/// Where planes lie between all of the two: how the body that moves less comes nearer to them, if it may come too near
+/// within +-half at all. `approach`: of that body, its room without the distance. Nothing if there is no such plane, or
+/// no room.
 std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const Pair& pair, const std::vector<Frame>& at,
                                                                   const Configuration& half, double enough,
                                                                   const Bubble::Approach& approach) const {
@@ -108,7 +109,9 @@ std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const Pair& pa
       return -(approach.end_a.transpose() * plane.normal +
                approach.turn.transpose() * (point - hull_a).cross(plane.normal));
     };
-    advances.push_back({advance_of(plane.capsule.core.a), advance_of(plane.capsule.core.b), room});
+    const Bubble::Advance advance{advance_of(plane.capsule.core.a), advance_of(plane.capsule.core.b), room};
+    const auto most = [&half](const Configuration& end) { return end.cwiseAbs().dot(half); };
+    if (std::max(most(advance.end_a), most(advance.end_b)) >= room) advances.push_back(advance);
   }
   return advances;
 }
@@ -161,7 +164,7 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
     Bubble::Approach approach = impl_->approach(pair, at, half);
     if (const auto planes = impl_->advances(pair, at, half, enough, approach)) {
       advances.insert(advances.end(), planes->begin(), planes->end());
-      return Answer::kept_apart;
+      return planes->empty() ? Answer::touch_nowhere : Answer::kept_apart;
     }
     const double apart = impl_->gap(pair, at, enough);
     if (apart >= enough) return Answer::touch_nowhere;

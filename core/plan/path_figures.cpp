@@ -10,9 +10,22 @@ constexpr double straight = 0.99985;
 
 }  // namespace
 
+PathFigures::PathFigures(const Chain& chain, const Grid& grid, const Configuration& home)
+    : chain_(chain),
+      grid_(grid),
+      turning_(Configuration::Zero(chain.dof())),
+      q_(home),
+      ball_(chain.tool_pose(home).ball_m) {
+  for (int c = 0; c < chain.dof(); ++c) {
+    const auto joint = static_cast<std::size_t>(chain.joints()[static_cast<std::size_t>(c)]);
+    if (chain.robot().joints[joint].kind == JointKind::revolute) turning_[c] = 1;
+  }
+}
+
 void PathFigures::add(const Keyframe& keyframe) {
   ++keyframes;
-  const Vec3 ball = chain_.tool_pose(keyframe.q).ball_m;
+  // A cut ends in the middle of a voxel, to within the tolerance of the plan.
+  const Vec3 ball = keyframe.cut ? grid_.centre(keyframe.last) : chain_.tool_pose(keyframe.q).ball_m;
   const double length = (ball - ball_).norm();
   (keyframe.cut ? cut_m : travel_m) += length;
   if (length > 0) {
@@ -20,10 +33,7 @@ void PathFigures::add(const Keyframe& keyframe) {
     if (heading.dot(heading_) < straight) ++turns;
     heading_ = heading;
   }
-  for (int c = 0; c < chain_.dof(); ++c)
-    if (chain_.robot().joints[static_cast<std::size_t>(chain_.joints()[static_cast<std::size_t>(c)])].kind ==
-        JointKind::revolute)
-      joint_travel_rad += std::abs(keyframe.q[c] - q_[c]);
+  joint_travel_rad += turning_.dot((keyframe.q - q_).cwiseAbs());
   if (keyframe.cut) {
     const int count = run_length(keyframe);
     removed += static_cast<std::uint64_t>(count);

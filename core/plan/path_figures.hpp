@@ -11,8 +11,7 @@ namespace sculpt {
 /// A turn is a change of the ball's direction by more than a degree.
 class PathFigures {
  public:
-  PathFigures(const Chain& chain, const Configuration& home)
-      : chain_(chain), q_(home), ball_(chain.tool_pose(home).ball_m) {}
+  PathFigures(const Chain& chain, const Grid& grid, const Configuration& home);
 
   void add(const Keyframe& keyframe);
 
@@ -21,6 +20,8 @@ class PathFigures {
 
  private:
   const Chain& chain_;
+  Grid grid_;
+  Configuration turning_;  ///< 1 for revolute joints, else 0
   Configuration q_;
   Vec3 ball_;
   bool cutting_ = false, moving_ = false;

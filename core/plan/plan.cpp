@@ -46,7 +46,7 @@ class Output {
       : path_(path),
         file_(path, std::ios::binary | std::ios::trunc),
         text_(form == TrajectoryForm::text ? file_ : nowhere_, header),
-        figures_(chain, header.home),
+        figures_(chain, header.grid, header.home),
         remove_(remove),
         watch_(watch) {
     if (form == TrajectoryForm::binary) binary_.emplace(file_, header);

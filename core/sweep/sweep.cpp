@@ -48,7 +48,7 @@ class Sweep {
         threads_(threads),
         emit_(emit),
         watch_(watch),
-        support_(voxels.stock, may_fall),
+        may_fall_(may_fall),
         turn_(find_stock_turn(scene.chain(), scene.grid())),
         q_(home) {
     for (const ToolView& view : tool_views(voxels.n())) views_.push_back(view);
@@ -61,13 +61,13 @@ class Sweep {
   }
 
   SweepRest run() {
-    find_fields();
+    begin();
     do {
       std::fill_n(used_up_.begin(), straight_, 0);
       while (const auto view = best_view()) carve_along(*view);
     } while (carve_slanted());
     go_home();
-    return {support_.standing(), std::move(*out_of_reach_)};
+    return {support_->standing(), std::move(*out_of_reach_)};
   }
 
  private:
@@ -80,10 +80,15 @@ class Sweep {
     move(*way);
   }
 
-  /// Those of the straight directions.
-  void find_fields() {
+  /// Finds what holds the material and the fields of the straight directions.
+  void begin() {
     const std::size_t apart = turn_ ? first_side + 1 : straight_;
-    for_each_index(threads_, apart, [&](std::size_t view) { find_field_of(view); });
+    for_each_index(threads_, apart + 1, [&](std::size_t task) {
+      if (task < apart)
+        find_field_of(task);
+      else
+        support_.emplace(voxels_.stock, may_fall_);
+    });
     for (std::size_t view = apart; view < straight_; ++view) find_field_of(view);
     for_each_index(threads_, straight_, [&](std::size_t view) {
       const PostureField& field = *fields_[view];
@@ -136,7 +141,7 @@ class Sweep {
   }
 
   Columns columns_of(std::size_t view) const {
-    return {views_[view], support_.standing(), voxels_.keep, *reach_[view]};
+    return {views_[view], support_->standing(), voxels_.keep, *reach_[view]};
   }
 
   /// A direction without a field may reach everything.
@@ -254,7 +259,7 @@ class Sweep {
     for (std::size_t s = 0; s < strokes.size(); ++s) {
       const Stroke stroke = strokes[s];
       if (stroke.count == 0) continue;
-      const int held = support_.remove(VoxelLine{stroke.first, stroke.last});
+      const int held = support_->remove(VoxelLine{stroke.first, stroke.last});
       if (held == stroke.count) continue;
       const Vec3 start = s == 0 ? from : strokes[s - 1].to;
       for (std::size_t later = strokes.size(); later-- > s + 1;) columns.restore(strokes[later], false);
@@ -299,11 +304,11 @@ class Sweep {
   /// Along tilted directions what no straight one came to. False if nothing was cut.
   bool carve_slanted() {
     if (!out_of_reach_) {
-      VoxelSet rest = support_.standing();
+      VoxelSet rest = support_->standing();
       rest -= voxels_.keep;
       for_each_voxel(rest, [&](Voxel v) { wanted_.push_back(v); });
       const double length = scene_.tool().stickout_m / scene_.grid().voxel_m;
-      out_of_reach_ = find_out_of_tool_reach(support_.standing(), wanted_, tool_steps(), length, watch_);
+      out_of_reach_ = find_out_of_tool_reach(support_->standing(), wanted_, tool_steps(), length, watch_);
       for (const Voxel v : *out_of_reach_) rest.erase(v);
       std::erase_if(wanted_, [&](Voxel v) { return !rest.contains(v); });
     }
@@ -313,7 +318,7 @@ class Sweep {
   }
 
   std::optional<std::size_t> best_tilted_view() {
-    std::erase_if(wanted_, [&](Voxel v) { return !support_.standing().contains(v); });
+    std::erase_if(wanted_, [&](Voxel v) { return !support_->standing().contains(v); });
     if (wanted_.size() < fewest_slanted) return std::nullopt;
     std::vector<std::uint64_t> counts(views_.size());
     for_each_index(threads_, views_.size() - straight_, [&](std::size_t tilted) {
@@ -334,14 +339,14 @@ class Sweep {
     });
     const double all_through = 2.0 * voxels_.n();
     return wanted.size() -
-           find_out_of_tool_reach(support_.standing(), wanted, {view.along(view.lean)}, all_through, watch_).size();
+           find_out_of_tool_reach(support_->standing(), wanted, {view.along(view.lean)}, all_through, watch_).size();
   }
 
   void carve_slanted(std::size_t which) {
     find_field_of(which);
     const std::uint64_t before = removed_;
     spared_[which] = false;
-    SlantedCuts cuts(views_[which], support_.standing(), wanted_, gate(), reachable(which));
+    SlantedCuts cuts(views_[which], support_->standing(), wanted_, gate(), reachable(which));
     std::size_t at_once = most_sorties_at_once, each = most_cuts;
     for (;;) {
       std::vector<Sortie> sorties = plan_sorties(cuts, at_once, each);
@@ -390,7 +395,7 @@ class Sweep {
       for (std::size_t s = 0; s < strokes.size(); ++s) {
         const Stroke stroke = strokes[s];
         if (stroke.count == 0) continue;
-        const int held = support_.remove(VoxelLine{stroke.first, stroke.last});
+        const int held = support_->remove(VoxelLine{stroke.first, stroke.last});
         if (held == stroke.count) continue;
         if (held > 0) restore(part_of(stroke, Vec3::Zero(), 0, held - 1));
         for (std::size_t before = s; before-- > 0;) restore(strokes[before]);
@@ -408,7 +413,7 @@ class Sweep {
   }
 
   void restore(const Stroke& stroke) {
-    if (stroke.count > 0) support_.restore(VoxelLine{stroke.first, stroke.last});
+    if (stroke.count > 0) support_->restore(VoxelLine{stroke.first, stroke.last});
   }
 
   /// Emits the sorties before the first that could not be followed to its end, and says which that is.
@@ -489,7 +494,8 @@ class Sweep {
   int threads_;
   const std::function<void(std::vector<Keyframe>)>& emit_;
   const Watch& watch_;
-  Support support_;  ///< of what stands when all that is planned is cut
+  const VoxelSet& may_fall_;
+  std::optional<Support> support_;  ///< of what stands when all that is planned is cut
   std::optional<StockTurn> turn_;
   std::vector<Voxel> wanted_;                       ///< of what straight directions left, what tilted ones might cut
   std::optional<std::vector<Voxel>> out_of_reach_;  ///< what no direction can, once that was asked
