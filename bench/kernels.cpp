@@ -10,6 +10,7 @@
 #include "core/motion/line.hpp"
 #include "core/motion/transit.hpp"
 #include "core/plan/plan.hpp"
+#include "core/sweep/columns.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/sweep/posture_lanes.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/sweep/posture_field.hpp"
-#include "core/sweep/strokes.hpp"
+#include "core/sweep/stroke.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {

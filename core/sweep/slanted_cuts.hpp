@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/sweep/strokes.hpp"
+#include "core/sweep/stroke.hpp"
 #include "core/sweep/tool_shadow.hpp"
+#include "core/sweep/tool_view.hpp"
 
 namespace sculpt {
 

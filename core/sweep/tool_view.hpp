@@ -36,6 +36,14 @@ struct ToolView {
   }
 };
 
+/// Where the tool comes in, in cells of any view: above the middle of the grid.
+inline Voxel gate(int n) {
+  return {n / 2, n / 2, n + 1};
+}
+inline Vec3 hub_cell(int n) {
+  return Vec3(gate(n).i, gate(n).j, gate(n).k);
+}
+
 /// Tool axis +z, then the four sides +x, +y, -x, -y, each the one before it turned by a quarter about z.
 inline std::array<ToolView, 5> tool_views(int n) {
   const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};

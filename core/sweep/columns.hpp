@@ -5,17 +5,9 @@
 #include <vector>
 
 #include "core/sweep/reach_rows.hpp"
+#include "core/sweep/stroke.hpp"
 
 namespace sculpt {
-
-/// A straight line of the ball's centre from where the last stroke ended, in cells of the view. A cut goes along one
-/// axis and removes the cells it comes to, `count` of them; all others pass through air only.
-struct Stroke {
-  Vec3 to = Vec3::Zero();
-  int count = 0;          ///< 0: nothing is cut
-  double stray = 0;       ///< how far the tool may leave the line (voxel edges) without coming near any material
-  Voxel first{}, last{};  ///< cut: voxels of the grid
-};
 
 /// The material as the tool comes down on it: in each column only the topmost standing cell can be cut, as nothing may
 /// stand above the ball. Not shared between threads.

@@ -1,4 +1,4 @@
-#include "core/sweep/strokes.hpp"
+#include "core/sweep/columns.hpp"
 
 #include <gtest/gtest.h>
 

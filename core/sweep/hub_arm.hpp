@@ -1,0 +1,56 @@
+// The arm of a sweep: from one tool direction to the next by way of their hubs, and along strokes in between.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/sweep/follow.hpp"
+
+namespace sculpt {
+
+/// Begins at home and remembers its way back there. Every edge it emits is certified. Not shared between threads.
+class HubArm {
+ public:
+  using Emit = std::function<void(std::vector<Keyframe>)>;
+
+  /// `scene`, `emit` and `watch` must outlive the object.
+  HubArm(const Scene& scene, const Configuration& home, std::uint64_t seed, const Emit& emit, const Watch& watch)
+      : scene_(scene), home_(home), seed_(seed), emit_(emit), watch_(watch), q_(home) {}
+
+  /// Goes over to the hub of a direction. False, and nothing done, if there is no way. Throws Cancelled.
+  bool enter(const PostureField& field);
+  /// Of the direction in use; none at home.
+  const PostureField* field() const { return field_; }
+  /// The ball, in cells of the view of that direction.
+  const Vec3& at() const { return at_; }
+
+  /// What it does from `from` on, along the direction in use. Any thread.
+  Followed try_strokes(const Vec3& from, const std::vector<Stroke>& strokes) const;
+  /// Emits what was followed, from where the arm is, and says how many strokes that is.
+  std::size_t commit(Followed followed, const std::vector<Stroke>& strokes);
+  /// Voxels in all.
+  std::uint64_t removed() const { return removed_; }
+
+  /// Throws InputError `no_transit` where not even the way it came is open, Cancelled.
+  void go_home();
+
+ private:
+  std::vector<Configuration> find_transit(const Configuration& to);
+  std::optional<std::vector<Configuration>> way_home() const;
+  void move(const std::vector<Configuration>& way);
+  void emit(std::vector<Keyframe> keyframes) const;
+
+  const Scene& scene_;
+  Configuration home_;
+  std::uint64_t seed_, transits_ = 0, removed_ = 0;
+  const Emit& emit_;
+  const Watch& watch_;
+  Configuration q_;
+  Vec3 at_ = Vec3::Zero();
+  const PostureField* field_ = nullptr;
+  std::vector<Configuration> way_home_;  ///< from the hub of the direction in use
+};
+
+}  // namespace sculpt

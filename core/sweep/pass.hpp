@@ -1,0 +1,23 @@
+// What the passes of a sweep work on, and how one ended.
+#pragma once
+
+#include "core/material/support.hpp"
+#include "core/sweep/hub_arm.hpp"
+
+namespace sculpt {
+
+struct Carving {
+  const Scene& scene;
+  const VoxelSet& keep;
+  int threads;
+  const Watch& watch;
+  Support support;  ///< of what stands when all that is planned is cut
+  HubArm arm;
+};
+
+struct PassEnd {
+  bool cut = false;     ///< something
+  bool spared = false;  ///< something was left lest a piece come free
+};
+
+}  // namespace sculpt

@@ -1,0 +1,180 @@
+#include "core/sweep/straight_pass.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "core/base/parallel.hpp"
+#include "core/sweep/columns.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t most_layers_at_once = 16;
+
+struct Layer {
+  int c, next;  ///< the layer, and the one to go on with: itself, if a cut was given up
+  Vec3 from;
+  std::vector<Stroke> strokes;
+  Followed followed;
+};
+
+struct Batch {
+  std::vector<Layer> layers;
+  Vec3 end;  ///< where the ball is then
+};
+
+class StraightPass {
+ public:
+  StraightPass(Carving& carving, const ToolView& view, const ReachRows& reach)
+      : support_(carving.support),
+        arm_(carving.arm),
+        threads_(carving.threads),
+        top_(view.n - 1),
+        stray_(stray_of(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
+        columns_(view, carving.support.standing(), carving.keep, reach) {}
+
+  PassEnd run() {
+    const std::uint64_t before = arm_.removed();
+    std::size_t at_once = most_layers_at_once;
+    Batch batch = plan(top_, arm_.at(), at_once);
+    while (!batch.layers.empty()) {
+      // As if nothing failed, what comes next is planned beside.
+      at_once = std::min(2 * at_once, most_layers_at_once);
+      Batch ahead;
+      for_each_index(threads_, 1 + batch.layers.size(), [&](std::size_t task) {
+        if (task == 0) {
+          ahead = plan(batch.layers.back().next, batch.end, at_once);
+        } else {
+          Layer& layer = batch.layers[task - 1];
+          layer.followed = arm_.try_strokes(layer.from, layer.strokes);
+        }
+      });
+      if (const auto failed = commit(batch, ahead)) {
+        // Where one cut fails others do, and each time the rest was planned in vain.
+        at_once = 1;
+        end_layer();
+        ahead = plan(*failed, arm_.at(), at_once);
+      }
+      batch = std::move(ahead);
+    }
+    rise();
+    return {arm_.removed() > before, spared_};
+  }
+
+ private:
+  /// What is to be done in the next layers from `c` down with the ball at `start`, as if nothing failed. Their number
+  /// is the same at any number of threads.
+  Batch plan(int c, const Vec3& start, std::size_t at_once) {
+    Batch batch{{}, start};
+    auto& [layers, end] = batch;
+    while (c >= 0 && layers.size() < at_once) {
+      const Vec3 from = end;
+      std::vector<Stroke> strokes = columns_.cut_layer(c, end, stray_);
+      const std::optional<Stroke> freeing = remove_held(from, strokes);
+      if (freeing) end = strokes.empty() ? from : strokes.back().to;
+      const bool done = is_done(strokes, freeing);
+      layers.push_back({c, done ? c - 1 : c, from, std::move(strokes), {}});
+      c = layers.back().next;
+    }
+    return batch;
+  }
+
+  /// Ends the strokes before the first cut that would free a piece of material, and returns it. That voxel is given up,
+  /// what comes behind it is taken back.
+  std::optional<Stroke> remove_held(const Vec3& from, std::vector<Stroke>& strokes) {
+    for (std::size_t s = 0; s < strokes.size(); ++s) {
+      const Stroke stroke = strokes[s];
+      if (!stroke.cuts()) continue;
+      const int held = support_.remove(stroke.line());
+      if (held == stroke.count) continue;
+      const Vec3 start = s == 0 ? from : strokes[s - 1].to;
+      for (std::size_t later = strokes.size(); later-- > s + 1;) columns_.restore(strokes[later], false);
+      if (held + 1 < stroke.count) columns_.restore(part_of(stroke, start, held + 1, stroke.count - 1), false);
+      const Stroke freeing = part_of(stroke, start, held, held);
+      columns_.restore(freeing, true);
+      strokes.resize(s);
+      if (held > 0) strokes.push_back(part_of(stroke, start, 0, held - 1));
+      while (!strokes.empty() && !strokes.back().cuts()) strokes.pop_back();
+      return freeing;
+    }
+    return std::nullopt;
+  }
+
+  /// After one more try of a layer. What was given up in it is tried again when more was cut since: a piece that hangs
+  /// on one side can be cut from its free end.
+  bool is_done(const std::vector<Stroke>& strokes, const std::optional<Stroke>& freeing) {
+    cut_since_ |= !held_here_.empty() &&
+                  std::any_of(strokes.begin(), strokes.end(), [](const Stroke& stroke) { return stroke.cuts(); });
+    if (freeing) {
+      held_here_.push_back(*freeing);
+      return false;
+    }
+    if (!cut_since_) {
+      end_layer();
+      return true;
+    }
+    for (const Stroke& held : held_here_) columns_.try_again(held);
+    held_here_.clear();
+    cut_since_ = false;
+    return false;
+  }
+
+  void end_layer() {
+    spared_ |= !held_here_.empty();
+    held_here_.clear();
+    cut_since_ = false;
+  }
+
+  /// Emits what could be followed. Where something failed it takes back what comes after, `ahead` as well, and says
+  /// which layer to go on with.
+  std::optional<int> commit(Batch& batch, const Batch& ahead) {
+    auto& layers = batch.layers;
+    for (std::size_t at = 0; at < layers.size(); ++at) {
+      const auto& strokes = layers[at].strokes;
+      const std::size_t done = arm_.commit(std::move(layers[at].followed), strokes);
+      if (done == strokes.size()) continue;
+      for (auto later = ahead.layers.rbegin(); later != ahead.layers.rend(); ++later)
+        take_back(later->strokes, 0, false);
+      for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, false);
+      take_back(strokes, done, true);
+      return layers[at].c;
+    }
+    return std::nullopt;
+  }
+
+  /// Of a failed layer the first cut that could not be come to or not be made is given up.
+  void take_back(const std::vector<Stroke>& strokes, std::size_t from, bool failed) {
+    std::size_t given_up = failed ? from : strokes.size();
+    while (given_up < strokes.size() && !strokes[given_up].cuts()) ++given_up;
+    for (std::size_t s = strokes.size(); s-- > from;) {
+      columns_.restore(strokes[s], s == given_up);
+      if (strokes[s].cuts()) support_.restore(strokes[s].line());
+    }
+  }
+
+  void rise() {
+    Vec3 end = arm_.at();
+    const std::vector<Stroke> up = columns_.rise(end, stray_);
+    if (arm_.commit(arm_.try_strokes(arm_.at(), up), up) < up.size())
+      throw std::logic_error("the tool came down where it cannot go up again");
+  }
+
+  Support& support_;
+  HubArm& arm_;
+  int threads_, top_;
+  double stray_;
+  Columns columns_;
+  std::vector<Stroke> held_here_;  ///< given up in the layer at hand: each held a piece of material
+  bool cut_since_ = false;         ///< something was cut in that layer since
+  bool spared_ = false;
+};
+
+}  // namespace
+
+PassEnd cut_straight(Carving& carving, const PostureField& field, const ReachRows& reach) {
+  if (!carving.arm.enter(field)) return {};
+  return StraightPass(carving, field.view(), reach).run();
+}
+
+}  // namespace sculpt

@@ -1,0 +1,125 @@
+#include "core/sweep/tilted_pass.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "core/base/parallel.hpp"
+#include "core/sweep/slanted_cuts.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t most_sorties_at_once = 8, most_cuts = 256;
+
+class TiltedPass {
+ public:
+  TiltedPass(Carving& carving, const PostureField& field, const std::vector<Voxel>& wanted)
+      : support_(carving.support),
+        arm_(carving.arm),
+        threads_(carving.threads),
+        field_(field),
+        hub_(hub_cell(field.view().n)),
+        cuts_(field.view(), carving.support.standing(), wanted, gate(field.view().n),
+              [&field](const Vec3& cell) { return field.usable(cell); }) {}
+
+  PassEnd run() {
+    const std::uint64_t before = arm_.removed();
+    bool spared = false;
+    std::size_t at_once = most_sorties_at_once, each = most_cuts;
+    for (;;) {
+      std::vector<Sortie> sorties = plan(at_once, each);
+      if (sorties.empty()) break;
+      if (const std::optional<Stroke> freeing = remove_held(sorties)) {
+        spared = true;
+        cuts_.give_up(*freeing);
+      }
+      if (sorties.empty()) continue;
+      if (arm_.field() != &field_ && !arm_.enter(field_)) {
+        for (std::size_t planned = sorties.size(); planned-- > 0;) take_back(sorties[planned]);
+        break;
+      }
+      std::vector<Followed> followed(sorties.size());
+      for_each_index(threads_, sorties.size(),
+                     [&](std::size_t at) { followed[at] = arm_.try_strokes(hub_, sorties[at].strokes); });
+      const std::size_t done = commit(sorties, followed);
+      for (std::size_t later = sorties.size(); later-- > done;) take_back(sorties[later]);
+      if (done == sorties.size()) {
+        at_once = std::min(2 * at_once, most_sorties_at_once);
+        each = std::min(2 * each, most_cuts);
+      } else {
+        cuts_.give_up(sorties[done].strokes[sorties[done].serves[followed[done].strokes]]);
+        at_once = 1;
+        each = std::max<std::size_t>(each / 4, 1);
+      }
+    }
+    return {arm_.removed() > before, spared};
+  }
+
+ private:
+  /// As if none failed. Their number is the same at any number of threads.
+  std::vector<Sortie> plan(std::size_t at_once, std::size_t most) {
+    std::vector<Sortie> sorties;
+    while (sorties.size() < at_once) {
+      Sortie sortie = cuts_.plan_sortie(most);
+      if (sortie.cuts == 0) break;
+      sorties.push_back(std::move(sortie));
+    }
+    return sorties;
+  }
+
+  /// Drops the first sortie that would free a piece of material and all behind it; says which cut would.
+  std::optional<Stroke> remove_held(std::vector<Sortie>& sorties) {
+    for (std::size_t at = 0; at < sorties.size(); ++at) {
+      const auto& strokes = sorties[at].strokes;
+      for (std::size_t s = 0; s < strokes.size(); ++s) {
+        const Stroke stroke = strokes[s];
+        if (!stroke.cuts()) continue;
+        const int held = support_.remove(stroke.line());
+        if (held == stroke.count) continue;
+        if (held > 0) support_.restore(part_of(stroke, Vec3::Zero(), 0, held - 1).line());
+        restore(strokes, s);
+        for (std::size_t later = sorties.size(); later-- > at;) cuts_.take_back(sorties[later]);
+        sorties.resize(at);
+        return stroke;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void take_back(const Sortie& sortie) {
+    restore(sortie.strokes, sortie.strokes.size());
+    cuts_.take_back(sortie);
+  }
+
+  /// What the first `count` strokes cut.
+  void restore(const std::vector<Stroke>& strokes, std::size_t count) {
+    for (std::size_t s = count; s-- > 0;)
+      if (strokes[s].cuts()) support_.restore(strokes[s].line());
+  }
+
+  /// Emits the sorties before the first that could not be followed to its end, and says which that is.
+  std::size_t commit(const std::vector<Sortie>& sorties, const std::vector<Followed>& followed) {
+    for (std::size_t at = 0; at < sorties.size(); ++at) {
+      if (followed[at].strokes < sorties[at].strokes.size()) return at;
+      arm_.commit(followed[at], sorties[at].strokes);
+      if (arm_.at() != hub_) throw std::logic_error("a sortie does not end where the next one begins");
+    }
+    return sorties.size();
+  }
+
+  Support& support_;
+  HubArm& arm_;
+  int threads_;
+  const PostureField& field_;
+  Vec3 hub_;
+  SlantedCuts cuts_;
+};
+
+}  // namespace
+
+PassEnd cut_tilted(Carving& carving, const PostureField& field, const std::vector<Voxel>& wanted) {
+  return TiltedPass(carving, field, wanted).run();
+}
+
+}  // namespace sculpt
