@@ -37,22 +37,6 @@ double holder_length(const ToolSpec& spec) {
   throw InputError("tool_too_large", text.str());
 }
 
-/// The holder from the tool link's origin towards the ball, `from` and `to` measured from that origin.
-std::vector<ToolSection> holder_cylinders(const ToolSpec& spec) {
-  std::vector<ToolSection> cylinders;
-  double start_m = 0;
-  for (const HolderSection& section : spec.holder) {
-    const double taper_m = section.end_radius_m - section.radius_m;
-    const int steps = std::clamp(static_cast<int>(std::ceil(std::abs(taper_m) / cone_step_m)), 1, most_cone_steps);
-    const auto radius_at = [&](int step) { return section.radius_m + taper_m * step / steps; };
-    const auto place_of = [&](int step) { return start_m + section.length_m * step / steps; };
-    for (int step = 0; step < steps; ++step)
-      cylinders.push_back({place_of(step), place_of(step + 1), std::max(radius_at(step), radius_at(step + 1))});
-    start_m = place_of(steps);
-  }
-  return cylinders;
-}
-
 }  // namespace
 
 Tool make_tool(const ToolSpec& spec, double voxel_m, int resolution) {
@@ -73,26 +57,22 @@ Tool make_tool(const ToolSpec& spec, double voxel_m, int resolution) {
   return tool;
 }
 
-std::vector<ToolSection> tool_profile(const ToolSpec& spec, const Tool& tool) {
-  std::vector<ToolSection> profile;
-  const double free_m = tool.stickout_m - holder_length(spec);
-  if (tool.shank_radius_m > 0 && free_m > 0) profile.push_back({0, free_m, tool.shank_radius_m});
-  const std::vector<ToolSection> holder = holder_cylinders(spec);
-  for (auto cylinder = holder.rbegin(); cylinder != holder.rend(); ++cylinder)
-    profile.push_back({tool.stickout_m - cylinder->to_m, tool.stickout_m - cylinder->from_m,
-                       std::max(cylinder->radius_m, tool.shank_radius_m)});
-  return profile;
-}
-
 std::vector<Shape> holder_shapes(const ToolSpec& spec) {
   std::vector<Shape> shapes;
-  for (const ToolSection& cylinder : holder_cylinders(spec)) {
-    Shape shape;
-    shape.kind = ShapeKind::cylinder;
-    shape.radius_m = cylinder.radius_m;
-    shape.length_m = cylinder.to_m - cylinder.from_m;
-    shape.pose.translation().z() = (cylinder.from_m + cylinder.to_m) / 2;
-    shapes.push_back(std::move(shape));
+  double start_m = 0;
+  for (const HolderSection& section : spec.holder) {
+    const double taper_m = section.end_radius_m - section.radius_m;
+    const int steps = std::clamp(static_cast<int>(std::ceil(std::abs(taper_m) / cone_step_m)), 1, most_cone_steps);
+    const auto radius_at = [&](int step) { return section.radius_m + taper_m * step / steps; };
+    for (int step = 0; step < steps; ++step) {
+      Shape shape;
+      shape.kind = ShapeKind::cylinder;
+      shape.radius_m = std::max(radius_at(step), radius_at(step + 1));
+      shape.length_m = section.length_m / steps;
+      shape.pose.translation().z() = start_m + (step + 0.5) * shape.length_m;
+      shapes.push_back(std::move(shape));
+    }
+    start_m += section.length_m;
   }
   return shapes;
 }

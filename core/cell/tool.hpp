@@ -36,16 +36,7 @@ struct ToolSpec {
 /// possible.
 Tool make_tool(const ToolSpec& spec, double voxel_m, int resolution = 0);
 
-/// The part of the tool from `from_m` to `to_m` above the ball's centre, along the axis, lies within `radius_m` of it.
-struct ToolSection {
-  double from_m = 0, to_m = 0, radius_m = 0;
-};
-
-/// What stands above the ball, nearest first, up to the tool link's origin (the spindle is not in it): the shank, then
-/// the holder. Cylinders that hold cones, without gaps or overlaps. Empty for a tool without shank and holder.
-std::vector<ToolSection> tool_profile(const ToolSpec& spec, const Tool& tool);
-
-/// The holder as cylinders in the tool link's frame: the same ones as in the profile.
+/// The holder as cylinders in the tool link's frame, without gaps or overlaps: cones as several that hold them.
 std::vector<Shape> holder_shapes(const ToolSpec& spec);
 
 }  // namespace sculpt

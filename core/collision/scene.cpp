@@ -5,13 +5,11 @@
 
 #include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
+#include "core/collision/margins.hpp"
 #include "core/collision/scene_impl.hpp"
 
 namespace sculpt {
 namespace {
-
-constexpr double link_margin_m = 2e-4;
-constexpr double tool_margin_voxels = 0.005;
 
 Contact kind(int second) {
   return second < 0 ? Contact::link_material : Contact::link_link;

@@ -7,6 +7,7 @@
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
 #include "core/collision/clearance.hpp"
+#include "core/collision/margins.hpp"
 #include "core/material/cavities.hpp"
 #include "core/material/support.hpp"
 #include "core/motion/random_configuration.hpp"
@@ -16,7 +17,6 @@ namespace sculpt {
 namespace {
 
 constexpr int seeds_an_axis = 8;
-constexpr double holder_margin_m = 2e-4;  // what Scene keeps between links and material
 
 /// What of the tool's link is round about the tool's axis: its holder, wherever the joints turn it.
 std::vector<Body> find_holder(const Chain& chain) {
@@ -40,7 +40,7 @@ bool tool_fits(const Scene& scene, const std::vector<Body>& holder, Voxel voxel,
   link.translation() = ball + scene.tool().stickout_m * axis;
   link.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axis).toRotationMatrix();
   return std::none_of(holder.begin(), holder.end(), [&](const Body& section) {
-    return near_material(section, link, scene.material(), scene.grid(), holder_margin_m);
+    return near_material(section, link, scene.material(), scene.grid(), link_margin_m);
   });
 }
 

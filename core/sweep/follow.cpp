@@ -6,13 +6,13 @@
 #include <limits>
 #include <optional>
 
+#include "core/collision/margins.hpp"
 #include "core/collision/motion_bound.hpp"
 #include "core/sweep/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double margin = 0.005;  // voxel edges, to any material
 // Edges, in voxel edges. A cut has a voxel at least.
 constexpr double longest_edge = 64, shortest_move = 0.1, first_edge = 8;
 constexpr double intended_share = 0.95;  // of what the tool may stray
@@ -272,8 +272,8 @@ class Follower {
 }  // namespace
 
 Stray stray_of(const Tool& tool, double voxel_m) {
-  return {std::min(most_ball_stray, 0.5 - tool.ball_radius_m / voxel_m - margin),
-          0.5 - tool.shank_radius_m / voxel_m - margin};
+  return {std::min(most_ball_stray, 0.5 - tool.ball_radius_m / voxel_m - tool_margin_voxels),
+          0.5 - tool.shank_radius_m / voxel_m - tool_margin_voxels};
 }
 
 Followed follow(const PostureField& field, const Tool& tool, const Grid& grid, const Vec3& from,

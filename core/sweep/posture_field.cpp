@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.hpp"
 #include "core/cell/ik.hpp"
+#include "core/collision/margins.hpp"
 #include "core/sweep/posture.hpp"
 #include "core/sweep/posture_lanes.hpp"
 
@@ -18,9 +19,8 @@ constexpr double longest_joint_step = 0.35;
 constexpr int node_steps = 3;  // from one node to the next
 constexpr double close_m = 1e-6;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
-constexpr double margin_voxels = 0.005;
 /// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
-constexpr double tool_room_voxels = 0.5 - margin_voxels;
+constexpr double tool_room_voxels = 0.5 - tool_margin_voxels;
 constexpr double headroom_cells = 2;  // beyond the grid, on the sides that the axis leans to: where the tool comes in
 constexpr int largest = 8;            // cubes of the fine lattice that are tried first
 

@@ -141,6 +141,22 @@ TEST(Sweep, KeepsOffAClampBesideAndOverTheStock) {
       << "the clamp is in nobody's way";
 }
 
+TEST(Sweep, AThinShankBesideAClampReplaysClean) {
+  // A thin shank may bend far off its line where only material is beside it; beside the clamp it may not.
+  CellFiles files = clamped_cell();
+  const std::string thick = "\"shank_radius_voxels\": 0.40";
+  const std::size_t at = files.cell_json.find(thick);
+  ASSERT_NE(at, std::string::npos);
+  files.cell_json.replace(at, thick.size(), "\"shank_radius_voxels\": 0.05");
+  for (std::uint64_t seed = 84; seed < 87; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const ScratchFile file;
+    const JobResult result = run_job(sweep_job(files, random_target(16, seed)), file.path(), {});
+    expect_sound(result);
+    EXPECT_GT(result.report.voxels.removed, result.report.voxels.remove / 2);
+  }
+}
+
 /// A box with walls of one voxel, open along one of its edges as far as a third of the two walls there: what lies
 /// behind them needs a tool that leans out through the gap.
 VoxelSet split_box(int n, std::uint64_t seed) {
