@@ -4,6 +4,8 @@
 
 #include <new>
 
+#include "server/crash_point.hpp"
+
 namespace sculpt {
 
 /// One attempt at one job: how to stop it and how far it is.
@@ -120,7 +122,9 @@ void Scheduler::run_one(const JobRecord& job, Run& run) {
                       run.progress = progress;
                     }};
   const std::optional<Ending> ending = guarded(run_, job, watch);
+  crash_point(CrashPoint::ending_known);
   store_ending(job, ending);
+  crash_point(CrashPoint::ending_stored);
   const std::lock_guard lock(mutex_);
   running_.erase(job.id);
 }
