@@ -41,8 +41,10 @@ class Session:
                 self.results[cancelled] = {"state": client.wait(cancelled)["state"]}
             for job in (first, second):
                 ended = client.wait(job)
-                self.results[job] = {"state": ended["state"], "sha256": kit.trajectory_sha256(client, job)}
-                list(client.read_artifact(job, format="csv"))
+                self.results[job] = {"state": ended["state"]}
+                if ended["state"] == "succeeded":
+                    self.results[job]["sha256"] = kit.trajectory_sha256(client, job)
+                    list(client.read_artifact(job, format="csv"))
 
     def submit(self, client, key, **fields):
         job = client.submit(kit.spec(self.mesh, **fields), key=key)["job"]
