@@ -14,6 +14,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 os.environ.setdefault("SCULPT_SOURCE", str(SOURCE))
 for program in ("sculptd", "sculpt"):
     os.environ.setdefault(program.upper(), str(SOURCE / "build/release/bin" / program))
+os.environ.setdefault("SCULPT_DISK_FAULT", str(SOURCE / "build/release/tests/torture/libdisk_fault.so"))
 os.environ.setdefault("SCULPT_CELLS", str(SOURCE / "config/cells"))
 sys.path.insert(0, str(SOURCE / "tests/clients"))
 
