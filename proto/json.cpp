@@ -81,6 +81,7 @@ std::size_t sequence_length(std::string_view text) {
 }  // namespace
 
 Json parse_json(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) throw JsonError("it begins with a byte order mark: leave that out");
   check_depth(text);
   try {
     // The callback is passed by reference: nlohmann copies it into a std::function.

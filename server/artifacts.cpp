@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 
 namespace sculpt {
@@ -152,6 +153,7 @@ void Artifacts::make_export(const ArtifactReadParams& wanted) const {
   out.close();
   if (!out) throw StorageError("cannot write '" + draft.string() + "': check the free space");
   sync_to_disk(draft);
+  crash_point(CrashPoint::export_synced);
   fs::rename(draft, file);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/sha256.hpp"
 #include "proto/error_codes.hpp"
+#include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 #include "server/job_store.hpp"
 
@@ -51,10 +52,12 @@ std::string file_hash(const fs::path& path) {
 
 void rename_durably(const fs::path& from, const fs::path& to) {
   sync_to_disk(from);
+  crash_point(CrashPoint::blob_synced);
   std::error_code error;
   fs::create_directories(to.parent_path(), error);
   if (!error) fs::rename(from, to, error);
   if (error) throw StorageError("cannot store the blob '" + to.string() + "': " + error.message());
+  crash_point(CrashPoint::blob_renamed);
   sync_to_disk(to.parent_path());
   sync_to_disk(to.parent_path().parent_path());
 }
@@ -88,6 +91,7 @@ BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_
                         "/params/offset");
   }
   write_at(part(sha256), offset, bytes);
+  crash_point(CrashPoint::blob_written);
   const std::uint64_t have = std::max(before.have, offset + bytes.size());
   if (have >= size) {
     complete(sha256, size);

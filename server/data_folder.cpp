@@ -1,18 +1,40 @@
 #include "server/data_folder.hpp"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/file.h>
+#include <sysexits.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
+#include "server/crash_point.hpp"
 #include "server/job_store.hpp"
 
 namespace sculpt {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+void remove_drafts_in(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".draft") fs::remove(entry.path(), ignored);
+  }
+}
+
+// A daemon that was killed leaves the files that it was writing: nothing refers to them.
+void remove_drafts(const fs::path& blobs, const fs::path& jobs) {
+  remove_drafts_in(blobs);
+  std::error_code ignored;
+  for (const fs::directory_entry& job : fs::directory_iterator(jobs, ignored)) remove_drafts_in(job.path());
+}
+
+}  // namespace
 
 DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
   std::error_code error;
@@ -34,6 +56,7 @@ DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
     throw DataFolderError("another sculptd uses the data folder '" + folder_.string() +
                           "': stop it or name another with --data");
   }
+  remove_drafts(blobs(), jobs());
 }
 
 DataFolder::~DataFolder() {
@@ -45,7 +68,17 @@ void sync_to_disk(const fs::path& path) {
   const bool done = file >= 0 && ::fsync(file) == 0;
   const int error = errno;
   if (file >= 0) ::close(file);
+  if (!done && error == EIO) end_after_failed_sync(path.string());
   if (!done) throw StorageError("cannot make '" + path.string() + "' durable: " + std::strerror(error));
+}
+
+void end_after_failed_sync(const std::string& what) {
+  spdlog::critical(
+      "the disk failed to sync {}: the daemon ends at once, since nobody knows now what is on disk; what was "
+      "acknowledged was synced before. Check the disk, then start it again",
+      what);
+  spdlog::shutdown();
+  std::_Exit(EX_IOERR);
 }
 
 void write_durably(const fs::path& file, std::string_view bytes) {
@@ -54,10 +87,13 @@ void write_durably(const fs::path& file, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) throw StorageError("cannot write '" + draft.string() + "': check the free space");
+  crash_point(CrashPoint::draft_written);
   sync_to_disk(draft);
+  crash_point(CrashPoint::draft_synced);
   std::error_code error;
   fs::rename(draft, file, error);
   if (error) throw StorageError("cannot rename to '" + file.string() + "': " + error.message());
+  crash_point(CrashPoint::draft_renamed);
   sync_to_disk(file.parent_path());
 }
 

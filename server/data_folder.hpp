@@ -31,7 +31,11 @@ class DataFolder {
   int lock_ = -1;
 };
 
-// Both throw StorageError.
+/// A sync failed with EIO: the kernel may have dropped what it held, and a second try would hide that. Logs, and ends
+/// the process with EX_IOERR: everything acknowledged is on disk, and the next daemon reads it from there. Any thread.
+[[noreturn]] void end_after_failed_sync(const std::string& what);
+
+// Both throw StorageError and end the process as above.
 /// Makes a file's content durable, and a folder's entries.
 void sync_to_disk(const std::filesystem::path& file_or_folder);
 /// Writes a whole file so that it is there completely or not at all, also after a power cut.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/sha256.hpp"
+#include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 
 namespace sculpt {
@@ -45,6 +46,7 @@ Ending run(const JobRecord& record, const Job& job, const fs::path& folder, cons
            const Watch& watch) {
   const fs::path trajectory = folder / "trajectory.ndjson";
   const PlanFiles files = planner.run(job, trajectory, watch);
+  crash_point(CrashPoint::trajectory_planned);
   Ending ending = judged(files);
   write_durably(folder / "voxels.binvox", files.voxels_binvox);
   write_durably(folder / "residue.ndjson", files.residue_ndjson);
@@ -52,6 +54,7 @@ Ending run(const JobRecord& record, const Job& job, const fs::path& folder, cons
   sync_to_disk(trajectory);
   sync_to_disk(folder);
   sync_to_disk(folder.parent_path());
+  crash_point(CrashPoint::artifacts_synced);
   ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
                       stored(folder / "report.json", "report", "json")};

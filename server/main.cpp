@@ -6,9 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "server/config.hpp"
+#include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
@@ -98,6 +100,7 @@ int main(int argc, char** argv) {
   // A peer that vanished shows as an error of the write.
   std::signal(SIGPIPE, SIG_IGN);
   try {
+    arm_crash_point(std::getenv("SCULPT_CRASH_AT"));
     serve(make_config(flags));
     return EXIT_SUCCESS;
   } catch (const ConfigError& error) {

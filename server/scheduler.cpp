@@ -2,7 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <new>
+
+#include "server/crash_point.hpp"
 
 namespace sculpt {
 
@@ -14,6 +17,9 @@ struct Scheduler::Run {
 };
 
 namespace {
+
+// A full disk is tried again so often.
+constexpr std::chrono::seconds retry_time{1};
 
 Ending failed(const std::string& code, const std::string& sentence) {
   return {JobState::failed, code, sentence, {}};
@@ -51,6 +57,7 @@ void Scheduler::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
+    wake_.notify_all();
     for (const auto& [job, run] : running_) run->stop.request_stop();
   }
   for (std::jthread& worker : workers_) worker.request_stop();
@@ -88,7 +95,7 @@ void Scheduler::work(std::stop_token stop) {
       changed_(job->id);
     } else {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, stop, [this] { return work_; });
+      wake_.wait_for(lock, stop, retry_time, [this] { return work_; });
     }
   }
 }
@@ -105,7 +112,7 @@ std::optional<JobRecord> Scheduler::claim(const std::shared_ptr<Run>& run) {
     running_[job->id] = run;
     return job;
   } catch (const std::exception& error) {
-    // Not tried again before the next job is queued, so that a full disk does not make the worker spin.
+    // Tried again after retry_time, so that a full disk does not make the worker spin.
     spdlog::error("a worker cannot claim a job: {}", error.what());
     return std::nullopt;
   }
@@ -120,12 +127,19 @@ void Scheduler::run_one(const JobRecord& job, Run& run) {
                       run.progress = progress;
                     }};
   const std::optional<Ending> ending = guarded(run_, job, watch);
-  store_ending(job, ending);
+  crash_point(CrashPoint::ending_known);
+  while (!store_ending(job, ending)) {
+    std::unique_lock lock(mutex_);
+    if (wake_.wait_for(lock, retry_time, [this] { return stopping_; })) break;
+  }
+  crash_point(CrashPoint::ending_stored);
   const std::lock_guard lock(mutex_);
   running_.erase(job.id);
 }
 
-void Scheduler::store_ending(const JobRecord& job, const std::optional<Ending>& ending) {
+// False if it cannot be stored now. Given up at a stop only: then the job stays `running` in the store, and is released
+// when the daemon starts again.
+bool Scheduler::store_ending(const JobRecord& job, const std::optional<Ending>& ending) {
   try {
     const bool owned = ending ? store_.finish(job.id, job.attempt, *ending) : store_.release(job.id, job.attempt);
     if (!owned) spdlog::warn("job={} attempt={} does not own its job any more, result dropped", job.id, job.attempt);
@@ -137,10 +151,13 @@ void Scheduler::store_ending(const JobRecord& job, const std::optional<Ending>& 
     } else {
       spdlog::info("job={} attempt={} {}", job.id, job.attempt, name(ending->state));
     }
+  } catch (const StorageError& error) {
+    spdlog::error("job={} attempt={} its end cannot be stored yet: {}", job.id, job.attempt, error.what());
+    return false;
   } catch (const std::exception& error) {
-    // The job stays `running` in the store and is released when the daemon starts again.
     spdlog::critical("job={} attempt={} its end could not be stored: {}", job.id, job.attempt, error.what());
   }
+  return true;
 }
 
 }  // namespace sculpt

@@ -43,7 +43,7 @@ class Scheduler {
   void work(std::stop_token stop);
   std::optional<JobRecord> claim(const std::shared_ptr<Run>& run);
   void run_one(const JobRecord& job, Run& run);
-  void store_ending(const JobRecord& job, const std::optional<Ending>& ending);
+  bool store_ending(const JobRecord& job, const std::optional<Ending>& ending);
 
   JobStore& store_;
   RunJob run_;

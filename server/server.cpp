@@ -6,6 +6,7 @@
 #include <csignal>
 #include <thread>
 
+#include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 #include "server/job_run.hpp"
 #include "server/listener.hpp"
@@ -55,6 +56,7 @@ struct Server::Impl {
         listener(services) {
     if (const int left = store->recover(); left > 0)
       spdlog::warn("{} jobs were interrupted and are queued again", left);
+    crash_point(CrashPoint::recovered);
   }
 
   void tick() {

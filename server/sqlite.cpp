@@ -1,5 +1,7 @@
 #include "server/sqlite.hpp"
 
+#include "server/crash_point.hpp"
+#include "server/data_folder.hpp"
 #include "server/job_store.hpp"
 
 namespace sculpt {
@@ -8,6 +10,8 @@ namespace {
 constexpr int busy_timeout_ms = 5000;
 
 [[noreturn]] void fail(sqlite3* handle, const char* doing) {
+  const int error = sqlite3_extended_errcode(handle);
+  if (error == SQLITE_IOERR_FSYNC || error == SQLITE_IOERR_DIR_FSYNC) end_after_failed_sync("the database");
   throw StorageError(std::string("the database failed to ") + doing + ": " + sqlite3_errmsg(handle));
 }
 
@@ -86,8 +90,10 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+  crash_point(CrashPoint::before_commit);
   database_->run("COMMIT");
   open_ = false;
+  crash_point(CrashPoint::after_commit);
 }
 
 }  // namespace sculpt

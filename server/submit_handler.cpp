@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include "server/crash_point.hpp"
 #include "server/handlers.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
@@ -21,6 +22,7 @@ Answer admit(Services& services, const SubmitParams& submit, const std::stop_tok
     job.cell_bundle = store_cell(services.planner.read_cell(submit.spec.robot), services.blobs);
   services.planner.check(to_job(submit.spec, job.cell_bundle, services.blobs, services.defaults), Watch{stop, {}});
   const Submitted submitted = services.store.submit(job);
+  crash_point(CrashPoint::submit_stored);
   spdlog::info("job={} queued mesh={} resolution={}", submitted.job.id, submit.spec.mesh.name, submit.spec.resolution);
   services.scheduler.wake();
   return submit_answer(submitted);

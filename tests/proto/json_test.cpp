@@ -36,6 +36,7 @@ TEST(Json, BracketsInStringsAreNoNesting) {
 
 TEST(Json, HostileTextsAreRefusedWithASentence) {
   for (const char* text : {"",
+                           "\xef\xbb\xbf{}",
                            " ",
                            "{",
                            "[1,]",

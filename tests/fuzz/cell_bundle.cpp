@@ -1,0 +1,12 @@
+// An uploaded cell bundle.
+#include "proto/cell_bundle.hpp"
+
+#include "proto/error_codes.hpp"
+#include "tests/fuzz/target.hpp"
+
+void read_hostile(std::string_view bytes) {
+  try {
+    sculpt::write_cell_bundle(sculpt::read_cell_bundle(bytes));
+  } catch (const sculpt::ProtocolError&) {
+  }
+}
