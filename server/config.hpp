@@ -1,4 +1,4 @@
-// What can be set: defaults < config file < flags.
+// What can be set. The table of settings (settings.hpp) says how: defaults < config file < environment < flags.
 #pragma once
 
 #include <chrono>
@@ -33,9 +33,9 @@ struct Config {
 /// With the data folder of the user ($XDG_DATA_HOME/sculptd or ~/.local/share/sculptd) and the cells found near the
 /// program or the working folder.
 Config default_config();
-/// Overwrites what the file (JSON, see config/server.json) sets; relative paths are relative to the file. Throws
-/// ConfigError.
-void read_config(const std::filesystem::path& file, Config& config);
+/// Overwrites what the file (JSON, see config/server.json) sets, and gives the names of that; relative paths are
+/// relative to the file. Throws ConfigError.
+std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 /// "HOST:PORT" or "[V6]:PORT". Throws ConfigError.
 void set_listen(const std::string& address, Config& config);
 
