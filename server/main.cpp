@@ -1,6 +1,4 @@
 // sculptd: settles the config, then shows it or serves until a signal comes.
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <sysexits.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +11,7 @@
 #include "server/data_folder.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
+#include "server/log.hpp"
 #include "server/planner.hpp"
 #include "server/server.hpp"
 #include "server/settings.hpp"
@@ -71,17 +70,11 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   }
 }
 
-void start_log(const std::string& level) {
-  auto log = spdlog::stderr_logger_mt("sculptd");
-  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
-  log->set_level(spdlog::level::from_str(level));
-  spdlog::set_default_logger(log);
-}
-
-void serve(const Config& config) {
-  start_log(config.log);
+void serve(const Config& config, const ConfigSources& sources) {
+  start_log(config);
   Server server(config, make_planner(config.cells));
   server.stop_on_signals();
+  server.reload_on_hangup([&sources] { return settle_config(sources).config; });
   std::cout << server_name << " listening on " << server.host() << ":" << server.port() << std::endl;
   server.run();
 }
@@ -107,7 +100,7 @@ int main(int argc, char** argv) {
     if (line.show_config)
       show(settled, line.json);
     else
-      serve(settled.config);
+      serve(settled.config, line.sources);
     return EXIT_SUCCESS;
   } catch (const ConfigError& error) {
     return fail(EX_CONFIG, error.what());

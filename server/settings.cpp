@@ -152,6 +152,7 @@ const std::vector<Setting>& settings() {
       cell_folder("cells", at_start, "folder with cell files"),
       choice("log", &Config::log, {"trace", "debug", "info", "warn", "error", "off"}, at_reload,
              "what is logged: this and what is worse"),
+      choice("log_format", &Config::log_format, {"text", "json"}, at_reload, "for people or for programs"),
       bytes("blob_limit_bytes", &Config::blob_limit_bytes, at_start, "largest upload"),
       bytes("memory_cap_bytes", &Config::memory_cap_bytes, at_start,
             "predicted memory of one job; above it the job is refused"),
@@ -159,6 +160,8 @@ const std::vector<Setting>& settings() {
             "unsent bytes of one connection; above it the connection is closed"),
       seconds("stall_s", &Config::stall, at_reload,
               "a connection that takes no bytes for so long while there are some is closed"),
+      seconds("drain_s", &Config::drain, at_reload,
+              "a daemon that stops waits so long for running jobs to end in order"),
   };
   return table;
 }

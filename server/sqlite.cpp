@@ -86,8 +86,10 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+  const auto begun = std::chrono::steady_clock::now();
   database_->run("COMMIT");
   open_ = false;
+  database_->commit_times().add(std::chrono::steady_clock::now() - begun);
 }
 
 }  // namespace sculpt
