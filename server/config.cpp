@@ -6,15 +6,12 @@
 #include <limits>
 
 #include "core/cell/shipped_cells.hpp"
-#include "proto/fields.hpp"
+#include "server/settings.hpp"
 
 namespace sculpt {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t max_limit = std::numeric_limits<std::int64_t>::max();
-constexpr int max_workers = 1024;
 
 fs::path home_data_folder() {
   if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data != '\0')
@@ -22,21 +19,6 @@ fs::path home_data_folder() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
     return fs::path(home) / ".local/share/sculptd";
   return "sculptd-data";
-}
-
-void apply(Fields fields, const fs::path& folder, Config& config) {
-  if (fields.has("listen")) set_listen(fields.text("listen"), config);
-  if (fields.has("data")) config.data = folder / fields.text("data");
-  if (fields.has("workers")) config.workers = static_cast<int>(fields.integer("workers", 0, max_workers));
-  if (fields.has("log")) config.log = fields.text("log");
-  if (fields.has("cells")) config.cells = {folder / fields.text("cells")};
-  if (fields.has("blob_limit_bytes")) config.blob_limit_bytes = fields.count("blob_limit_bytes", max_limit);
-  if (fields.has("memory_cap_bytes")) config.memory_cap_bytes = fields.count("memory_cap_bytes", max_limit);
-  if (fields.has("reply_limit_bytes")) config.reply_limit_bytes = fields.count("reply_limit_bytes", max_limit);
-  if (fields.has("stall_s")) {
-    config.stall = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * fields.number("stall_s", 0.001, 86400)));
-  }
-  fields.done();
 }
 
 }  // namespace
@@ -48,13 +30,16 @@ Config default_config() {
   return config;
 }
 
-void read_config(const fs::path& file, Config& config) {
+std::vector<std::string> read_config(const fs::path& file, Config& config) {
   std::ifstream in(file);
   if (!in) throw ConfigError("cannot read the config file '" + file.string() + "'");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   try {
     const Json json = parse_json(text);
-    apply(Fields(json, ""), fs::absolute(file).parent_path(), config);
+    read_settings(json, fs::absolute(file).parent_path(), config);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : json.items()) names.push_back(name);
+    return names;
   } catch (const std::runtime_error& error) {
     throw ConfigError("the config file '" + file.string() + "': " + error.what());
   }

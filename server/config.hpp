@@ -1,4 +1,4 @@
-// What can be set: defaults < config file < flags.
+// What can be set. The table of settings (settings.hpp) says how: defaults < config file < environment < flags.
 #pragma once
 
 #include <chrono>
@@ -23,19 +23,21 @@ struct Config {
   int workers = 0;                           ///< 0: one less than there are cores, at least 1
   std::vector<std::filesystem::path> cells;  ///< folders with cell files
   std::string log = "info";                  ///< trace debug info warn error off
+  std::string log_format = "text";           ///< text json
   std::uint64_t blob_limit_bytes = 2ull << 30;
   std::uint64_t memory_cap_bytes = 2ull << 30;  ///< per job
   std::uint64_t reply_limit_bytes = 32u << 20;  ///< unsent bytes of one connection; above it the connection is closed
   std::chrono::milliseconds stall{
       30000};  ///< a connection that takes no bytes for so long while there are some is closed
+  std::chrono::milliseconds drain{10000};  ///< for running jobs to end in order when the daemon stops
 };
 
 /// With the data folder of the user ($XDG_DATA_HOME/sculptd or ~/.local/share/sculptd) and the cells found near the
 /// program or the working folder.
 Config default_config();
-/// Overwrites what the file (JSON, see config/server.json) sets; relative paths are relative to the file. Throws
-/// ConfigError.
-void read_config(const std::filesystem::path& file, Config& config);
+/// Overwrites what the file (JSON, see config/server.json) sets, and gives the names of that; relative paths are
+/// relative to the file. Throws ConfigError.
+std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 /// "HOST:PORT" or "[V6]:PORT". Throws ConfigError.
 void set_listen(const std::string& address, Config& config);
 

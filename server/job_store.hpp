@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/histogram.hpp"
 #include "server/job_state.hpp"
 
 namespace sculpt {
@@ -95,6 +96,10 @@ class JobStore {
   /// In the order of submission, behind `after` (empty: from the first).
   virtual std::vector<JobRecord> list(const std::string& after, int limit) = 0;
   virtual std::map<JobState, std::uint64_t> counts() = 0;
+  /// How long ago the oldest queued job was submitted, by wall time; 0 if none is queued.
+  virtual std::uint64_t queue_age_s() = 0;
+  /// How long the commits took since the start; does not throw.
+  virtual const Histogram& commit_times() = 0;
   /// How many queued jobs will be claimed before this one.
   virtual std::uint64_t position(const JobRecord& job) = 0;
   /// Events behind `after`, in order.

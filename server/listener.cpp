@@ -62,6 +62,7 @@ void Listener::on_accept(const boost::system::error_code& error, tcp::socket soc
     return;
   }
   const auto session = std::make_shared<Session>(std::move(socket), ++accepted_, services_);
+  ++services_.counters.connections_opened;
   sessions_.push_back(session);
   session->start();
   accept();

@@ -1,6 +1,4 @@
-// sculptd: reads flags and config, then serves until a signal comes.
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
+// sculptd: settles the config, then shows it or serves until a signal comes.
 #include <sysexits.h>
 
 #include <CLI/CLI.hpp>
@@ -8,14 +6,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 #include "server/config.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
+#include "server/log.hpp"
 #include "server/planner.hpp"
 #include "server/server.hpp"
+#include "server/settings.hpp"
 #include "server/version.hpp"
 
 namespace {
@@ -24,66 +25,64 @@ using namespace sculpt;
 
 constexpr int usage_error = 2;
 
-struct Flags {
-  std::string config, listen, data;
-  int workers = 0;
+struct CommandLine {
+  ConfigSources sources;
+  bool show_config = false, json = false;
 };
 
-// What is wrong with a listen address, or nothing.
-std::string address_fault(const std::string& address) {
+// What is wrong with the text of a setting, or nothing.
+std::string fault(const Setting& setting, const std::string& text) {
   try {
     Config ignored;
-    set_listen(address, ignored);
+    read_setting(setting, text, ignored);
     return {};
   } catch (const ConfigError& error) {
     return error.what();
   }
 }
 
-int parse_flags(int argc, char** argv, Flags& flags, bool& done) {
-  CLI::App app{"sculptd: the plan server for robotic sculpting"};
+void add_setting_flags(CLI::App& app, ConfigSources& sources) {
+  for (const Setting& setting : settings()) {
+    app.add_option_function<std::string>(
+           flag_of(setting), [&](const std::string& text) { sources.flags[setting.name] = text; }, setting.help)
+        ->type_name(setting.type)
+        ->check([&](const std::string& text) { return fault(setting, text); });
+  }
+}
+
+/// An exit code, or nothing when the daemon has something to do.
+std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) {
+  CLI::App app{"sculptd: the plan server for robotic sculpting", "sculptd"};
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("sculptd: ") + error.what() + "; see --help\n";
   });
   app.set_version_flag("--version", server_name);
-  app.add_option("--config", flags.config, "JSON file with settings (see config/server.json)");
-  app.add_option("--listen", flags.listen, "HOST:PORT to listen on, default 127.0.0.1:7878; port 0 takes any free one")
-      ->check(address_fault);
-  app.add_option("--data", flags.data, "folder for jobs and results, default ~/.local/share/sculptd");
-  app.add_option("--workers", flags.workers, "jobs that run at once, default one less than there are cores")
-      ->check(CLI::Range(1, 1024));
+  app.add_option("--config", line.sources.file, "JSON file with settings; the flags below win over it")
+      ->type_name("FILE");
+  add_setting_flags(app, line.sources);
+  app.fallthrough();
+  CLI::App& config = *app.add_subcommand("config", "Print every setting with its value and where that comes from");
+  config.add_flag("--json", line.json, "Print one JSON document");
+  config.callback([&] { line.show_config = true; });
   try {
     app.parse(argc, argv);
-    done = false;
-    return 0;
+    return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    done = true;
     return app.exit(error) == 0 ? 0 : usage_error;
   }
 }
 
-Config make_config(const Flags& flags) {
-  Config config = default_config();
-  if (!flags.config.empty()) read_config(flags.config, config);
-  if (!flags.listen.empty()) set_listen(flags.listen, config);
-  if (!flags.data.empty()) config.data = flags.data;
-  if (flags.workers > 0) config.workers = flags.workers;
-  return config;
-}
-
-void start_log(const std::string& level) {
-  auto log = spdlog::stderr_logger_mt("sculptd");
-  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
-  log->set_level(spdlog::level::from_str(level));
-  spdlog::set_default_logger(log);
-}
-
-void serve(const Config& config) {
-  start_log(config.log);
+void serve(const Config& config, const ConfigSources& sources) {
+  start_log(config);
   Server server(config, make_planner(config.cells));
   server.stop_on_signals();
+  server.reload_on_hangup([&sources] { return settle_config(sources).config; });
   std::cout << server_name << " listening on " << server.host() << ":" << server.port() << std::endl;
   server.run();
+}
+
+void show(const SettledConfig& settled, bool json) {
+  std::cout << (json ? write_json(settings_json(settled)) + "\n" : settings_table(settled));
 }
 
 int fail(int code, const char* sentence) {
@@ -94,14 +93,17 @@ int fail(int code, const char* sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Flags flags;
-  bool done = false;
-  if (const int code = parse_flags(argc, argv, flags, done); done) return code;
+  CommandLine line;
+  if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     arm_crash_point(std::getenv("SCULPT_CRASH_AT"));
-    serve(make_config(flags));
+    const SettledConfig settled = settle_config(line.sources);
+    if (line.show_config)
+      show(settled, line.json);
+    else
+      serve(settled.config, line.sources);
     return EXIT_SUCCESS;
   } catch (const ConfigError& error) {
     return fail(EX_CONFIG, error.what());

@@ -6,18 +6,25 @@
 #include <csignal>
 #include <thread>
 
+#include "server/counters.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
+#include "server/drain_limit.hpp"
 #include "server/job_run.hpp"
 #include "server/listener.hpp"
+#include "server/log.hpp"
 #include "server/net.hpp"
+#include "server/service_manager.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
+#include "server/settings.hpp"
+#include "server/stage_times.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr std::chrono::milliseconds tick_time{250};
+constexpr int ticks_per_status = 20;
 
 int cores() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -30,6 +37,14 @@ int worker_count(const Config& config) {
 
 JobDefaults job_defaults(const Config& config) {
   return {std::max(1, cores() / worker_count(config)), config.memory_cap_bytes};
+}
+
+// For the service manager's status line.
+std::string queue_sentence(JobStore& store) try {
+  const auto counts = store.counts();
+  return fmt::format("{} running, {} queued", counts.at(JobState::running), counts.at(JobState::queued));
+} catch (const StorageError& error) {
+  return error.what();
 }
 
 }  // namespace
@@ -49,7 +64,7 @@ struct Server::Impl {
         store(open_sqlite_store(folder.database())),
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
-        scheduler(*store, make_run_job(planner, blobs, artifacts, job_defaults(config)),
+        scheduler(*store, with_stage_times(make_run_job(planner, blobs, artifacts, job_defaults(config)), counters),
                   [this](const std::string& job) { services.changed(job); }),
         streams(*store, scheduler),
         waits(io, *store),
@@ -66,7 +81,35 @@ struct Server::Impl {
       const auto now = Session::Clock::now();
       streams.tick(now);
       listener.for_each([&](Session& session) { session.check_stalled(now, config.stall); });
+      manager.alive(now);
+      if (manager.listens() && ticks++ % ticks_per_status == 0) manager.status(queue_sentence(*store));
       tick();
+    });
+  }
+
+  void reload() {
+    manager.reloading();
+    try {
+      const Config wanted = reread();
+      if (const auto fixed = changes_that_need_a_start(config, wanted); !fixed.empty()) {
+        spdlog::error("the config is not reloaded, nothing changed: these take effect only at a start: {}",
+                      fmt::join(fixed, ", "));
+      } else {
+        config = wanted;
+        set_log(config);
+        spdlog::info("the config is reloaded");
+      }
+    } catch (const ConfigError& error) {
+      spdlog::error("the config is not reloaded, nothing changed: {}", error.what());
+    }
+    manager.ready();
+  }
+
+  void await_hangup() {
+    hangups.async_wait([this](const boost::system::error_code& error, int) {
+      if (error) return;
+      reload();
+      await_hangup();
     });
   }
 
@@ -78,6 +121,7 @@ struct Server::Impl {
   net::io_context io{1};
   Blobs blobs;
   Artifacts artifacts;
+  Counters counters;
   Scheduler scheduler;
   Streams streams;
   Waits waits;
@@ -97,10 +141,14 @@ struct Server::Impl {
                     admission,
                     replays,
                     exports,
+                    counters,
                     std::chrono::steady_clock::now()};
   Listener listener;
   net::steady_timer timer{io};
-  net::signal_set signals{io};
+  net::signal_set signals{io}, hangups{io};
+  std::function<Config()> reread;
+  ServiceManager manager;
+  std::uint64_t ticks = 0;
 };
 
 Server::Server(const Config& config, Planner planner) : impl_(std::make_unique<Impl>(config, std::move(planner))) {}
@@ -117,7 +165,10 @@ void Server::run() {
   impl_->scheduler.start(impl_->services.workers);
   impl_->listener.start();
   impl_->tick();
+  impl_->manager.ready();
   impl_->io.run();
+  impl_->manager.stopping();
+  const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
   for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports}) queue->stop();
 }
@@ -136,8 +187,15 @@ void Server::stop_on_signals() {
   impl_->signals.async_wait([this](const boost::system::error_code& error, int signal) {
     if (error) return;
     spdlog::info("signal {}: stopping", signal);
+    impl_->signals.clear();
     stop();
   });
+}
+
+void Server::reload_on_hangup(std::function<Config()> reread) {
+  impl_->reread = std::move(reread);
+  impl_->hangups.add(SIGHUP);
+  impl_->await_hangup();
 }
 
 }  // namespace sculpt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "server/config.hpp"
@@ -18,12 +19,16 @@ class Server {
 
   const std::string& host() const;
   std::uint16_t port() const;
-  /// Serves until `stop`; then running jobs are asked to end and go back to the queue.
+  /// Serves until `stop`; then running jobs are asked to end and go back to the queue. Ends the process if they do
+  /// not within Config::drain.
   void run();
   /// From any thread.
   void stop();
-  /// Makes SIGINT and SIGTERM call stop.
+  /// Makes SIGINT and SIGTERM call stop. A second one ends the process at once, as it would any.
   void stop_on_signals();
+  /// Makes SIGHUP call `reread` on the I/O thread and take the config that it gives, all of it or nothing: when it
+  /// throws ConfigError, or when a setting differs that takes effect only at a start, the log says so and all stays.
+  void reload_on_hangup(std::function<Config()> reread);
 
  private:
   struct Impl;

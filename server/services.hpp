@@ -6,6 +6,7 @@
 #include "server/artifacts.hpp"
 #include "server/blobs.hpp"
 #include "server/config.hpp"
+#include "server/counters.hpp"
 #include "server/job_store.hpp"
 #include "server/net.hpp"
 #include "server/planner.hpp"
@@ -19,7 +20,7 @@ namespace sculpt {
 
 struct Services {
   net::io_context& io;
-  const Config& config;
+  const Config& config;  ///< I/O thread only: a reload changes it
   const Planner& planner;
   JobDefaults defaults;
   int workers;
@@ -33,6 +34,7 @@ struct Services {
   TaskQueue& admission;  ///< checks of submitted jobs
   TaskQueue& replays;    ///< job.verify
   TaskQueue& exports;    ///< csv and binary trajectories
+  Counters& counters;
   std::chrono::steady_clock::time_point started;
 
   /// A job changed its state: tells everybody who waits for that. Any thread.

@@ -69,6 +69,7 @@ void Session::on_read(const boost::system::error_code& error, std::size_t bytes)
   if (error == net::error::eof) return on_input_end();
   if (error) return close("read failed");
   if (lingering_ || finishing_) return read();
+  services_.counters.bytes_in += bytes;
   reader_.feed({buffer_.data(), bytes});
   pump_input();
 }
@@ -144,6 +145,7 @@ void Session::on_line(std::string line) {
 
 void Session::handle(ParsedLine parsed, std::string chunk) {
   ++pending_;
+  ++services_.counters.requests;
   if (parsed.error) {
     const ProtocolError& error = *parsed.error;
     return refuse(parsed.request.id, error_object(error.code(), error.what(), error.pointer()));
@@ -200,6 +202,7 @@ void Session::send_event(const EventMessage& event) {
     params["more"] = true;
     line = event_line(params);
   }
+  ++services_.counters.events;
   send(line + "\n");
 }
 
@@ -223,6 +226,7 @@ void Session::on_write(const boost::system::error_code& error, std::size_t bytes
   if (closed_) return;
   if (error) return close("write failed");
   last_step_ = Clock::now();
+  services_.counters.bytes_out += bytes;
   sent_ += bytes;
   queued_bytes_ -= bytes;
   if (sent_ == queue_.front().size()) {
@@ -258,6 +262,7 @@ void Session::close_if_done() {
 void Session::close(const char* reason) {
   if (closed_) return;
   closed_ = true;
+  ++services_.counters.connections_closed;
   spdlog::debug("conn={} closed: {}", number_, reason);
   boost::system::error_code ignored;
   socket_.close(ignored);

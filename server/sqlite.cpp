@@ -91,8 +91,10 @@ Transaction::~Transaction() {
 
 void Transaction::commit() {
   crash_point(CrashPoint::before_commit);
+  const auto begun = std::chrono::steady_clock::now();
   database_->run("COMMIT");
   open_ = false;
+  database_->commit_times().add(std::chrono::steady_clock::now() - begun);
   crash_point(CrashPoint::after_commit);
 }
 

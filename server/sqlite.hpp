@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/histogram.hpp"
+
 namespace sculpt {
 
 /// One connection. Not shared between threads without a lock.
@@ -17,10 +19,13 @@ class Database {
   explicit Database(const std::filesystem::path& file);
   void run(const char* sql);
   sqlite3* get() const { return handle_.get(); }
+  /// Of the transactions that were committed.
+  Histogram& commit_times() { return commit_times_; }
   int changes() const { return sqlite3_changes(handle_.get()); }
 
  private:
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> handle_;
+  Histogram commit_times_;
 };
 
 /// A prepared statement; parameters are bound from 1 in the order of the calls.

@@ -217,6 +217,15 @@ class SqliteStore : public JobStore {
     return counts;
   }
 
+  std::uint64_t queue_age_s() override {
+    const std::lock_guard lock(mutex_);
+    Statement query(database_, "SELECT max(0, unixepoch() - unixepoch(min(submitted_at))) FROM job WHERE state=?");
+    query.bind(name(JobState::queued)).step();
+    return static_cast<std::uint64_t>(query.number(0));
+  }
+
+  const Histogram& commit_times() override { return database_.commit_times(); }
+
   std::uint64_t position(const JobRecord& job) override {
     const std::lock_guard lock(mutex_);
     Statement query(database_,

@@ -41,7 +41,9 @@ TEST(Config, TheShippedFileIsGoodAndSaysTheDefaults) {
 TEST(Config, MistakesAreNamed) {
   EXPECT_EQ(refusal("{}"), "accepted");
   EXPECT_NE(refusal("{").find("parse error"), std::string::npos);
-  EXPECT_NE(refusal(R"({"lisen":"x"})").find("/lisen"), std::string::npos);
+  EXPECT_NE(refusal(R"({"lisen":"x"})").find("/lisen is not known; the nearest setting is listen;"), std::string::npos);
+  EXPECT_NE(refusal(R"({"log":"loud"})").find("/log must be one of trace, debug"), std::string::npos);
+  EXPECT_NE(refusal("[]").find("must be an object"), std::string::npos);
   EXPECT_NE(refusal(R"({"workers":"2"})").find("/workers"), std::string::npos);
   EXPECT_NE(refusal(R"({"listen":"7878"})").find("HOST:PORT"), std::string::npos);
 }

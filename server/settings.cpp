@@ -1,0 +1,264 @@
+#include "server/settings.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
+constexpr int max_workers = 1024;
+constexpr double min_s = 0.001, max_s = 86400;
+
+// --- the kinds of settings
+
+Setting integer(const char* name, int Config::*field, int low, int high, Change change, const char* help) {
+  return {name,
+          std::to_string(low) + " to " + std::to_string(high),
+          change,
+          help,
+          false,
+          [=](SettingEntry entry, Config& config) {
+            config.*field = static_cast<int>(entry.fields.integer(entry.name, low, high));
+          },
+          [=](const Config& config) -> Json { return config.*field; }};
+}
+
+Setting bytes(const char* name, std::uint64_t Config::*field, Change change, const char* help) {
+  return {name,
+          "bytes",
+          change,
+          help,
+          false,
+          [=](SettingEntry entry, Config& config) { config.*field = entry.fields.count(entry.name, max_bytes); },
+          [=](const Config& config) -> Json { return config.*field; }};
+}
+
+Setting seconds(const char* name, std::chrono::milliseconds Config::*field, Change change, const char* help) {
+  return {name,
+          "seconds",
+          change,
+          help,
+          false,
+          [=](SettingEntry entry, Config& config) {
+            const double wanted = entry.fields.number(entry.name, min_s, max_s);
+            config.*field = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * wanted));
+          },
+          [=](const Config& config) -> Json {
+            const std::int64_t ms = (config.*field).count();
+            return ms % 1000 == 0 ? Json(ms / 1000) : Json(static_cast<double>(ms) / 1000);
+          }};
+}
+
+Setting path(const char* name, fs::path Config::*field, Change change, const char* help) {
+  return {
+      name,
+      "path",
+      change,
+      help,
+      true,
+      [=](SettingEntry entry, Config& config) { config.*field = entry.folder / entry.fields.text(entry.name, 4096); },
+      [=](const Config& config) -> Json { return (config.*field).string(); }};
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  return std::accumulate(words.begin() + 1, words.end(), words.front(),
+                         [=](const std::string& left, const std::string& right) { return left + between + right; });
+}
+
+Setting choice(const char* name, std::string Config::*field, const std::vector<std::string>& words, Change change,
+               const char* help) {
+  return {name,
+          joined(words, ", "),
+          change,
+          help,
+          true,
+          [=](SettingEntry entry, Config& config) {
+            const std::string word = entry.fields.text(entry.name);
+            if (std::ranges::find(words, word) == words.end())
+              entry.fields.refuse(entry.name, "must be one of " + joined(words, ", ") + ", not " + word);
+            config.*field = word;
+          },
+          [=](const Config& config) -> Json { return config.*field; }};
+}
+
+Setting listen_address(const char* name, Change change, const char* help) {
+  return {name,
+          "HOST:PORT",
+          change,
+          help,
+          true,
+          [](SettingEntry entry, Config& config) { set_listen(entry.fields.text(entry.name), config); },
+          [](const Config& config) -> Json {
+            const bool v6 = config.host.find(':') != std::string::npos;
+            return (v6 ? "[" + config.host + "]" : config.host) + ":" + std::to_string(config.port);
+          }};
+}
+
+Setting cell_folder(const char* name, Change change, const char* help) {
+  return {
+      name,
+      "path",
+      change,
+      help,
+      true,
+      [](SettingEntry entry, Config& config) { config.cells = {entry.folder / entry.fields.text(entry.name, 4096)}; },
+      [](const Config& config) -> Json { return config.cells.empty() ? "" : config.cells.front().string(); }};
+}
+
+// --- names
+
+std::size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
+    }
+  }
+  return row.back();
+}
+
+const std::string& nearest_name(const std::string& wrong) {
+  const auto edits = [&](const Setting& setting) { return edits_between(wrong, setting.name); };
+  return std::ranges::min_element(settings(), {}, edits)->name;
+}
+
+const Setting* find_setting(const std::string& name) {
+  const auto found = std::ranges::find(settings(), name, &Setting::name);
+  return found == settings().end() ? nullptr : &*found;
+}
+
+std::string shown(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : write_json(value);
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings() {
+  using enum Change;
+  static const std::vector<Setting> table{
+      listen_address("listen", at_start, "where to listen; port 0 takes any free one"),
+      path("data", &Config::data, at_start, "folder for jobs and results"),
+      integer("workers", &Config::workers, 0, max_workers, at_start,
+              "jobs that run at once; 0: one less than there are cores"),
+      cell_folder("cells", at_start, "folder with cell files"),
+      choice("log", &Config::log, {"trace", "debug", "info", "warn", "error", "off"}, at_reload,
+             "what is logged: this and what is worse"),
+      choice("log_format", &Config::log_format, {"text", "json"}, at_reload, "for people or for programs"),
+      bytes("blob_limit_bytes", &Config::blob_limit_bytes, at_start, "largest upload"),
+      bytes("memory_cap_bytes", &Config::memory_cap_bytes, at_start,
+            "predicted memory of one job; above it the job is refused"),
+      bytes("reply_limit_bytes", &Config::reply_limit_bytes, at_reload,
+            "unsent bytes of one connection; above it the connection is closed"),
+      seconds("stall_s", &Config::stall, at_reload,
+              "a connection that takes no bytes for so long while there are some is closed"),
+      seconds("drain_s", &Config::drain, at_reload,
+              "a daemon that stops waits so long for running jobs to end in order"),
+  };
+  return table;
+}
+
+std::string flag_of(const Setting& setting) {
+  std::string flag = "--" + setting.name;
+  std::ranges::replace(flag, '_', '-');
+  return flag;
+}
+
+std::string variable_of(const Setting& setting) {
+  std::string variable = "SCULPTD_" + setting.name;
+  std::ranges::transform(variable, variable.begin(), [](unsigned char c) { return std::toupper(c); });
+  return variable;
+}
+
+void read_settings(const Json& object, const fs::path& folder, Config& config) {
+  Fields fields(object, "");
+  for (const auto& [name, value] : object.items()) {
+    const Setting* setting = find_setting(name);
+    if (setting == nullptr) {
+      throw ConfigError("/" + name + " is not known; the nearest setting is " + nearest_name(name) +
+                        "; sculptd config shows all");
+    }
+    setting->read({fields, name, folder}, config);
+  }
+}
+
+void read_setting(const Setting& setting, const std::string& text, Config& config) try {
+  const Json object{{setting.name, setting.is_text ? Json(text) : parse_json(text)}};
+  read_settings(object, {}, config);
+} catch (const JsonError&) {
+  throw ConfigError(setting.name + " must be a number (" + setting.type + "), not '" + text + "'");
+} catch (const ProtocolError& error) {
+  throw ConfigError(error.what());
+}
+
+SettledConfig settle_config(const ConfigSources& sources) {
+  SettledConfig settled{default_config(), {}};
+  for (const Setting& setting : settings()) settled.origins[setting.name] = "default";
+  if (!sources.file.empty()) {
+    for (const std::string& name : read_config(sources.file, settled.config)) settled.origins[name] = "file";
+  }
+  for (const Setting& setting : settings()) {
+    const char* text = std::getenv(variable_of(setting).c_str());
+    if (text == nullptr || *text == '\0') continue;
+    try {
+      read_setting(setting, text, settled.config);
+    } catch (const ConfigError& error) {
+      throw ConfigError("the environment variable " + variable_of(setting) + ": " + error.what());
+    }
+    settled.origins[setting.name] = "environment";
+  }
+  for (const auto& [name, text] : sources.flags) {
+    read_setting(*find_setting(name), text, settled.config);
+    settled.origins[name] = "flag";
+  }
+  return settled;
+}
+
+std::vector<std::string> changes_that_need_a_start(const Config& running, const Config& wanted) {
+  std::vector<std::string> names;
+  for (const Setting& setting : settings()) {
+    const bool differs = setting.show(running) != setting.show(wanted);
+    if (differs && setting.change == Change::at_start) names.push_back(setting.name);
+  }
+  return names;
+}
+
+std::string settings_table(const SettledConfig& settled) {
+  std::vector<std::array<std::string, 3>> rows{{"SETTING", "VALUE", "FROM"}};
+  for (const Setting& setting : settings())
+    rows.push_back({setting.name, shown(setting.show(settled.config)), settled.origins.at(setting.name)});
+  std::array<std::size_t, 2> widths{};
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size() + 2);
+  std::string table;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < widths.size(); ++i) table += row[i] + std::string(widths[i] - row[i].size(), ' ');
+    table += row.back() + "\n";
+  }
+  return table;
+}
+
+Json settings_json(const SettledConfig& settled) {
+  Json list = Json::array();
+  for (const Setting& setting : settings()) {
+    list.push_back({{"name", setting.name},
+                    {"value", setting.show(settled.config)},
+                    {"from", settled.origins.at(setting.name)},
+                    {"type", setting.type},
+                    {"flag", flag_of(setting)},
+                    {"variable", variable_of(setting)},
+                    {"reload", setting.change == Change::at_reload},
+                    {"help", setting.help}});
+  }
+  return {{"settings", std::move(list)}};
+}
+
+}  // namespace sculpt

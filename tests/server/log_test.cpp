@@ -1,0 +1,42 @@
+#include "server/log.hpp"
+
+#include <gtest/gtest.h>
+
+#include "proto/json.hpp"
+
+namespace sculpt {
+namespace {
+
+std::string line(LogForm form, const std::string& message) {
+  const spdlog::log_clock::time_point time{std::chrono::milliseconds(1769860800123)};
+  spdlog::memory_buf_t out;
+  LogFormatter(form).format({time, {}, "sculptd", spdlog::level::warn, message}, out);
+  return {out.data(), out.size()};
+}
+
+TEST(Log, TextHasTimeLevelAndMessage) {
+  EXPECT_EQ(line(LogForm::text, "job=01J attempt=2 running"),
+            "2026-01-31T12:00:00.123Z warning job=01J attempt=2 running\n");
+}
+
+TEST(Log, JsonHasTheFieldsOfTheFirstWords) {
+  EXPECT_EQ(parse_json(line(LogForm::json, "job=01J attempt=2 conn=7 failed code=x: why")),
+            Json({{"time", "2026-01-31T12:00:00.123Z"},
+                  {"level", "warning"},
+                  {"job", "01J"},
+                  {"attempt", 2},
+                  {"conn", 7},
+                  {"message", "failed code=x: why"}}));
+  EXPECT_EQ(parse_json(line(LogForm::json, "conn=7"))["message"], "");
+}
+
+TEST(Log, StrangersCannotForgeFieldsOrLines) {
+  const std::string hostile = "conn=7 client=x job=01J\nerror \xff";
+  const Json json = parse_json(line(LogForm::json, hostile));
+  EXPECT_FALSE(json.contains("job"));
+  EXPECT_EQ(json["conn"], 7);
+  EXPECT_NE(line(LogForm::text, hostile).find("job=01J\\x0aerror"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sculpt
