@@ -46,6 +46,7 @@ void add_setting_flags(CLI::App& app, ConfigSources& sources) {
     app.add_option_function<std::string>(
            flag_of(setting), [&](const std::string& text) { sources.flags[setting.name] = text; }, setting.help)
         ->type_name(setting.type)
+        ->take_last()
         ->check([&](const std::string& text) { return fault(setting, text); });
   }
 }

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   sculpt::add_submit(app, invocation);
   sculpt::add_list(app, invocation);
   sculpt::add_status(app, invocation);
+  sculpt::add_top(app, invocation);
   sculpt::add_watch(app, invocation);
   sculpt::add_wait(app, invocation);
   sculpt::add_cancel(app, invocation);
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
   sculpt::add_verify(app, invocation);
   sculpt::add_voxelize(app, invocation);
   sculpt::add_plan(app, invocation);
+  sculpt::add_completion(app, invocation);
   app.footer(
       "Exit codes: 0 fine, 1 the job failed or the check found something, 2 usage, 3 server unreachable, 4 refused.\n"
       "sculpt COMMAND --help says more about each command.");

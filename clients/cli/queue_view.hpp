@@ -1,0 +1,33 @@
+// What `sculpt top` shows: a daemon's jobs that have not ended, as text of a given size.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "clients/cpp/client.hpp"
+
+namespace sculpt {
+
+/// The jobs of a server that have not ended. The first reading goes through all of its jobs, later ones only ask for
+/// those that were open and for new ones.
+class OpenJobs {
+ public:
+  /// In the order of submission, running ones first. Throws like Client.
+  Json read(Client& client);
+
+ private:
+  void refresh(Client& client);
+  void add_new(Client& client);
+
+  std::map<std::string, Json> open_;
+  std::string last_seen_;
+};
+
+/// {"server": result of server.info, "jobs": the open ones}
+Json read_queue(Client& client, OpenJobs& jobs);
+
+/// Plain lines, none longer than `columns`; at most `rows` of them, of which the last says how many jobs are left out.
+/// 0: no bound.
+std::string queue_text(const Json& queue, int columns, int rows);
+
+}  // namespace sculpt
