@@ -40,6 +40,16 @@ void Services::changed(const std::string& job) {
   });
 }
 
+void Services::discard_cancelled(const std::string& job) {
+  disk.add([this, job](const std::stop_token&) {
+    try {
+      artifacts.discard_cancelled(job);
+    } catch (const std::exception& error) {
+      spdlog::error("job={} its files could not be removed: {}", job, error.what());
+    }
+  });
+}
+
 struct Server::Impl {
   Impl(const Config& wanted, Planner given)
       : config(wanted),
@@ -49,7 +59,10 @@ struct Server::Impl {
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
         scheduler(*store, make_run_job(planner, blobs, artifacts, job_defaults(config)),
-                  [this](const std::string& job) { services.changed(job); }),
+                  [this](const std::string& job) {
+                    services.discard_cancelled(job);
+                    services.changed(job);
+                  }),
         streams(*store, scheduler),
         waits(io, *store),
         listener(services) {
