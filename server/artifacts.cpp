@@ -97,6 +97,16 @@ JobRecord Artifacts::find(const std::string& job) const {
   return *record;
 }
 
+void Artifacts::discard(const std::string& job) const {
+  std::error_code ignored;
+  fs::remove_all(job_folder(job), ignored);
+}
+
+void Artifacts::discard_cancelled(const std::string& job) const {
+  const std::optional<JobRecord> record = store_.find(job);
+  if (record && record->state == JobState::cancelled) discard(job);
+}
+
 Json Artifacts::list(const JobRecord& job) const {
   const std::vector<StoredArtifact> stored = store_.artifacts(job.id);
   Json list = Json::array();

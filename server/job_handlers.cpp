@@ -52,6 +52,7 @@ void on_cancel(Services& services, Call call) {
   const JobState state = services.store.cancel(job);
   services.scheduler.cancel(job);
   answer(call, {{"job", job}, {"state", name(state)}});
+  services.discard_cancelled(job);
   services.changed(job);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/sha256.hpp"
+#include "core/plan/checkpoint_folder.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 
@@ -58,6 +59,7 @@ Ending run(const JobRecord& record, const Job& job, const fs::path& folder, cons
   ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
                       stored(folder / "report.json", "report", "json")};
+  remove_checkpoints(folder);
   return ending;
 }
 
@@ -80,9 +82,10 @@ RunJob make_run_job(const Planner& planner, const Blobs& blobs, const Artifacts&
       fs::create_directories(folder);
       const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
       return run(record, job, folder, planner, watch);
+    } catch (const Cancelled&) {
+      throw;  // the next run goes on from what is there
     } catch (...) {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
+      artifacts.discard(record.id);
       throw;
     }
   };

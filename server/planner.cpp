@@ -23,7 +23,7 @@ std::vector<std::string> cell_names(const std::vector<fs::path>& folders) {
 }
 
 PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
-  const JobResult result = run_job(job, trajectory, watch);
+  const JobResult result = resume_job(job, trajectory, {trajectory.parent_path()}, watch);
   PlanFiles files;
   files.report_json = report_json(result.report);
   files.residue_ndjson = residue_ndjson(result.residue);

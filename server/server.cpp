@@ -56,6 +56,16 @@ void Services::changed(const std::string& job) {
   });
 }
 
+void Services::discard_cancelled(const std::string& job) {
+  disk.add([this, job](const std::stop_token&) {
+    try {
+      artifacts.discard_cancelled(job);
+    } catch (const std::exception& error) {
+      spdlog::error("job={} its files could not be removed: {}", job, error.what());
+    }
+  });
+}
+
 struct Server::Impl {
   Impl(const Config& wanted, Planner given)
       : config(wanted),
@@ -65,7 +75,10 @@ struct Server::Impl {
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
         scheduler(*store, with_stage_times(make_run_job(planner, blobs, artifacts, job_defaults(config)), counters),
-                  [this](const std::string& job) { services.changed(job); }),
+                  [this](const std::string& job) {
+                    services.discard_cancelled(job);
+                    services.changed(job);
+                  }),
         streams(*store, scheduler),
         waits(io, *store),
         listener(services) {

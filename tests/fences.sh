@@ -47,7 +47,7 @@ forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/posture_lanes\.cpp')" -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/report\.cpp)')" -- core
+  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
 
 # No other header of core names a type of theirs.
 forbid "no header of core names fcl::, ompl::, octomap:: or ai..." '\b(fcl|ompl|octomap|urdf)::|\bai(Scene|Mesh|Node|Vector3D)\b' "\.cpp$|$(door "($fcl_headers)\.hpp")" -- core

@@ -15,6 +15,8 @@ class Sha256 {
   void add(std::string_view bytes);
   /// 64 lower-case hex digits of everything added so far; the object may not be used afterwards.
   std::string hex();
+  /// The same, and more may be added.
+  std::string hex_so_far() const;
 
  private:
   struct Impl;

@@ -66,8 +66,8 @@ Vec3 Arm::beside(Voxel voxel, const Vec3& axis) const {
 }
 
 bool Arm::cut_neighbour(Voxel voxel) {
-  if (outside_ || l1(voxel, at_) != 1 || !fits(voxel, axis_)) return false;
-  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[axis_]}, q_);
+  if (memory_.outside || l1(voxel, at_) != 1 || !fits(voxel, memory_.axis)) return false;
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[memory_.axis]}, q_);
   if (!q || scene_.certify(q_, *q, voxel) != Contact::none) return false;
   commit({}, *q, voxel);
   return true;
@@ -75,7 +75,7 @@ bool Arm::cut_neighbour(Voxel voxel) {
 
 bool Arm::cut_after_hop(Voxel voxel) {
   if (stop_.stop_requested()) throw Cancelled{};
-  if (outside_ || !fits(voxel, axis_)) return false;
+  if (memory_.outside || !fits(voxel, memory_.axis)) return false;
   const double h = scene_.grid().voxel_m;
   for (int lift = 1; lift <= 2 * scene_.grid().n; lift *= 2)
     if (hop(voxel, lift * h)) return true;
@@ -83,7 +83,7 @@ bool Arm::cut_after_hop(Voxel voxel) {
 }
 
 bool Arm::hop(Voxel voxel, double lift_m) {
-  const Vec3& axis = axes_[axis_];
+  const Vec3& axis = axes_[memory_.axis];
   const Vec3 here = scene_.chain().tool_pose(q_).ball_m, there = centre(voxel);
   const double height = std::max(here.dot(axis), there.dot(axis)) + lift_m;
   const Vec3 above_here = here + (height - here.dot(axis)) * axis,
@@ -105,22 +105,24 @@ bool Arm::hop(Voxel voxel, double lift_m) {
 }
 
 const Arm::Path& Arm::way_out() {
-  if (!way_out_.empty()) return way_out_;
-  way_out_ = {q_};
-  if (outside_) return way_out_;
-  const auto path = track_line(scene_, q_, outside(scene_.chain().tool_pose(q_).ball_m, axes_[axis_]), axes_[axis_]);
+  if (!memory_.way_out.empty()) return memory_.way_out;
+  memory_.way_out = {q_};
+  if (memory_.outside) return memory_.way_out;
+  const auto path =
+      track_line(scene_, q_, outside(scene_.chain().tool_pose(q_).ball_m, axes_[memory_.axis]), axes_[memory_.axis]);
   if (path) {
-    way_out_.insert(way_out_.end(), path->begin(), path->end());
+    memory_.way_out.insert(memory_.way_out.end(), path->begin(), path->end());
   } else {
-    way_out_ = shorten(scene_, reversed({trail_.begin() + static_cast<std::ptrdiff_t>(last_outside_), trail_.end()}));
+    memory_.way_out =
+        shorten(scene_, reversed({trail_.begin() + static_cast<std::ptrdiff_t>(memory_.last_outside), trail_.end()}));
   }
-  return way_out_;
+  return memory_.way_out;
 }
 
 std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int effort) {
   std::vector<Configuration> seeds;
-  if (axis == axis_) seeds.push_back(q_);
-  Path hubs = hubs_[axis];
+  if (axis == memory_.axis) seeds.push_back(q_);
+  Path hubs = memory_.hubs[axis];
   const Vec3 ball = outside(centre(voxel), axes_[axis]);
   const auto distance = [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); };
   std::stable_sort(hubs.begin(), hubs.end(),
@@ -160,13 +162,13 @@ bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
       if (++failures > 1 + 2 * effort) return false;
       continue;
     }
-    Path& hubs = hubs_[axis];
+    Path& hubs = memory_.hubs[axis];
     if (hubs.size() < most_hubs) hubs.push_back(hub);
     Path to_hub(out);
     to_hub.insert(to_hub.end(), across.begin() + 1, across.end());
     move(shorten(scene_, to_hub));
-    last_outside_ = trail_.size() - 1;
-    axis_ = axis;
+    memory_.last_outside = trail_.size() - 1;
+    memory_.axis = axis;
     commit(shorten(scene_, entry->from_outside), entry->cut, voxel);
     return true;
   }
@@ -174,32 +176,43 @@ bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
 }
 
 Arm::Path Arm::cross(const Configuration& from, const Configuration& to, int iterations) {
-  Transit transit = plan_transit(scene_, from, to, mix(seed_, queries_++), stop_, {iterations});
-  if (transit.searched) ++ompl_calls_;
-  if (transit.searched && !transit.path.empty()) ++ompl_solved_;
+  Transit transit = plan_transit(scene_, from, to, mix(seed_, memory_.queries++), stop_, {iterations});
+  if (transit.searched) ++memory_.ompl_calls;
+  if (transit.searched && !transit.path.empty()) ++memory_.ompl_solved;
   return std::move(transit.path);
 }
 
 void Arm::move(const Path& moves) {
   for (const Configuration& q : moves) {
     if (q == q_) continue;
-    emit_({q, false, {}, {}});
-    trail_.push_back(q);
-    q_ = q;
+    const Keyframe keyframe{q, false, {}, {}};
+    emit_(keyframe);
+    stand_at(keyframe);
   }
 }
 
 void Arm::commit(const Path& moves, const Configuration& cut, Voxel voxel) {
   move(moves);
-  emit_({cut, true, voxel, voxel});
-  trail_.push_back(cut);
-  scene_.remove(voxel);
-  support_.remove(voxel);
-  last_step_ = voxel - at_;
-  at_ = voxel;
-  q_ = cut;
-  outside_ = false;
-  way_out_.clear();
+  const Keyframe keyframe{cut, true, voxel, voxel};
+  emit_(keyframe);
+  stand_at(keyframe);
+  memory_.outside = false;
+  memory_.way_out.clear();
+}
+
+void Arm::stand_at(const Keyframe& keyframe) {
+  trail_.push_back(keyframe.q);
+  q_ = keyframe.q;
+  if (!keyframe.cut) return;
+  scene_.remove(keyframe.first);
+  support_.remove(keyframe.first);
+  last_step_ = keyframe.first - at_;
+  at_ = keyframe.first;
+}
+
+void Arm::resume(const std::vector<Keyframe>& keyframes, ArmMemory memory) {
+  for (const Keyframe& keyframe : keyframes) stand_at(keyframe);
+  memory_ = std::move(memory);
 }
 
 void Arm::go_home() {
@@ -215,10 +228,10 @@ void Arm::go_home() {
     path.insert(path.end(), across.begin() + 1, across.end());
   }
   move(shorten(scene_, path));
-  outside_ = true;
-  way_out_.clear();
+  memory_.outside = true;
+  memory_.way_out.clear();
   trail_ = {home_};
-  last_outside_ = 0;
+  memory_.last_outside = 0;
 }
 
 }  // namespace sculpt

@@ -11,6 +11,19 @@
 
 namespace sculpt {
 
+/// What an arm knows besides the keyframes that it emitted: with both another one goes on as it would have.
+struct ArmMemory {
+  using Path = std::vector<Configuration>;
+
+  std::size_t axis = 0;
+  bool outside = true;                            ///< stands clear of the stock
+  std::uint64_t last_outside = 0;                 ///< where on the trail it last stood outside the stock
+  Path way_out;                                   ///< cached; empty = not known
+  std::map<std::size_t, Path> hubs;               ///< per axis: configurations outside the stock that entries came from
+  std::uint64_t queries = 0;                      ///< transits asked for
+  std::uint64_t ompl_calls = 0, ompl_solved = 0;  ///< how often OMPL was asked for one, and how often it found one
+};
+
 /// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:
 /// cut edges are free in both directions once their voxel is gone. Single-threaded; the same calls give the same
 /// keyframes. Throws Cancelled once a stop was asked for.
@@ -21,6 +34,10 @@ class Arm {
   /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut. `may_fall`: what cannot be held.
   Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
       Emit emit);
+
+  /// Goes on where another one was, whose keyframes these are, all of them: they are not emitted again. Call first.
+  void resume(const std::vector<Keyframe>& keyframes, ArmMemory memory);
+  const ArmMemory& memory() const { return memory_; }
 
   /// The voxel whose centre the ball stands at (or stood at before it left the stock).
   Voxel at() const { return at_; }
@@ -45,12 +62,8 @@ class Arm {
   /// Leaves the stock and goes home.
   void go_home();
 
-  /// How often OMPL was asked for a transit, and how often it found one.
-  std::uint64_t ompl_calls() const { return ompl_calls_; }
-  std::uint64_t ompl_solved() const { return ompl_solved_; }
-
  private:
-  using Path = std::vector<Configuration>;
+  using Path = ArmMemory::Path;
   struct Entry {
     Path from_outside;  // first: clear of the stock; last: beside the voxel
     Configuration cut;
@@ -70,23 +83,21 @@ class Arm {
   Path cross(const Configuration& from, const Configuration& to, int iterations);
   void commit(const Path& moves, const Configuration& cut, Voxel voxel);
   void move(const Path& moves);
+  /// Of what was emitted, or is.
+  void stand_at(const Keyframe& keyframe);
 
   Scene& scene_;
   Support support_;
   Configuration home_;
-  std::uint64_t seed_, queries_ = 0, ompl_calls_ = 0, ompl_solved_ = 0;
+  std::uint64_t seed_;
   std::stop_token stop_;
   Emit emit_;
   std::vector<Vec3> axes_;
 
   Configuration q_;
   Voxel at_, last_step_;
-  std::size_t axis_ = 0;
-  bool outside_ = true;               // stands clear of the stock
-  Path way_out_;                      // cached; empty = not known
-  Path trail_;                        // every keyframe since home, home first: walked backwards it is free for ever
-  std::size_t last_outside_ = 0;      // where on the trail the arm last stood outside the stock
-  std::map<std::size_t, Path> hubs_;  // per axis: configurations outside the stock that entries came from
+  Path trail_;  // every keyframe since home, home first: walked backwards it is free for ever
+  ArmMemory memory_;
 };
 
 }  // namespace sculpt

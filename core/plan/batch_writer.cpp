@@ -18,6 +18,12 @@ void BatchWriter::add(std::vector<Keyframe> batch) {
   changed_.notify_all();
 }
 
+void BatchWriter::wait() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return failure_ || (batches_.empty() && !writing_); });
+  if (failure_) std::rethrow_exception(failure_);
+}
+
 void BatchWriter::finish() {
   close();
   if (failure_) std::rethrow_exception(failure_);
@@ -52,9 +58,15 @@ bool BatchWriter::write_next() {
     batch = std::move(batches_.front());
     batches_.pop_front();
     waiting_ -= batch.size();
+    writing_ = true;
     changed_.notify_all();
   }
   write_(batch);
+  {
+    const std::lock_guard lock(mutex_);
+    writing_ = false;
+  }
+  changed_.notify_all();
   return true;
 }
 

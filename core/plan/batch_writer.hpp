@@ -26,7 +26,9 @@ class BatchWriter {
 
   /// Throws what writing threw.
   void add(std::vector<Keyframe> batch);
-  /// Returns when all is written. Nothing may be added afterwards. Throws what writing threw.
+  /// Returns when all that was added is written. Throws what writing threw.
+  void wait();
+  /// The same, and the thread ends. Nothing may be added afterwards. Throws what writing threw.
   void finish();
 
  private:
@@ -40,6 +42,7 @@ class BatchWriter {
   std::condition_variable changed_;
   std::deque<std::vector<Keyframe>> batches_;
   std::size_t waiting_ = 0;  ///< keyframes in `batches_`
+  bool writing_ = false;     ///< a batch that is not in `batches_` any more
   bool closed_ = false;
   std::exception_ptr failure_;
   std::thread thread_;

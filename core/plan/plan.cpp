@@ -10,12 +10,12 @@
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/gantry.hpp"
-#include "core/plan/batch_writer.hpp"
-#include "core/plan/path_figures.hpp"
+#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/job_key.hpp"
+#include "core/plan/output.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/sweep/sweep.hpp"
-#include "core/trajectory/binary.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {
@@ -38,92 +38,34 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// The trajectory file as it grows, and the figures of what was written.
-class Output {
- public:
-  Output(const std::filesystem::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
-         std::uint64_t remove, int threads, const Watch& watch)
-      : path_(path),
-        file_(path, std::ios::binary | std::ios::trunc),
-        text_(form == TrajectoryForm::text ? file_ : nowhere_, header),
-        figures_(chain, header.grid, header.home),
-        remove_(remove),
-        watch_(watch) {
-    if (form == TrajectoryForm::binary) binary_.emplace(file_, header);
-    file_.flush();
-    check();
-    if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
-  }
+/// A run as far as it must survive the process.
+struct Log {
+  CheckpointFolder& kept;
+  Checkpoint& now;
+  Output& output;
+  const Scene& scene;
+  /// By the run that this one goes on with, less what both did.
+  std::uint64_t earlier_checks = now.file.bytes > 0 ? now.checks - scene.checks() : 0;
 
-  void add(std::vector<Keyframe> batch) {
-    flush();
-    for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
-    hand_over(std::move(batch));
-    watch_.step(Stage::plan, removed_, remove_);
+  std::uint64_t checks() const { return earlier_checks + scene.checks(); }
+  void save() {
+    if (!kept.keeps()) return;
+    now.file = output.sync();
+    now.checks = checks();
+    kept.save(now);
   }
-  void add(const Keyframe& keyframe) {
-    removed_ += static_cast<std::uint64_t>(run_length(keyframe));
-    waiting_.push_back(keyframe);
-    if (waiting_.size() == most_waiting) flush();
-    watch_.step(Stage::plan, removed_, remove_);
+  void save_if_due() {
+    if (kept.due()) save();
   }
-  /// What was added so far will be in the file soon.
-  void flush() {
-    if (!waiting_.empty()) hand_over(std::exchange(waiting_, {}));
-  }
-  TrajectoryEnd finish() {
-    flush();
-    if (beside_) beside_->finish();
-    const TrajectoryEnd end = text_.finish();
-    if (binary_) binary_->finish();
-    file_.flush();
-    check();
-    return end;
-  }
-  /// Once finished.
-  const PathFigures& figures() const { return figures_; }
-
- private:
-  static constexpr std::size_t most_waiting = 1024;
-
-  void hand_over(std::vector<Keyframe> batch) {
-    if (beside_)
-      beside_->add(std::move(batch));
-    else
-      write(batch);
-  }
-
-  void write(const std::vector<Keyframe>& batch) {
-    for (const Keyframe& keyframe : batch) {
-      text_.add(keyframe);
-      if (binary_) binary_->add(keyframe);
-      figures_.add(keyframe);
-    }
-    file_.flush();
-    check();
-  }
-
-  void check() const {
-    if (!file_)
-      throw InputError("file_unwritable",
-                       "cannot write '" + path_.string() + "': check the folder, its rights and the free space");
-  }
-
-  std::filesystem::path path_;
-  std::ofstream file_;
-  std::ostream nowhere_{nullptr};
-  TrajectoryWriter text_;  ///< makes the hash in either form
-  std::optional<BinaryWriter> binary_;
-  PathFigures figures_;
-  std::uint64_t removed_ = 0, remove_;
-  const Watch& watch_;
-  std::vector<Keyframe> waiting_;
-  std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it
 };
 
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
-                       const Configuration& home, const std::string& search, Output& output, const Watch& watch) {
-  Gantry gantry(scene, home, translating_entry(octree.n), [&](const Keyframe& keyframe) { output.add(keyframe); });
+                       const Configuration& home, const std::string& search, Log& log, const Watch& watch) {
+  const auto emit = [&](const Keyframe& keyframe) {
+    log.output.add(keyframe);
+    log.save_if_due();
+  };
+  Gantry gantry(scene, home, translating_entry(octree.n), emit, log.now.file.keyframes);
   const auto follow = [&](const VoxelRun& run) { gantry.follow(run); };
   if (search == "voxel")
     carve_voxelwise(voxels, follow, watch);
@@ -132,18 +74,29 @@ void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octr
   gantry.go_home();
 }
 
+/// `done`: the keyframes of an arm that was here before.
 void carve_with_arm(Scene& scene, const VoxelSet& may_fall, const Octree& octree, const BlockGraph& graph,
-                    const Configuration& home, std::uint64_t seed, Output& output, Report& report, const Watch& watch) {
-  Arm arm(scene, may_fall, home, seed, watch.stop, [&](const Keyframe& keyframe) { output.add(keyframe); });
-  const auto try_block = [&](int block, int effort) {
+                    const Configuration& home, std::uint64_t seed, const std::vector<Keyframe>& done, Log& log,
+                    const Watch& watch) {
+  Arm arm(scene, may_fall, home, seed, watch.stop, [&](const Keyframe& keyframe) { log.output.add(keyframe); });
+  const Voxel start = arm.at();
+  std::vector<BlockTrial>& trials = log.now.trials;
+  arm.resume(done, std::exchange(log.now.arm, {}));
+  const auto try_block = [&, known = trials.size(), tried = std::size_t{0}](int block, int effort) mutable {
+    if (tried < known) return trials[tried++];
     const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
-    if (trial.removed > 0) output.flush();
+    if (watch.stop.stop_requested()) throw Cancelled{};  // it may have been given up early
+    if (trial.removed > 0) log.output.flush();
+    trials.push_back(trial);
+    if (log.kept.due()) {
+      log.now.arm = arm.memory();
+      log.save();
+    }
     return trial;
   };
-  order_blocks(octree, graph, arm.at(), most_effort, try_block, watch);
+  order_blocks(octree, graph, start, most_effort, try_block, watch);
   arm.go_home();
-  report.quality.ompl_calls = arm.ompl_calls();
-  report.quality.ompl_solved = arm.ompl_solved();
+  log.now.arm = arm.memory();
 }
 
 /// What sweeps left that may still be cut, and of what else stands that which touches it: no more matters to its
@@ -218,18 +171,54 @@ void count_residue(Report& report, const std::vector<Residue>& residue) {
 }
 
 void replay(Report& report, const std::filesystem::path& trajectory, const Cell& cell, const VoxelGrid& voxels,
-            const Watch& watch) {
+            Checkpoint& now, CheckpointFolder& kept, const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
-  const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads);
+  const auto note = [&](const ReplayedPieces& replayed) {
+    if (!kept.due()) return;
+    now.replayed = replayed;
+    kept.save(now);
+  };
+  const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads, now.replayed, note);
   report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
   report.voxels.freed = verdict.freed;
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
 }
 
-}  // namespace
+/// What stood when the arm began, and what the arm did since.
+struct Carved {
+  VoxelSet standing;
+  std::vector<Keyframe> by_arm;
+};
 
-JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form) {
+Output open_output(const std::filesystem::path& trajectory, TrajectoryForm form, const TrajectoryHeader& header,
+                   const Chain& chain, const Report& report, const Checkpoint& at, Carved& carved, const Watch& watch) {
+  const std::uint64_t remove = report.voxels.remove;
+  if (at.file.bytes == 0) return {trajectory, form, header, chain, remove, report.threads, watch};
+  const bool is_needed = !chain.translating() && !at.residue;
+  const auto visit = [&, swept = at.swept ? at.swept->keyframes : 0](const Keyframe& keyframe) mutable {
+    if (!is_needed) return;
+    if (swept == 0) return carved.by_arm.push_back(keyframe);
+    --swept;
+    if (keyframe.cut) carved.standing.erase(keyframe.first, keyframe.last);
+  };
+  return {trajectory, at.file, header, chain, remove, report.threads, watch, visit};
+}
+
+SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall, const Job& job,
+                const Configuration& home, const VoxelSet& standing, Log& log, const Watch& watch) {
+  if (log.now.swept) return {standing, log.now.swept->out_of_tool_reach};
+  const auto emit = [&](std::vector<Keyframe> keyframes) { log.output.add(std::move(keyframes)); };
+  SweepRest left = carve_by_sweeps(scene, voxels, may_fall, home, job.seed, job.threads, emit, watch);
+  if (log.kept.keeps()) {
+    log.now.swept = {log.output.sync().keyframes, left.out_of_tool_reach};
+    log.save();
+  }
+  return left;
+}
+
+JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
+               CheckpointFolder kept) {
   const Stopwatch total;
   Watch watch = told;
   JobResult result;
@@ -267,33 +256,55 @@ JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
   const VoxelSet may_fall = find_unheld(result.voxels);
-  Output output(trajectory, form, header, chain, report.voxels.remove, job.threads, watch);
-  if (chain.translating()) {
-    carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search,
-                      output, watch);
-  } else if (report.search == "sweep") {
-    const SweepRest left = carve_by_sweeps(
-        scene, result.voxels, may_fall, header.home, job.seed, job.threads,
-        [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, watch);
-    scene.leave(left.standing);
-    const Octree rest = build_octree(left_to_cut(left, result.voxels.keep), watch);
-    carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, output, report, watch);
-  } else {
-    carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, output, report,
-                   watch);
+  Checkpoint now = kept.find_newest().value_or(Checkpoint{});
+  Carved carved{result.voxels.stock, {}};
+  Output output = open_output(trajectory, form, header, chain, report, now, carved, watch);
+  Log log{kept, now, output, scene};
+  if (!now.residue) {
+    if (chain.translating()) {
+      carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search, log,
+                        watch);
+    } else if (report.search == "sweep") {
+      const SweepRest left = sweep(scene, result.voxels, may_fall, job, header.home, carved.standing, log, watch);
+      scene.leave(left.standing);
+      const Octree rest = build_octree(left_to_cut(left, result.voxels.keep), watch);
+      carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, carved.by_arm, log,
+                     watch);
+    } else {
+      carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, carved.by_arm,
+                     log, watch);
+    }
+    log.save();
   }
+  report.quality.ompl_calls = now.arm.ompl_calls;
+  report.quality.ompl_solved = now.arm.ompl_solved;
   report.plan_sha256 = output.finish().sha256;
-  count_path(report, output.figures(), result.grid.voxel_m, scene.checks());
-  result.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
+  count_path(report, output.figures(), result.grid.voxel_m, log.checks());
+  if (!now.residue) {
+    now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
+    kept.save(now);
+  }
+  result.residue = *now.residue;
   count_residue(report, result.residue);
   report.seconds.plan = planning.seconds();
 
   Stopwatch verifying;
-  replay(report, trajectory, cell, result.voxels, watch);
+  replay(report, trajectory, cell, result.voxels, now, kept, watch);
   report.seconds.verify = verifying.seconds();
   report.seconds.total = total.seconds();
   report.peak_memory_bytes = peak_memory_bytes();
   return result;
+}
+
+}  // namespace
+
+JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
+  return plan(job, trajectory, watch, form, {});
+}
+
+JobResult resume_job(const Job& job, const std::filesystem::path& trajectory, const CheckpointPlace& place,
+                     const Watch& watch) {
+  return plan(job, trajectory, watch, TrajectoryForm::text, {place.folder, trajectory, job_key(job), place.interval});
 }
 
 }  // namespace sculpt

@@ -1,6 +1,7 @@
 // A job from mesh bytes to verified trajectory: the one place that sees all stages.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -102,6 +103,19 @@ enum class TrajectoryForm { text, binary };  // .ndjson, .sct
 /// Any thread; several jobs may run at once.
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
                   TrajectoryForm form = TrajectoryForm::text);
+
+/// Where a run keeps checkpoints, how often at most. At the ends of stages it does so whatever the time.
+struct CheckpointPlace {
+  std::filesystem::path folder;
+  std::chrono::duration<double> interval = std::chrono::seconds(5);
+};
+
+/// run_job in the text form that goes on where a run of the same job with the same place and trajectory file was
+/// stopped or killed, at its last checkpoint, and gives what that one would have given: the same bytes, the same report
+/// but for seconds, memory and threads. Where no checkpoint is whole and of this job and program, it starts over.
+/// Checkpoints are left in the folder (remove_checkpoints). Throws as run_job.
+JobResult resume_job(const Job& job, const std::filesystem::path& trajectory, const CheckpointPlace& place,
+                     const Watch& watch);
 
 /// The report as the JSON object of DESIGN section 5, without "job" and "state", which the server adds; one line.
 std::string report_json(const Report& report);

@@ -45,6 +45,7 @@ struct TrajectoryWriter::Impl {
   // What was written from `top` to `line_end` goes out at once; it is hashed later, many lines in one go.
   void send(char* line_end) {
     out.write(top, line_end - top);
+    bytes += static_cast<std::uint64_t>(line_end - top);
     top = line_end;
   }
 
@@ -59,6 +60,7 @@ struct TrajectoryWriter::Impl {
   std::vector<char> unhashed;
   char* top;
   Sha256 hash;
+  std::uint64_t bytes = 0;
   TrajectoryEnd end;
 };
 
@@ -75,6 +77,11 @@ void TrajectoryWriter::add(const Keyframe& keyframe) {
   impl_->send(write_keyframe_line(line, keyframe));
   ++impl_->end.keyframes;
   impl_->end.removed += static_cast<std::uint64_t>(run_length(keyframe));
+}
+
+TrajectoryStart TrajectoryWriter::so_far() {
+  impl_->hash_all();
+  return {impl_->end.keyframes, impl_->bytes, impl_->hash.hex_so_far()};
 }
 
 TrajectoryEnd TrajectoryWriter::finish() {

@@ -40,6 +40,13 @@ struct TrajectoryEnd {
   std::string sha256;  ///< of every byte before the end line
 };
 
+/// The first lines of a trajectory file in the text form, header included.
+struct TrajectoryStart {
+  std::uint64_t keyframes = 0, bytes = 0;
+  std::string sha256;  ///< of these bytes
+  bool operator==(const TrajectoryStart&) const = default;
+};
+
 /// Joint values as they are stored: multiples of 1e-7 rad or m, so that the text read back gives the same double.
 /// Planners certify rounded values.
 Configuration rounded(const Configuration& q);
@@ -53,6 +60,8 @@ class TrajectoryWriter {
   TrajectoryWriter(std::ostream& out, const TrajectoryHeader& header);
   ~TrajectoryWriter();
   void add(const Keyframe& keyframe);
+  /// All that was added until now.
+  TrajectoryStart so_far();
   TrajectoryEnd finish();
 
  private:

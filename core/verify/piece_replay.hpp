@@ -27,16 +27,6 @@ struct ReplayScene {
   std::vector<std::pair<int, int>> link_pairs;
 };
 
-/// Findings of one piece.
-struct PieceFindings {
-  std::uint64_t collisions = 0, voxels_checked = 0;
-  std::vector<Finding> findings;  ///< the first 100
-
-  void find(std::uint64_t line, std::string sentence);
-  /// Those of the piece after.
-  void add(PieceFindings&& next);
-};
-
 /// Finds the joints of `q` outside their limits.
 void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::uint64_t line, PieceFindings& found);
 

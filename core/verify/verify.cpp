@@ -46,13 +46,18 @@ std::vector<int> expected_joints(const Cell& cell) {
 // Workers and what they find. The calling thread is one of them; it alone tells the watch.
 class Crew {
  public:
-  Crew(TrajectoryReader& reader, const ReplayScene& scene, const Watch& watch, int workers)
+  Crew(TrajectoryReader& reader, const ReplayScene& scene, const Watch& watch, int workers, ReplayedPieces done,
+       const std::function<void(const ReplayedPieces&)>& note)
       : pieces_(reader, workers),
         scene_(scene),
         watch_(watch),
         workers_(workers),
         to_remove_(scene.voxels.stock.size() - scene.voxels.keep.size()),
-        left_(scene.voxels.stock) {}
+        removed_(done.found.voxels_checked),
+        left_(scene.voxels.stock),
+        note_(note),
+        known_(done.pieces),
+        replayed_(std::move(done)) {}
 
   void run() {
     {
@@ -65,7 +70,7 @@ class Crew {
   }
 
   /// After `run`.
-  PieceFindings& found() { return found_; }
+  PieceFindings& found() { return replayed_.found; }
   VoxelSet& left() { return left_; }
   const Configuration& end() const { return pieces_.end(); }
   const CutLog& cuts() const { return pieces_.cuts(); }
@@ -91,6 +96,10 @@ class Crew {
       if (!replay) replay.emplace(scene_);
       for (const auto& missed : before) replay->skip(*missed);
       if (!piece) break;
+      if (piece->index < known_) {
+        replay->skip(*piece);
+        continue;
+      }
       PieceFindings found = replay->replay(*piece, step);
       removed_ += found.voxels_checked;
       add(piece->index, std::move(found));
@@ -107,8 +116,11 @@ class Crew {
   void add(std::size_t index, PieceFindings found) {
     const std::lock_guard lock(mutex_);
     early_.emplace(index, std::move(found));
-    for (; !early_.empty() && early_.begin()->first == added_; ++added_, early_.erase(early_.begin()))
-      found_.add(std::move(early_.begin()->second));
+    for (; !early_.empty() && early_.begin()->first == replayed_.pieces; early_.erase(early_.begin())) {
+      replayed_.found.add(std::move(early_.begin()->second));
+      ++replayed_.pieces;
+      if (note_) note_(replayed_);
+    }
   }
 
   TrajectoryPieces pieces_;
@@ -117,18 +129,27 @@ class Crew {
   const int workers_;
   const std::uint64_t to_remove_;
   std::atomic<std::uint64_t> removed_ = 0;
-  VoxelSet left_;     // the calling thread's
-  std::mutex mutex_;  // of what follows
+  VoxelSet left_;  // the calling thread's
+  const std::function<void(const ReplayedPieces&)>& note_;
+  const std::uint64_t known_;  // pieces that were replayed before
+  std::mutex mutex_;           // of what follows
   std::exception_ptr failure_;
   std::map<std::size_t, PieceFindings> early_;
-  std::size_t added_ = 0;
-  PieceFindings found_;
+  ReplayedPieces replayed_;
 };
 
 class Replay {
  public:
-  Replay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, int threads)
-      : cell_(cell), voxels_(voxels), watch_(watch), threads_(threads), reader_(in), joints_(expected_joints(cell)) {}
+  Replay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, int threads,
+         ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note)
+      : cell_(cell),
+        voxels_(voxels),
+        watch_(watch),
+        threads_(threads),
+        done_(std::move(done)),
+        note_(note),
+        reader_(in),
+        joints_(expected_joints(cell)) {}
 
   Verdict run() {
     verdict_.left = voxels_.stock;
@@ -180,7 +201,7 @@ class Replay {
   void replay_keyframes() {
     const ReplayScene scene(cell_, voxels_, header(), joints_);
     find_broken_limits(scene, header().home, reader_.line(), found_);
-    Crew crew(reader_, scene, watch_, std::max(1, threads_));
+    Crew crew(reader_, scene, watch_, std::max(1, threads_), std::move(done_), note_);
     crew.run();
     found_.add(std::move(crew.found()));
     verdict_.left = std::move(crew.left());
@@ -210,6 +231,8 @@ class Replay {
   const VoxelGrid& voxels_;
   const Watch& watch_;
   const int threads_;
+  ReplayedPieces done_;
+  const std::function<void(const ReplayedPieces&)>& note_;
   TrajectoryReader reader_;
   std::vector<int> joints_;
   PieceFindings found_;
@@ -218,9 +241,9 @@ class Replay {
 
 }  // namespace
 
-Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
-                          int threads) {
-  return Replay(in, cell, voxels, watch, threads).run();
+Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, int threads,
+                          ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note) {
+  return Replay(in, cell, voxels, watch, threads, std::move(done), note).run();
 }
 
 }  // namespace sculpt

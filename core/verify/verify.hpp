@@ -2,6 +2,7 @@
 // or motion/.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -26,6 +27,22 @@ struct Verdict {
   std::vector<Finding> findings;     ///< the first 100
 };
 
+/// Findings of one piece of a trajectory, or of several.
+struct PieceFindings {
+  std::uint64_t collisions = 0, voxels_checked = 0;
+  std::vector<Finding> findings;  ///< the first 100
+
+  void find(std::uint64_t line, std::string sentence);
+  /// Those of the piece after.
+  void add(PieceFindings&& next);
+};
+
+/// How far a replay is: this many pieces from the first on are done, and this was found.
+struct ReplayedPieces {
+  std::uint64_t pieces = 0;
+  PieceFindings found;
+};
+
 /// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell
 /// and grid, start and end at home, joint limits kept, every removed voxel a remove voxel removed once with the ball
 /// within tolerance of its centre, no contact of tool or link with material, room or itself at any time (the tool may
@@ -33,8 +50,10 @@ struct Verdict {
 /// chain only translates, no removal frees a piece of the material that the table held, but for parts of
 /// the target that nothing can hold. Throws InputError
 /// `trajectory_invalid` for text that is no trajectory; Cancelled. The verdict is the same at any number of threads
-/// (each one has a material of its own); `watch` is told from the calling one.
+/// (each one has a material of its own); `watch` is told from the calling one. `note` is told how far it is after each
+/// piece, from any of them but one at a time; with that as `done` a replay of the same trajectory goes on from there.
 Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
-                          int threads = 1);
+                          int threads = 1, ReplayedPieces done = {},
+                          const std::function<void(const ReplayedPieces&)>& note = {});
 
 }  // namespace sculpt

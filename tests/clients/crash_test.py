@@ -3,12 +3,15 @@
 import json
 import os
 import pathlib
+import random
 import socket
 import subprocess
+import sys
+import time
 import unittest
 
 import shapes
-from harness import SOURCE, ClientTest, Daemon
+from harness import PATIENCE_S, SOURCE, ClientTest, Daemon
 
 import sculpt
 
@@ -77,6 +80,48 @@ class Crash(ClientTest):
             self.server = daemon.address
             self.fine("wait", job)
             self.assertEqual(daemon.stop(), 0)
+
+
+    def test_checkpoints_stay_as_long_as_a_job_may_go_on(self):
+        daemon = Daemon(self.data, "--workers", "1")
+        self.server = daemon.address
+        job, never = self.submit(robot="panda-turntable", resolution=16), self.submit(robot="panda-turntable", resolution=16)
+        self.wait_until_running(job)
+        self.assertEqual(daemon.stop(), 0)
+        self.assertTrue((self.data / "jobs" / job).exists(), "an interrupted job keeps its files")
+        with Daemon(self.data, "--workers", "1") as daemon:
+            self.server = daemon.address
+            self.fine("wait", job)
+            self.wait_until_running(never)
+            self.fine("cancel", never)
+            folder = self.data / "jobs" / never
+            end = time.monotonic() + PATIENCE_S
+            while folder.exists():
+                self.assertLess(time.monotonic(), end, "a cancelled job leaves no files")
+                time.sleep(0.01)
+        left = sorted(file.name for file in (self.data / "jobs" / job).iterdir())
+        self.assertEqual(left, ["report.json", "residue.ndjson", "trajectory.ndjson", "voxels.binvox"])
+
+    def test_killed_at_random_moments_again_and_again_it_ends_with_the_same_bytes(self):
+        seed = random.randrange(2**32)
+        print(f"seed {seed}", file=sys.stderr)
+        moments = random.Random(seed)
+        jobs = [("panda-turntable", "sweep"), ("panda-turntable", "octree"), ("gantry", "octree"), ("gantry", "voxel")]
+        with Daemon(self.data) as daemon:
+            self.server = daemon.address
+            expected = [self.sha256(self.submit("--wait", "--search", search, robot=cell, resolution=16)) for cell, search in jobs]
+        for (cell, search), sha256 in zip(jobs, expected):
+            job = None
+            for _ in range(3):
+                daemon = Daemon(self.data, "--workers", "1")
+                self.server = daemon.address
+                job = job or self.submit("--search", search, robot=cell, resolution=16)
+                time.sleep(moments.uniform(0, 0.5))
+                daemon.kill()
+            with Daemon(self.data, "--workers", "1") as daemon:
+                self.server = daemon.address
+                self.fine("wait", job)
+                self.assertEqual(self.sha256(job), sha256, f"{search} of {cell}, seed {seed}")
 
 
 class Startup(ClientTest):

@@ -30,6 +30,10 @@ TEST(BatchWriter, WritesEverythingOnceAndInOrder) {
         const std::size_t count = random.next() % (seed % 2 == 0 ? 10 : 20000);
         writer.add(numbered(added, count));
         added += count;
+        if (random.next() % 8 == 0) {
+          writer.wait();
+          EXPECT_EQ(written, added);
+        }
       }
       if (seed % 3 > 0) writer.finish();
     }

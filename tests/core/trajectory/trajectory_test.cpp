@@ -150,5 +150,24 @@ TEST(TrajectoryWriter, RefusesValuesThatAreNotNumbers) {
   EXPECT_THROW(writer.add({Configuration::Constant(3, std::nan("")), false, {}, {}}), std::invalid_argument);
 }
 
+TEST(Trajectory, WhatIsWrittenSoFarIsKnownByLengthAndHash) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const TrajectoryHeader header = sample_header();
+    std::ostringstream out;
+    TrajectoryWriter writer(out, header);
+    std::uint64_t keyframes = 0;
+    for (const Keyframe& keyframe : random_keyframes(seed, header)) {
+      const TrajectoryStart start = writer.so_far();
+      EXPECT_EQ(start.keyframes, keyframes++);
+      EXPECT_EQ(start.bytes, out.str().size());
+      EXPECT_EQ(start.sha256, sha256_hex(out.str()));
+      writer.add(keyframe);
+    }
+    writer.finish();
+    EXPECT_EQ(out.str(), write_text(header, random_keyframes(seed, header))) << "asking changes nothing";
+  }
+}
+
 }  // namespace
 }  // namespace sculpt

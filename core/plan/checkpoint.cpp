@@ -1,0 +1,171 @@
+#include "core/plan/checkpoint.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/sha256.hpp"
+
+namespace sculpt {
+namespace {
+
+using Json = nlohmann::json;
+using Path = ArmMemory::Path;
+
+constexpr std::size_t hash_length = 64;
+
+Json to_json(Voxel v) {
+  return {v.i, v.j, v.k};
+}
+
+Voxel voxel_of(const Json& json) {
+  return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>()};
+}
+
+Json to_json(const Path& path) {
+  Json json = Json::array();
+  for (const Configuration& q : path) json.push_back(std::vector<double>(q.begin(), q.end()));
+  return json;
+}
+
+Path path_of(const Json& json) {
+  Path path;
+  for (const Json& values : json) {
+    Configuration q(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t at = 0; at < values.size(); ++at) q[static_cast<Eigen::Index>(at)] = values[at].get<double>();
+    path.push_back(std::move(q));
+  }
+  return path;
+}
+
+Json to_json(const TrajectoryStart& file) {
+  return {{"keyframes", file.keyframes}, {"bytes", file.bytes}, {"sha256", file.sha256}};
+}
+
+TrajectoryStart start_of(const Json& json) {
+  return {json.at("keyframes").get<std::uint64_t>(), json.at("bytes").get<std::uint64_t>(),
+          json.at("sha256").get<std::string>()};
+}
+
+Json to_json(const SweptMark& swept) {
+  Json voxels = Json::array();
+  for (const Voxel v : swept.out_of_tool_reach) voxels.push_back(to_json(v));
+  return {{"keyframes", swept.keyframes}, {"out_of_tool_reach", std::move(voxels)}};
+}
+
+SweptMark swept_of(const Json& json) {
+  SweptMark swept{json.at("keyframes").get<std::uint64_t>(), {}};
+  for (const Json& v : json.at("out_of_tool_reach")) swept.out_of_tool_reach.push_back(voxel_of(v));
+  return swept;
+}
+
+Json to_json(const std::vector<BlockTrial>& trials) {
+  Json json = Json::array();
+  for (const BlockTrial& trial : trials)
+    json.push_back({trial.removed, trial.left, trial.at.i, trial.at.j, trial.at.k});
+  return json;
+}
+
+std::vector<BlockTrial> trials_of(const Json& json) {
+  std::vector<BlockTrial> trials;
+  for (const Json& t : json)
+    trials.push_back(
+        {t.at(0).get<int>(), t.at(1).get<int>(), {t.at(2).get<int>(), t.at(3).get<int>(), t.at(4).get<int>()}});
+  return trials;
+}
+
+Json to_json(const ArmMemory& arm) {
+  Json hubs = Json::array();
+  for (const auto& [axis, path] : arm.hubs) hubs.push_back({axis, to_json(path)});
+  return {{"axis", arm.axis},
+          {"outside", arm.outside},
+          {"last_outside", arm.last_outside},
+          {"hubs", std::move(hubs)},
+          {"way_out", to_json(arm.way_out)},
+          {"queries", arm.queries},
+          {"ompl_calls", arm.ompl_calls},
+          {"ompl_solved", arm.ompl_solved}};
+}
+
+ArmMemory arm_of(const Json& json) {
+  ArmMemory arm;
+  arm.axis = json.at("axis").get<std::size_t>();
+  arm.outside = json.at("outside").get<bool>();
+  arm.last_outside = json.at("last_outside").get<std::uint64_t>();
+  for (const Json& hub : json.at("hubs")) arm.hubs[hub.at(0).get<std::size_t>()] = path_of(hub.at(1));
+  arm.way_out = path_of(json.at("way_out"));
+  arm.queries = json.at("queries").get<std::uint64_t>();
+  arm.ompl_calls = json.at("ompl_calls").get<std::uint64_t>();
+  arm.ompl_solved = json.at("ompl_solved").get<std::uint64_t>();
+  return arm;
+}
+
+Json to_json(const std::vector<Residue>& residue) {
+  Json json = Json::array();
+  for (const Residue& left : residue)
+    json.push_back({left.voxel.i, left.voxel.j, left.voxel.k, static_cast<int>(left.reason)});
+  return json;
+}
+
+std::vector<Residue> residue_of(const Json& json) {
+  std::vector<Residue> residue;
+  for (const Json& left : json) residue.push_back({voxel_of(left), static_cast<Reason>(left.at(3).get<int>())});
+  return residue;
+}
+
+Json to_json(const ReplayedPieces& replayed) {
+  Json findings = Json::array();
+  for (const Finding& finding : replayed.found.findings) findings.push_back({finding.line, finding.sentence});
+  return {{"pieces", replayed.pieces},
+          {"collisions", replayed.found.collisions},
+          {"voxels_checked", replayed.found.voxels_checked},
+          {"findings", std::move(findings)}};
+}
+
+ReplayedPieces replayed_of(const Json& json) {
+  ReplayedPieces replayed;
+  replayed.pieces = json.at("pieces").get<std::uint64_t>();
+  replayed.found.collisions = json.at("collisions").get<std::uint64_t>();
+  replayed.found.voxels_checked = json.at("voxels_checked").get<std::uint64_t>();
+  for (const Json& finding : json.at("findings"))
+    replayed.found.findings.push_back({finding.at(0).get<std::uint64_t>(), finding.at(1).get<std::string>()});
+  return replayed;
+}
+
+Checkpoint checkpoint_of(const Json& json) {
+  Checkpoint checkpoint{start_of(json.at("file")),
+                        json.at("checks").get<std::uint64_t>(),
+                        {},
+                        trials_of(json.at("trials")),
+                        arm_of(json.at("arm")),
+                        {},
+                        replayed_of(json.at("replayed"))};
+  if (json.contains("swept")) checkpoint.swept = swept_of(json.at("swept"));
+  if (json.contains("residue")) checkpoint.residue = residue_of(json.at("residue"));
+  return checkpoint;
+}
+
+}  // namespace
+
+std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key, std::uint64_t number) {
+  Json json{{"key", key},
+            {"number", number},
+            {"file", to_json(checkpoint.file)},
+            {"checks", checkpoint.checks},
+            {"trials", to_json(checkpoint.trials)},
+            {"arm", to_json(checkpoint.arm)},
+            {"replayed", to_json(checkpoint.replayed)}};
+  if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);
+  if (checkpoint.residue) json["residue"] = to_json(*checkpoint.residue);
+  const std::string body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return sha256_hex(body) + '\n' + body;
+}
+
+std::optional<NumberedCheckpoint> read_checkpoint(std::string_view text, const std::string& key) {
+  if (text.size() <= hash_length || text[hash_length] != '\n') return std::nullopt;
+  const std::string_view body = text.substr(hash_length + 1);
+  if (sha256_hex(body) != text.substr(0, hash_length)) return std::nullopt;
+  const Json json = Json::parse(body);  // as it was written: the hash says so
+  if (json.at("key") != key) return std::nullopt;
+  return NumberedCheckpoint{json.at("number").get<std::uint64_t>(), checkpoint_of(json)};
+}
+
+}  // namespace sculpt

@@ -1,0 +1,45 @@
+// What of a run survives the process: how far it was, in a form that can be kept in a file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/motion/arm.hpp"
+#include "core/motion/residue.hpp"
+#include "core/search/block_order.hpp"
+#include "core/trajectory/trajectory.hpp"
+#include "core/verify/verify.hpp"
+
+namespace sculpt {
+
+/// After sweeping: `keyframes` of the file are its own, what follows is the arm's.
+struct SweptMark {
+  std::uint64_t keyframes = 0;
+  std::vector<Voxel> out_of_tool_reach;
+};
+
+/// Together with the first lines of the trajectory file it says all that a run needs to go on.
+struct Checkpoint {
+  TrajectoryStart file;
+  std::uint64_t checks = 0;  ///< configurations tested
+  std::optional<SweptMark> swept;
+  std::vector<BlockTrial> trials;               ///< of the outer search, in order: what came of them
+  ArmMemory arm;                                ///< after the last trial
+  std::optional<std::vector<Residue>> residue;  ///< once the plan is finished
+  ReplayedPieces replayed;                      ///< how far the replay of a finished plan is
+};
+
+/// `key` says which job by which program the checkpoint is of; `number` counts up from checkpoint to checkpoint.
+std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key, std::uint64_t number);
+
+struct NumberedCheckpoint {
+  std::uint64_t number = 0;
+  Checkpoint checkpoint;
+};
+
+/// Nothing if the text is damaged or of another key.
+std::optional<NumberedCheckpoint> read_checkpoint(std::string_view text, const std::string& key);
+
+}  // namespace sculpt

@@ -1,0 +1,116 @@
+#include "core/plan/output.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "core/base/durable_file.hpp"
+#include "core/base/error.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_waiting = 1024;
+
+}  // namespace
+
+Output::Output(const fs::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
+               const Chain& chain, std::uint64_t remove, const Watch& watch)
+    : path_(path),
+      file_(path, std::ios::binary | mode),
+      lines_(lines ? file_.rdbuf() : nullptr),
+      text_(lines_, header),
+      figures_(chain, header.grid, header.home),
+      remove_(remove),
+      watch_(watch) {}
+
+Output::Output(const fs::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
+               std::uint64_t remove, int threads, const Watch& watch)
+    : Output(path, std::ios::trunc, form == TrajectoryForm::text, header, chain, remove, watch) {
+  if (form == TrajectoryForm::binary) binary_.emplace(file_, header);
+  start_writing(threads);
+}
+
+Output::Output(const fs::path& path, const TrajectoryStart& start, const TrajectoryHeader& header, const Chain& chain,
+               std::uint64_t remove, int threads, const Watch& watch, const std::function<void(const Keyframe&)>& visit)
+    : Output(path, std::ios::app, false, header, chain, remove, watch) {
+  std::ifstream in(path, std::ios::binary);
+  TrajectoryReader reader(in);
+  for (std::uint64_t at = 0; at < start.keyframes; ++at) {
+    const Keyframe keyframe = reader.next().value();
+    removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+    write({keyframe});
+    visit(keyframe);
+  }
+  if (text_.so_far() != start) throw std::logic_error("a trajectory file is not what its checkpoint says");
+  fs::resize_file(path, start.bytes);
+  lines_.rdbuf(file_.rdbuf());
+  start_writing(threads);
+}
+
+void Output::start_writing(int threads) {
+  file_.flush();
+  check();
+  if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
+}
+
+void Output::add(std::vector<Keyframe> batch) {
+  flush();
+  for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  hand_over(std::move(batch));
+  watch_.step(Stage::plan, removed_, remove_);
+}
+
+void Output::add(const Keyframe& keyframe) {
+  removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  waiting_.push_back(keyframe);
+  if (waiting_.size() == most_waiting) flush();
+  watch_.step(Stage::plan, removed_, remove_);
+}
+
+void Output::flush() {
+  if (!waiting_.empty()) hand_over(std::exchange(waiting_, {}));
+}
+
+TrajectoryStart Output::sync() {
+  flush();
+  if (beside_) beside_->wait();
+  sync_file(path_);
+  return text_.so_far();
+}
+
+TrajectoryEnd Output::finish() {
+  flush();
+  if (beside_) beside_->finish();
+  const TrajectoryEnd end = text_.finish();
+  if (binary_) binary_->finish();
+  file_.flush();
+  check();
+  return end;
+}
+
+void Output::hand_over(std::vector<Keyframe> batch) {
+  if (beside_)
+    beside_->add(std::move(batch));
+  else
+    write(batch);
+}
+
+void Output::write(const std::vector<Keyframe>& batch) {
+  for (const Keyframe& keyframe : batch) {
+    text_.add(keyframe);
+    if (binary_) binary_->add(keyframe);
+    figures_.add(keyframe);
+  }
+  file_.flush();
+  check();
+}
+
+void Output::check() const {
+  if (!file_ || (lines_.rdbuf() != nullptr && !lines_))
+    throw InputError("file_unwritable",
+                     "cannot write '" + path_.string() + "': check the folder, its rights and the free space");
+}
+
+}  // namespace sculpt

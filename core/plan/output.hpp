@@ -1,0 +1,61 @@
+// The trajectory file as it grows, and the figures of what was written.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/plan/batch_writer.hpp"
+#include "core/plan/path_figures.hpp"
+#include "core/plan/plan.hpp"
+#include "core/trajectory/binary.hpp"
+
+namespace sculpt {
+
+/// All calls from one thread. Throws InputError `file_unwritable`.
+class Output {
+ public:
+  /// `watch` is told of `remove` voxels to come. With more than one thread writing is done on one of its own.
+  Output(const std::filesystem::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
+         std::uint64_t remove, int threads, const Watch& watch);
+  /// Goes on with a file in the text form that begins with `start` and the same header: what follows is cut off, and
+  /// `visit` gets the keyframes that stay.
+  Output(const std::filesystem::path& path, const TrajectoryStart& start, const TrajectoryHeader& header,
+         const Chain& chain, std::uint64_t remove, int threads, const Watch& watch,
+         const std::function<void(const Keyframe&)>& visit);
+
+  void add(std::vector<Keyframe> batch);
+  void add(const Keyframe& keyframe);
+  /// What was added so far will be in the file soon.
+  void flush();
+  /// What was added so far, durable now.
+  TrajectoryStart sync();
+  TrajectoryEnd finish();
+  /// Once finished.
+  const PathFigures& figures() const { return figures_; }
+
+ private:
+  /// `lines`: they go into the file from the first on.
+  Output(const std::filesystem::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
+         const Chain& chain, std::uint64_t remove, const Watch& watch);
+  void start_writing(int threads);
+  void hand_over(std::vector<Keyframe> batch);
+  void write(const std::vector<Keyframe>& batch);
+  void check() const;
+
+  std::filesystem::path path_;
+  std::ofstream file_;
+  std::ostream lines_;     ///< into the file, or nowhere
+  TrajectoryWriter text_;  ///< makes the hash in either form
+  std::optional<BinaryWriter> binary_;
+  PathFigures figures_;
+  std::uint64_t removed_ = 0, remove_;
+  const Watch& watch_;
+  std::vector<Keyframe> waiting_;
+  std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it
+};
+
+}  // namespace sculpt

@@ -1,0 +1,262 @@
+// A run that is killed anywhere and resumed gives what it would have given.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/job_key.hpp"
+#include "tests/core/plan/jobs.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds always{0}, at_stage_ends{3600};
+
+/// What a run leaves: its bytes, and its report but for what the machine decides.
+struct Outcome {
+  std::string trajectory, report, residue;
+  bool operator==(const Outcome&) const = default;
+};
+
+Outcome outcome(const JobResult& result, const fs::path& trajectory) {
+  auto report = nlohmann::json::parse(report_json(result.report));
+  report.erase("seconds");
+  report.erase("peak_memory_bytes");
+  return {read_file(trajectory), report.dump(), residue_ndjson(result.residue)};
+}
+
+/// In memory where that can be had: a disk takes long to sync a checkpoint at every step.
+fs::path quick_folder() {
+  return fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+}
+
+/// A job's folder; gone at the end.
+class JobFolder {
+ public:
+  explicit JobFolder(Job job) : job_(std::move(job)) {
+    std::string pattern = (quick_folder() / "sculpt-test-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~JobFolder() { fs::remove_all(folder_); }
+
+  fs::path trajectory() const { return folder_ / "trajectory.ndjson"; }
+  fs::path slot(int number) const { return folder_ / ("checkpoint-" + std::to_string(number)); }
+  const fs::path& folder() const { return folder_; }
+
+  Outcome run(const Watch& watch = {}, std::chrono::seconds interval = always) const {
+    return outcome(resume_job(job_, trajectory(), {folder_, interval}, watch), trajectory());
+  }
+  /// In a process that gets SIGKILL the `last`-th time that it told how far it was. False if it ended before that.
+  bool run_killed(std::uint64_t last, std::chrono::seconds interval = always) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      Watch watch;
+      watch.tell = [last, told = std::uint64_t{0}](const Progress&) mutable {
+        if (told++ == last) raise(SIGKILL);
+      };
+      run(watch, interval);
+      _exit(0);
+    }
+    int status = 0;
+    EXPECT_EQ(waitpid(child, &status, 0), child);
+    return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  }
+  std::optional<Checkpoint> checkpoint() const {
+    return CheckpointFolder(folder_, trajectory(), job_key(job_), always).find_newest();
+  }
+
+ private:
+  Job job_;
+  fs::path folder_;
+};
+
+Outcome uninterrupted(const Job& job, std::vector<Progress>* told = nullptr) {
+  const ScratchFile file;
+  Watch watch;
+  if (told != nullptr) watch.tell = [told](const Progress& progress) { told->push_back(progress); };
+  return outcome(run_job(job, file.path(), watch), file.path());
+}
+
+struct Kind {
+  const char* name;
+  const char* cell;
+  const char* search;
+  int resolution;
+};
+
+class Resume : public testing::TestWithParam<Kind> {
+ protected:
+  static Job job(std::uint64_t seed) {
+    Job job = make_job(shipped_cell(GetParam().cell), random_target(GetParam().resolution, seed), seed);
+    job.search = GetParam().search;
+    job.threads = 1 + static_cast<int>(seed % 2);
+    return job;
+  }
+};
+
+TEST_P(Resume, KilledAnywhereItEndsWithTheSameBytes) {
+  int kills = 0;
+  for (std::uint64_t seed = 0; seed < 13; ++seed) {
+    const Job job = this->job(seed);
+    std::vector<Progress> told;
+    const Outcome expected = uninterrupted(job, &told);
+    const std::uint64_t last = Random(seed).next() % told.size();
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", killed at step " + std::to_string(last));
+    const JobFolder folder(job);
+    if (folder.run_killed(last, seed % 4 == 3 ? at_stage_ends : always)) ++kills;
+    EXPECT_EQ(folder.run(), expected);
+    EXPECT_EQ(folder.run(), expected) << "from the last checkpoint of all";
+  }
+  EXPECT_GE(kills, 7) << "with two threads the last few steps are not always told as often";
+}
+
+TEST_P(Resume, KilledAgainAndAgainItEndsWithTheSameBytes) {
+  for (std::uint64_t seed = 20; seed < 22; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Job job = this->job(seed);
+    std::vector<Progress> told;
+    const Outcome expected = uninterrupted(job, &told);
+    const JobFolder folder(job);
+    Random random(seed);
+    int kills = 0;
+    while (kills < 12 && folder.run_killed(random.next() % told.size())) ++kills;
+    EXPECT_GT(kills, 0);
+    EXPECT_EQ(folder.run(), expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Resume,
+                         testing::Values(Kind{"OctreeArm", "panda-turntable", "octree", 8},
+                                         Kind{"SweepArm", "panda-turntable", "sweep", 8},
+                                         Kind{"OctreeGantry", "gantry", "octree", 16},
+                                         Kind{"VoxelGantry", "gantry", "voxel", 16}),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+Job arm_job() {
+  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 3), 3);
+  job.search = "octree";
+  return job;
+}
+
+TEST(ResumedRun, DoesAgainNoMoreThanTheTrialItWasKilledIn) {
+  const Job job = arm_job();
+  std::vector<Progress> told;
+  uninterrupted(job, &told);
+  const auto first = std::ranges::find(told, Stage::plan, &Progress::stage);
+  const auto end = std::ranges::find(first, told.end(), Stage::verify, &Progress::stage);
+  constexpr std::uint64_t largest_block = 4 * 4 * 4;
+  for (int tenth = 2; tenth < 10; tenth += 2) {
+    SCOPED_TRACE("killed after " + std::to_string(tenth) + " tenths of the planning");
+    const JobFolder folder(job);
+    const auto last = first + (end - first) * tenth / 10;
+    ASSERT_TRUE(folder.run_killed(static_cast<std::uint64_t>(last - told.begin())));
+    const auto checkpoint = folder.checkpoint();
+    ASSERT_TRUE(checkpoint);
+    std::uint64_t kept = 0;
+    for (const BlockTrial& trial : checkpoint->trials) kept += static_cast<std::uint64_t>(trial.removed);
+    EXPECT_GT(kept, 0u);
+    EXPECT_LE(last->done - kept, largest_block);
+  }
+}
+
+TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
+  Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
+  job.search = "voxel";
+  std::vector<Progress> told;
+  const Outcome expected = uninterrupted(job, &told);
+  const JobFolder folder(job);
+  ASSERT_TRUE(folder.run_killed(told.size() - 2));
+  const auto checkpoint = folder.checkpoint();
+  ASSERT_TRUE(checkpoint && checkpoint->residue);
+  EXPECT_GE(checkpoint->replayed.pieces, 2u);
+
+  std::vector<Progress> again;
+  Watch watch;
+  watch.tell = [&](const Progress& progress) { again.push_back(progress); };
+  EXPECT_EQ(folder.run(watch), expected);
+  EXPECT_EQ(std::ranges::count(again, Stage::plan, &Progress::stage), 1) << "the one that says what there is to do";
+  EXPECT_LT(std::ranges::count(again, Stage::verify, &Progress::stage),
+            std::ranges::count(told, Stage::verify, &Progress::stage) / 2);
+}
+
+/// Killed in the middle of planning, with two checkpoints.
+class DamagedCheckpoint : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::vector<Progress> told;
+    expected_ = uninterrupted(arm_job(), &told);
+    const auto verify = std::ranges::find(told, Stage::verify, &Progress::stage);
+    ASSERT_TRUE(folder_.run_killed(static_cast<std::uint64_t>(verify - told.begin()) * 2 / 3));
+    trials_ = folder_.checkpoint()->trials.size();
+    newest_ = read_checkpoint(read_file(folder_.slot(0)), job_key(arm_job()))->number >
+                      read_checkpoint(read_file(folder_.slot(1)), job_key(arm_job()))->number
+                  ? 0
+                  : 1;
+  }
+  void damage(const fs::path& file, std::uint64_t at) {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(at));
+    const char byte = static_cast<char>(stream.get() ^ 1);
+    stream.seekp(static_cast<std::streamoff>(at));
+    stream.put(byte);
+  }
+
+  const JobFolder folder_{arm_job()};
+  Outcome expected_;
+  std::size_t trials_ = 0;
+  int newest_ = 0;
+};
+
+TEST_F(DamagedCheckpoint, CostsNoMoreThanTheOneBeforeIt) {
+  damage(folder_.slot(newest_), 100);
+  ASSERT_TRUE(folder_.checkpoint());
+  EXPECT_EQ(folder_.checkpoint()->trials.size(), trials_ - 1);
+  EXPECT_EQ(folder_.run(), expected_);
+}
+
+TEST_F(DamagedCheckpoint, OrCutShortCostsNoMoreThanTheOneBeforeIt) {
+  fs::resize_file(folder_.slot(newest_), fs::file_size(folder_.slot(newest_)) / 2);
+  EXPECT_EQ(folder_.checkpoint()->trials.size(), trials_ - 1);
+  EXPECT_EQ(folder_.run(), expected_);
+}
+
+TEST_F(DamagedCheckpoint, AndTheOneBeforeItTooItStartsOver) {
+  damage(folder_.slot(0), 100);
+  damage(folder_.slot(1), 100);
+  EXPECT_FALSE(folder_.checkpoint());
+  EXPECT_EQ(folder_.run(), expected_);
+}
+
+TEST_F(DamagedCheckpoint, IsAlsoOneWhoseTrajectoryIsDamaged) {
+  const std::uint64_t bytes = folder_.checkpoint()->file.bytes;
+  damage(folder_.trajectory(), bytes - 20);
+  const auto before = folder_.checkpoint();
+  EXPECT_TRUE(!before || before->file.bytes < bytes - 20);
+  damage(folder_.trajectory(), 5);
+  EXPECT_FALSE(folder_.checkpoint());
+  EXPECT_EQ(folder_.run(), expected_);
+}
+
+TEST_F(DamagedCheckpoint, IsAlsoOneWhoseTrajectoryIsShorterOrGone) {
+  fs::resize_file(folder_.trajectory(), folder_.checkpoint()->file.bytes - 1);
+  const auto before = folder_.checkpoint();
+  EXPECT_TRUE(!before || before->trials.size() < trials_);
+  fs::remove(folder_.trajectory());
+  EXPECT_FALSE(folder_.checkpoint());
+  EXPECT_EQ(folder_.run(), expected_);
+}
+
+TEST(CheckpointFolder, IsEmptyOnceTheyAreRemoved) {
+  const JobFolder folder(arm_job());
+  folder.run();
+  ASSERT_TRUE(fs::exists(folder.slot(0)));
+  remove_checkpoints(folder.folder());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.folder()), {}), 1) << "the trajectory";
+}
+
+}  // namespace
+}  // namespace sculpt
