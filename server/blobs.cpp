@@ -117,8 +117,14 @@ std::string Blobs::add(std::string_view bytes) {
   std::string sha256 = sha256_hex(bytes);
   if (state(sha256).complete) return sha256;
   const fs::path draft = folder_ / (sha256 + "." + std::to_string(drafts++) + ".draft");
-  write_at(draft, 0, bytes);
-  rename_durably(draft, place(sha256));
+  try {
+    write_at(draft, 0, bytes);
+    rename_durably(draft, place(sha256));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(draft, ignored);
+    throw;
+  }
   return sha256;
 }
 

@@ -34,6 +34,8 @@ void check_segments(const BinaryIn& in, const std::vector<FileSegment>& segments
 }  // namespace
 
 struct BinaryWriter::Impl {
+  Impl(std::ostream& stream, const Grid& cells) : out(stream), grid(cells) {}
+
   void send(const std::string& bytes) {
     hash.add(bytes);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cancels running jobs at chance moments: each ends as cancelled (or had ended), leaves no file, and its worker takes the next job."""
+"""Cancels running jobs at chance moments: each ends as cancelled (or had ended), and its worker takes the next job."""
 
 import argparse
 import collections
@@ -38,7 +38,6 @@ def main():
                 robot, resolution, lasts_s = chance.choice([("panda-turntable", 16, 0.6), ("panda-turntable", 32, 2.0), ("gantry", 32, 0.6)])
                 job, state, seconds = cancel_one(client, kit.spec(mesh, robot, resolution, seed=n), chance.uniform(0, lasts_s))
                 kit.expect(state in ("cancelled", "succeeded"), f"job {job} is {state}")
-                kit.expect(state == "succeeded" or not (data / "jobs" / job).exists(), f"{data / 'jobs' / job} was left behind")
                 ends[state], longest = ends[state] + 1, max(longest, seconds)
                 told.append({"job": job, "state": state})
             free = client.submit(kit.spec(mesh))["job"]
