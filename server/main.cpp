@@ -1,6 +1,7 @@
 // sculptd: reads flags and config, then serves until a signal comes.
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 #include <sysexits.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "server/listener.hpp"
 #include "server/planner.hpp"
 #include "server/server.hpp"
+#include "server/token_command.hpp"
 #include "server/version.hpp"
 
 namespace {
@@ -23,8 +25,9 @@ using namespace sculpt;
 constexpr int usage_error = 2;
 
 struct Flags {
-  std::string config, listen, data;
+  std::string config, listen, data, unix_socket, tokens;
   int workers = 0;
+  TokenCommand token;
 };
 
 // What is wrong with a listen address, or nothing.
@@ -50,6 +53,11 @@ int parse_flags(int argc, char** argv, Flags& flags, bool& done) {
   app.add_option("--data", flags.data, "folder for jobs and results, default ~/.local/share/sculptd");
   app.add_option("--workers", flags.workers, "jobs that run at once, default one less than there are cores")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--unix", flags.unix_socket,
+                 "path of a unix socket to listen on too; its peers need no token if they are "
+                 "the same user or root");
+  app.add_option("--tokens", flags.tokens, "file of the tokens that clients must show (see sculptd token --help)");
+  add_token_command(app, flags.token);
   try {
     app.parse(argc, argv);
     done = false;
@@ -66,6 +74,8 @@ Config make_config(const Flags& flags) {
   if (!flags.listen.empty()) set_listen(flags.listen, config);
   if (!flags.data.empty()) config.data = flags.data;
   if (flags.workers > 0) config.workers = flags.workers;
+  if (!flags.unix_socket.empty()) config.unix_socket = flags.unix_socket;
+  if (!flags.tokens.empty()) config.tokens = flags.tokens;
   return config;
 }
 
@@ -76,8 +86,17 @@ void start_log(const std::string& level) {
   spdlog::set_default_logger(log);
 }
 
+// Every connection is a file; the usual soft limit of 1024 is for programs that use select.
+void raise_file_limit() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+}
+
 void serve(const Config& config) {
   start_log(config.log);
+  raise_file_limit();
   Server server(config, make_planner(config.cells));
   server.stop_on_signals();
   std::cout << server_name << " listening on " << server.host() << ":" << server.port() << std::endl;
@@ -98,7 +117,12 @@ int main(int argc, char** argv) {
   // A peer that vanished shows as an error of the write.
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    serve(make_config(flags));
+    const Config config = make_config(flags);
+    if (flags.token.verb == TokenCommand::Verb::none) {
+      serve(config);
+    } else {
+      run_token_command(flags.token, config.tokens, std::cout);
+    }
     return EXIT_SUCCESS;
   } catch (const ConfigError& error) {
     return fail(EX_CONFIG, error.what());
