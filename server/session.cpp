@@ -56,7 +56,9 @@ void Session::greet(const HelloParams& hello, Identity identity) {
   identity_ = std::move(identity);
   max_line_ = hello.max_line;
   reader_.set_line_limit(max_line_bytes);
-  spdlog::info("conn={} owner={} client={}", peer_.number, identity_->owner, hello.client);
+  // As JSON, so that no name can forge a line of the log.
+  spdlog::log(identity_->owner.empty() ? spdlog::level::debug : spdlog::level::info, "conn={} owner={} client={}",
+              peer_.number, identity_->owner, write_json(hello.client));
 }
 
 bool Session::writable() const {
