@@ -538,6 +538,29 @@ class Tls(DoorTest):
         opened.send(line(HELLO).rstrip())
         self.assertIn("result", json.loads(opened.receive()[1]))
 
+    def test_from_another_machine_nothing_else_is_spoken(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.connect(("192.0.2.1", 9))  # sends nothing; asks for the way
+            except OSError:
+                self.skipTest("this machine has no address but loopback")
+            here = probe.getsockname()[0]
+        self.certificate("cell-7", "extendedKeyUsage=clientAuth\n")
+        (self.scratch / "server.json").write_text(json.dumps({"tls_client_ca": "ca.pem", **self.files}))
+        with Daemon(self.scratch / "data", "--config", str(self.scratch / "server.json"), listen="0.0.0.0:0") as daemon:
+            address = f"{here}:{split(daemon.address)[1]}"
+            for first in (line(HELLO), b"GET /livez HTTP/1.1\r\nHost: x\r\n\r\n"):
+                wire = Wire(address)
+                self.addCleanup(wire.close)
+                wire.socket.sendall(first)
+                self.assertEqual(wire.word(), "tls_required")
+            context = self.context("cell-7")
+            context.check_hostname = False
+            plain = socket.create_connection(split(address), timeout=PATIENCE_S)
+            wire = Wire(address, context.wrap_socket(plain))
+            self.addCleanup(wire.close)
+            self.assertIn("result", wire.ask(HELLO))
+
     def test_it_ends_as_it_should(self):
         daemon = self.daemon(**self.files)
         secure = self.secure(daemon, self.context())
