@@ -101,7 +101,7 @@ class DoorTest(ClientTest):
 
 class Limits(DoorTest):
     def test_who_says_no_hello_in_time_is_sent_away_and_who_did_may_be_silent(self):
-        daemon = self.daemon(hello_s=0.3)
+        daemon = self.daemon(hello_s=1)
         patient = self.greeted(daemon)
         silent, half = self.wire(daemon), self.wire(daemon)
         half.socket.sendall(b'{"id":1,')
@@ -111,7 +111,7 @@ class Limits(DoorTest):
         self.served(patient)
 
     def test_slow_clients_by_the_hundred_harm_nobody(self):
-        daemon = self.daemon(hello_s=1)
+        daemon = self.daemon(hello_s=2)
         slow = [self.wire(daemon) for _ in range(300)]
         for wire in slow:
             wire.socket.sendall(b"{")
@@ -570,7 +570,7 @@ class Tls(DoorTest):
         self.assertIsNone(wire.read(), "an end that nobody could have cut off")
 
     def test_old_versions_and_broken_handshakes_harm_nobody(self):
-        daemon = self.daemon(hello_s=0.5, **self.files)
+        daemon = self.daemon(hello_s=2, **self.files)
         old = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         old.check_hostname, old.verify_mode = False, ssl.CERT_NONE
         old.set_ciphers("ALL:@SECLEVEL=0")
