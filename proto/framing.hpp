@@ -31,6 +31,9 @@ class FrameReader {
   void feed(std::string_view bytes);
   /// The next whole frame, or nothing until more bytes are fed. After too_long and bad_chunk there is never another.
   std::optional<WireFrame> next();
+  std::size_t line_limit() const { return line_limit_; }
+  /// For the lines from the next on.
+  void set_line_limit(std::size_t bytes) { line_limit_ = bytes; }
   void expect_chunk(std::size_t bytes) { chunk_bytes_ = bytes; }
   /// Bytes fed and not yet taken: at most what was fed since the last `next` beyond one frame.
   std::size_t pending() const { return buffer_.size() - at_; }

@@ -30,6 +30,7 @@ HelloParams read_hello(const Json& params) {
   hello.major = version[0].get<int>();
   hello.minor = version[1].get<int>();
   hello.client = fields.text("client", max_text_bytes);
+  if (fields.has("token")) hello.token = fields.text("token", max_text_bytes);
   hello.max_line = max_line_bytes;
   if (fields.has("max_line")) {
     hello.max_line = static_cast<std::size_t>(fields.integer("max_line", min_max_line, max_line_bytes));

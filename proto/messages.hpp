@@ -16,6 +16,7 @@ inline constexpr std::size_t min_max_line = 256;
 struct HelloParams {
   int major = 0, minor = 0;
   std::string client;
+  std::string token;  ///< empty: none
   std::size_t max_line = 0;
 };
 HelloParams read_hello(const Json& params);

@@ -30,6 +30,15 @@ struct Config {
   std::chrono::milliseconds stall{
       30000};  ///< a connection that takes no bytes for so long while there are some is closed
   std::chrono::milliseconds drain{10000};  ///< for running jobs to end in order when the daemon stops
+  std::chrono::milliseconds hello_time{10000};  ///< for the TLS handshake, an HTTP request's head, hello
+  int max_connections = 1000;                   ///< fewer where the process may not open so many files
+  int max_connections_per_owner = 500;
+  std::uint64_t disk_floor_bytes = 64u << 20;                     ///< below it /readyz says no
+  std::filesystem::path unix_socket;                              ///< empty: none
+  std::filesystem::path tokens;                                   ///< empty: none
+  std::filesystem::path tls_certificate, tls_key, tls_client_ca;  ///< PEM; empty: none
+  std::vector<std::string> host_names;  ///< by which HTTP may call this server, besides addresses and localhost
+  std::vector<std::string> origins;     ///< of other web pages that may call it, "https://HOST[:PORT]"
 };
 
 /// With the data folder of the user ($XDG_DATA_HOME/sculptd or ~/.local/share/sculptd) and the cells found near the

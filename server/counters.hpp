@@ -12,7 +12,7 @@ namespace sculpt {
 
 /// Safe from any thread.
 struct Counters {
-  std::atomic<std::uint64_t> connections_opened = 0, connections_closed = 0;
+  std::atomic<std::uint64_t> connections = 0;
   std::atomic<std::uint64_t> requests = 0, events = 0;
   std::atomic<std::uint64_t> bytes_in = 0, bytes_out = 0;  ///< of all connections
   std::array<Histogram, 6> stage_times;                    ///< by Stage

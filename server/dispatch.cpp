@@ -19,36 +19,38 @@ namespace {
 struct Entry {
   std::string_view method;
   Handler handler;
+  Scope scope = Scope::admin;
 };
 
 constexpr std::array table{
-    Entry{"hello", on_hello},
-    Entry{"ping", on_ping},
-    Entry{"server.info", on_server_info},
-    Entry{"blob.has", on_blob_has},
-    Entry{"blob.put", on_blob_put},
-    Entry{"job.submit", on_submit},
-    Entry{"job.get", on_get},
-    Entry{"job.list", on_list},
-    Entry{"job.cancel", on_cancel},
-    Entry{"job.wait", on_wait},
-    Entry{"job.report", on_report},
-    Entry{"job.verify", on_verify},
-    Entry{"events.subscribe", on_subscribe},
-    Entry{"events.unsubscribe", on_unsubscribe},
-    Entry{"artifact.list", on_artifact_list},
-    Entry{"artifact.read", on_artifact_read},
+    Entry{"hello", on_hello, Scope::read},
+    Entry{"ping", on_ping, Scope::read},
+    Entry{"server.info", on_server_info, Scope::read},
+    Entry{"blob.has", on_blob_has, Scope::submit},
+    Entry{"blob.put", on_blob_put, Scope::submit},
+    Entry{"job.submit", on_submit, Scope::submit},
+    Entry{"job.get", on_get, Scope::read},
+    Entry{"job.list", on_list, Scope::read},
+    Entry{"job.cancel", on_cancel, Scope::submit},
+    Entry{"job.wait", on_wait, Scope::read},
+    Entry{"job.report", on_report, Scope::read},
+    Entry{"job.verify", on_verify, Scope::submit},
+    Entry{"events.subscribe", on_subscribe, Scope::read},
+    Entry{"events.unsubscribe", on_unsubscribe, Scope::read},
+    Entry{"artifact.list", on_artifact_list, Scope::read},
+    Entry{"artifact.read", on_artifact_read, Scope::read},
 };
 
-Handler find_handler(const std::string& method) {
+const Entry& find_entry(const std::string& method) {
   const auto* found = std::ranges::find(table, method, &Entry::method);
-  if (found != table.end()) return found->handler;
+  if (found != table.end()) return *found;
   std::string names;
   for (const Entry& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.method);
   throw ProtocolError("unknown_method", "there is no method '" + method + "': there are " + names, "/method");
 }
 
-// Call inside a catch block.
+}  // namespace
+
 Json current_error() {
   try {
     throw;
@@ -69,19 +71,18 @@ Json current_error() {
   }
 }
 
-}  // namespace
-
 void dispatch(Services& services, Call call, const std::string& method) {
   const std::shared_ptr<Session> session = call.session;
   const Json id = call.id;
   try {
-    const Handler handler = find_handler(method);
-    if (!session->greeted() && handler != on_hello) {
+    const Entry& entry = find_entry(method);
+    if (!session->identity() && entry.handler != on_hello) {
       throw ProtocolError(
           "hello_required",
           "say hello first: {\"id\":1,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"NAME\"}}");
     }
-    handler(services, std::move(call));
+    if (session->identity()) require_scope(*session->identity(), entry.scope);
+    entry.handler(services, std::move(call));
   } catch (...) {
     session->refuse(id, current_error());
   }

@@ -28,6 +28,9 @@ using Handler = void (*)(Services&, Call);
 
 void dispatch(Services& services, Call call, const std::string& method);
 
+/// Call inside a catch block: the exception as the `error` object of a reply.
+Json current_error();
+
 /// Answers at once.
 void answer(const Call& call, Json result);
 

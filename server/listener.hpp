@@ -1,16 +1,21 @@
-// Accepts connections and knows which are open. I/O thread only.
+// Accepts connections at one address. I/O thread only.
 #pragma once
 
-#include <functional>
-#include <list>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "server/net.hpp"
+
+namespace boost::asio::ssl {
+class context;
+}
+
 namespace sculpt {
 
-class Session;
+struct Config;
+struct Peer;
 struct Services;
 
 /// The address cannot be listened on; what() says which, why and the cure.
@@ -19,24 +24,39 @@ class ListenError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+using Endpoint = net::generic::stream_protocol::endpoint;
+
+/// The configured host and port. Throws ListenError; ConfigError where strangers could come in unasked.
+Endpoint tcp_endpoint(const Config& config);
+/// The configured unix socket; one that a dead daemon left behind is removed. Throws ListenError.
+Endpoint unix_endpoint(const Config& config);
+
 class Listener {
  public:
-  /// Binds at once. Throws ListenError.
-  explicit Listener(Services& services);
+  /// Binds at once. Without `tls` none is spoken. Throws ListenError.
+  Listener(Services& services, const Endpoint& endpoint, std::shared_ptr<net::ssl::context> tls);
+  ~Listener() { close(); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
   void start() { accept(); }
   void close();
-  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
-  void for_each(const std::function<void(Session&)>& visit);
+  /// Of a TCP address.
+  std::uint16_t port() const;
 
  private:
+  using Protocol = net::generic::stream_protocol;
+
   void accept();
-  void on_accept(const boost::system::error_code& error, net::ip::tcp::socket socket);
+  void on_accept(const boost::system::error_code& error, Protocol::socket socket);
+  void wait_for_files(const boost::system::error_code& error);
+  Peer peer_of(Protocol::socket& socket) const;
 
   Services& services_;
-  net::ip::tcp::acceptor acceptor_;
+  Endpoint endpoint_;
+  std::shared_ptr<net::ssl::context> tls_;
+  net::basic_socket_acceptor<Protocol> acceptor_;
   net::steady_timer pause_;
-  std::list<std::weak_ptr<Session>> sessions_;
-  std::uint64_t accepted_ = 0;
+  bool short_of_files_ = false;
 };
 
 }  // namespace sculpt

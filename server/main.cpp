@@ -1,4 +1,5 @@
 // sculptd: settles the config, then shows it or serves until a signal comes.
+#include <sys/resource.h>
 #include <sysexits.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 #include "server/planner.hpp"
 #include "server/server.hpp"
 #include "server/settings.hpp"
+#include "server/token_command.hpp"
 #include "server/version.hpp"
 
 namespace {
@@ -28,6 +30,7 @@ constexpr int usage_error = 2;
 struct CommandLine {
   ConfigSources sources;
   bool show_config = false, json = false;
+  TokenCommand token;
 };
 
 // What is wrong with the text of a setting, or nothing.
@@ -65,6 +68,7 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   CLI::App& config = *app.add_subcommand("config", "Print every setting with its value and where that comes from");
   config.add_flag("--json", line.json, "Print one JSON document");
   config.callback([&] { line.show_config = true; });
+  add_token_command(app, line.token);
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -73,8 +77,17 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   }
 }
 
+// Every connection is a file; the usual soft limit of 1024 is for programs that use select.
+void raise_file_limit() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+}
+
 void serve(const Config& config, const ConfigSources& sources) {
   start_log(config);
+  raise_file_limit();
   Server server(config, make_planner(config.cells));
   server.stop_on_signals();
   server.reload_on_hangup([&sources] { return settle_config(sources).config; });
@@ -103,6 +116,8 @@ int main(int argc, char** argv) {
     const SettledConfig settled = settle_config(line.sources);
     if (line.show_config)
       show(settled, line.json);
+    else if (line.token.verb != TokenCommand::Verb::none)
+      run_token_command(line.token, settled.config.tokens, std::cout);
     else
       serve(settled.config, line.sources);
     return EXIT_SUCCESS;

@@ -53,10 +53,10 @@ std::string queue_text(const Services& services) {
   return text;
 }
 
-std::string connections_text(const Counters& counters) {
-  const std::uint64_t closed = counters.connections_closed, opened = counters.connections_opened;
-  return single("sculptd_connections", "gauge", "Open connections.", opened - closed) +
-         single("sculptd_connections_total", "counter", "Connections accepted.", opened) +
+std::string connections_text(const Services& services) {
+  const Counters& counters = services.counters;
+  return single("sculptd_connections", "gauge", "Open connections.", services.connections.count()) +
+         single("sculptd_connections_total", "counter", "Connections accepted.", counters.connections.load()) +
          single("sculptd_requests_total", "counter", "Requests taken.", counters.requests.load()) +
          single("sculptd_events_total", "counter", "Events sent to subscribers.", counters.events.load()) +
          single("sculptd_received_bytes_total", "counter", "Bytes taken from connections.", counters.bytes_in.load()) +
@@ -81,7 +81,7 @@ std::string process_text(const Services& services) {
 }  // namespace
 
 std::string metrics_text(const Services& services) {
-  return queue_text(services) + connections_text(services.counters) + storage_text(services) + process_text(services);
+  return queue_text(services) + connections_text(services) + storage_text(services) + process_text(services);
 }
 
 }  // namespace sculpt

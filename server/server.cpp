@@ -16,9 +16,9 @@
 #include "server/net.hpp"
 #include "server/service_manager.hpp"
 #include "server/services.hpp"
-#include "server/session.hpp"
 #include "server/settings.hpp"
 #include "server/stage_times.hpp"
+#include "server/tls.hpp"
 
 namespace sculpt {
 namespace {
@@ -81,7 +81,8 @@ struct Server::Impl {
                   }),
         streams(*store, scheduler),
         waits(io, *store),
-        listener(services) {
+        listener(services, tcp_endpoint(config), make_tls(config)) {
+    if (!config.unix_socket.empty()) unix_listener.emplace(services, unix_endpoint(config), nullptr);
     if (const int left = store->recover(); left > 0)
       spdlog::warn("{} jobs were interrupted and are queued again", left);
     crash_point(CrashPoint::recovered);
@@ -91,9 +92,9 @@ struct Server::Impl {
     timer.expires_after(tick_time);
     timer.async_wait([this](const boost::system::error_code& error) {
       if (error) return;
-      const auto now = Session::Clock::now();
+      const auto now = Connection::Clock::now();
       streams.tick(now);
-      listener.for_each([&](Session& session) { session.check_stalled(now, config.stall); });
+      connections.for_each([&](Connection& connection) { connection.check_deadlines(now); });
       manager.alive(now);
       if (manager.listens() && ticks++ % ticks_per_status == 0) manager.status(queue_sentence(*store));
       tick();
@@ -138,6 +139,8 @@ struct Server::Impl {
   Scheduler scheduler;
   Streams streams;
   Waits waits;
+  Access access{config};
+  Connections connections;
   TaskQueue disk, admission, replays, exports;
   Services services{io,
                     config,
@@ -150,6 +153,8 @@ struct Server::Impl {
                     scheduler,
                     streams,
                     waits,
+                    access,
+                    connections,
                     disk,
                     admission,
                     replays,
@@ -157,6 +162,7 @@ struct Server::Impl {
                     counters,
                     std::chrono::steady_clock::now()};
   Listener listener;
+  std::optional<Listener> unix_listener;
   net::steady_timer timer{io};
   net::signal_set signals{io}, hangups{io};
   std::function<Config()> reread;
@@ -177,6 +183,7 @@ std::uint16_t Server::port() const {
 void Server::run() {
   impl_->scheduler.start(impl_->services.workers);
   impl_->listener.start();
+  if (impl_->unix_listener) impl_->unix_listener->start();
   impl_->tick();
   impl_->manager.ready();
   impl_->io.run();
@@ -189,7 +196,8 @@ void Server::run() {
 void Server::stop() {
   net::post(impl_->io, [this] {
     impl_->listener.close();
-    impl_->listener.for_each([](Session& session) { session.close("the daemon stops"); });
+    if (impl_->unix_listener) impl_->unix_listener->close();
+    impl_->connections.for_each([](Connection& connection) { connection.close("the daemon stops"); });
     impl_->io.stop();
   });
 }

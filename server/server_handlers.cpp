@@ -1,22 +1,48 @@
+#include <spdlog/spdlog.h>
+
 #include "server/handlers.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
 #include "server/version.hpp"
 
 namespace sculpt {
+namespace {
+
+void greet(Services& services, Session& session, const HelloParams& hello) {
+  Identity identity = services.access.identify(session.peer(), hello.token);
+  const bool known = session.identity() != nullptr && session.owner() == identity.owner;
+  const auto most = static_cast<std::size_t>(services.config.max_connections_per_owner);
+  if (!known && services.connections.count_of(identity.owner) >= most) {
+    throw ProtocolError("too_many_connections", "you have " + std::to_string(most) +
+                                                    " connections already: use one for many requests, or raise "
+                                                    "max_connections_per_owner");
+  }
+  session.greet(hello, std::move(identity));
+}
+
+// The session is closed behind the reply.
+void turn_away(const Call& call, const Json& error) {
+  const std::shared_ptr<Session> session = call.session;
+  spdlog::info("conn={} {}", session->peer().number, error["data"]["code"].get<std::string>());
+  session->refuse(call.id, error);
+  session->finish();
+}
+
+}  // namespace
 
 void on_hello(Services& services, Call call) {
   const HelloParams hello = read_hello(call.params);
   if (hello.major != protocol_major) {
-    // The session is closed behind the reply.
-    const std::shared_ptr<Session> session = call.session;
-    session->refuse(call.id, error_object("protocol_unsupported",
-                                          "this server speaks protocol [1,0], not [" + std::to_string(hello.major) +
-                                              "," + std::to_string(hello.minor) + "]",
-                                          "/params/protocol"));
-    return session->finish();
+    return turn_away(call, error_object("protocol_unsupported",
+                                        "this server speaks protocol [1,0], not [" + std::to_string(hello.major) + "," +
+                                            std::to_string(hello.minor) + "]",
+                                        "/params/protocol"));
   }
-  call.session->greet(hello);
+  try {
+    greet(services, *call.session, hello);
+  } catch (const ProtocolError& error) {
+    return turn_away(call, error_object(error.code(), error.what(), error.pointer()));
+  }
   answer(call, {{"protocol", {protocol_major, protocol_minor}},
                 {"server", server_name},
                 {"epoch", services.store.epoch()},

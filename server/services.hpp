@@ -6,6 +6,7 @@
 #include "server/artifacts.hpp"
 #include "server/blobs.hpp"
 #include "server/config.hpp"
+#include "server/connection.hpp"
 #include "server/counters.hpp"
 #include "server/job_store.hpp"
 #include "server/net.hpp"
@@ -28,12 +29,14 @@ struct Services {
   Blobs& blobs;
   Artifacts& artifacts;
   Scheduler& scheduler;
-  Streams& streams;      // I/O thread only
-  Waits& waits;          // I/O thread only
-  TaskQueue& disk;       ///< chunks in and out
-  TaskQueue& admission;  ///< checks of submitted jobs
-  TaskQueue& replays;    ///< job.verify
-  TaskQueue& exports;    ///< csv and binary trajectories
+  Streams& streams;          // I/O thread only
+  Waits& waits;              // I/O thread only
+  Access& access;            // I/O thread only
+  Connections& connections;  // I/O thread only
+  TaskQueue& disk;           ///< chunks in and out
+  TaskQueue& admission;      ///< checks of submitted jobs
+  TaskQueue& replays;        ///< job.verify
+  TaskQueue& exports;        ///< csv and binary trajectories
   Counters& counters;
   std::chrono::steady_clock::time_point started;
 

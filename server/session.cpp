@@ -12,11 +12,16 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t read_bytes = 64 << 10;
-constexpr std::size_t low_water_bytes = 64 << 10;  // below it events are fetched for the peer
-constexpr std::size_t high_water_bytes = 1 << 20;  // above it no more of its requests are taken
+constexpr std::size_t hello_bytes = 4 << 10;        // of one read before hello: strangers get little memory
+constexpr std::size_t hello_line_bytes = 16 << 10;  // the longest line before hello
+constexpr std::size_t low_water_bytes = 64 << 10;   // below it events are fetched for the peer
+constexpr std::size_t high_water_bytes = 1 << 20;   // above it no more of its requests are taken
 constexpr int max_pending = 64;
 constexpr std::chrono::seconds linger_time{5};
-constexpr int probe_after_s = 10;
+constexpr int idle_probe_s = 60;
+constexpr int ended_probe_s = 10;
+constexpr int probe_interval_s = 10;
+constexpr int lost_probes = 3;
 
 // The error as a line of at most max_line bytes: its sentence is cut, then its pointer is left out.
 std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
@@ -33,20 +38,27 @@ std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
 
 }  // namespace
 
-Session::Session(net::ip::tcp::socket socket, std::uint64_t number, Services& services)
-    : socket_(std::move(socket)), number_(number), services_(services), buffer_(read_bytes, '\0') {}
+Session::Session(std::unique_ptr<Transport> transport, Peer peer, Services& services)
+    : transport_(std::move(transport)), peer_(std::move(peer)), services_(services), reader_(hello_line_bytes) {}
 
-void Session::start() {
-  spdlog::debug("conn={} open", number_);
-  boost::system::error_code ignored;
-  socket_.set_option(net::ip::tcp::no_delay(true), ignored);
-  read();
+void Session::start(std::string_view first) {
+  spdlog::debug("conn={} session", peer_.number);
+  probe_after(idle_probe_s);
+  reader_.feed(first);
+  pump_input();
 }
 
-void Session::greet(const HelloParams& hello) {
-  greeted_ = true;
+void Session::turn_away(const char* code, const std::string& sentence) {
+  fail_connection(nullptr, code, sentence);
+}
+
+void Session::greet(const HelloParams& hello, Identity identity) {
+  identity_ = std::move(identity);
   max_line_ = hello.max_line;
-  spdlog::debug("conn={} client={}", number_, hello.client);
+  reader_.set_line_limit(max_line_bytes);
+  // As JSON, so that no name can forge a line of the log.
+  spdlog::log(identity_->owner.empty() ? spdlog::level::debug : spdlog::level::info, "conn={} owner={} client={}",
+              peer_.number, identity_->owner, write_json(hello.client));
 }
 
 bool Session::writable() const {
@@ -58,39 +70,45 @@ bool Session::writable() const {
 void Session::read() {
   if (reading_ || closed_ || input_ended_) return;
   reading_ = true;
-  socket_.async_read_some(net::buffer(buffer_), [self = shared_from_this()](const auto& error, std::size_t bytes) {
-    self->on_read(error, bytes);
-  });
+  transport_->read(
+      identity_ ? read_bytes : hello_bytes,
+      [self = shared_from_this()](const auto& error, std::string_view bytes) { self->on_read(error, bytes); });
 }
 
-void Session::on_read(const boost::system::error_code& error, std::size_t bytes) {
+void Session::on_read(const boost::system::error_code& error, std::string_view bytes) {
   reading_ = false;
   if (closed_) return;
   if (error == net::error::eof) return on_input_end();
   if (error) return close("read failed");
   if (lingering_ || finishing_) return read();
-  services_.counters.bytes_in += bytes;
-  reader_.feed({buffer_.data(), bytes});
+  services_.counters.bytes_in += bytes.size();
+  reader_.feed(bytes);
   pump_input();
 }
 
 // The peer may only have ended its side and wait for answers and events, or be gone: keepalive probes tell
-// (check_stalled).
+// (check_deadlines).
 void Session::on_input_end() {
   input_ended_ = true;
   if (lingering_) return close("lingered");
-  const int on = 1;
-  ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
-  ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_KEEPIDLE, &probe_after_s, sizeof probe_after_s);
-  ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_KEEPINTVL, &probe_after_s, sizeof probe_after_s);
+  probe_after(ended_probe_s);
   pump_input();
   close_if_done();
+}
+
+// A controller may stay silent for months; a peer that lost its power ends as a failed read. (A unix socket knows.)
+void Session::probe_after(int seconds) {
+  const int on = 1, handle = transport_->native_handle();
+  ::setsockopt(handle, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+  ::setsockopt(handle, IPPROTO_TCP, TCP_KEEPIDLE, &seconds, sizeof seconds);
+  ::setsockopt(handle, IPPROTO_TCP, TCP_KEEPINTVL, &probe_interval_s, sizeof probe_interval_s);
+  ::setsockopt(handle, IPPROTO_TCP, TCP_KEEPCNT, &lost_probes, sizeof lost_probes);
 }
 
 bool Session::broken() {
   int error = 0;
   socklen_t size = sizeof error;
-  return ::getsockopt(socket_.native_handle(), SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0;
+  return ::getsockopt(transport_->native_handle(), SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0;
 }
 
 bool Session::may_take_requests() const {
@@ -114,8 +132,9 @@ void Session::on_frame(WireFrame frame) {
       return handle(std::exchange(waiting_, {}), std::move(frame.bytes));
     case WireFrame::Kind::too_long:
       return fail_connection(nullptr, "line_too_long",
-                             "a line is over the limit of " + std::to_string(max_line_bytes) +
-                                 " bytes: send bulk with blob.put; the connection is closed");
+                             "a line is over the limit of " + std::to_string(reader_.line_limit()) +
+                                 (identity_ ? " bytes: send bulk with blob.put" : " bytes before hello") +
+                                 "; the connection is closed");
     case WireFrame::Kind::bad_chunk:
       return fail_connection(waiting_.request.id, "bad_request",
                              "the chunk is not followed by LF, so \"bytes\" was wrong; the connection is closed",
@@ -133,6 +152,10 @@ void Session::on_line(std::string line) {
   ParsedLine parsed = parse_request(line);
   try {
     if (const std::optional<std::size_t> bytes = announced_chunk(parsed.request)) {
+      if (!identity_) {
+        return fail_connection(parsed.request.id, "hello_required",
+                               "say hello before you send bulk; the connection is closed");
+      }
       waiting_ = std::move(parsed);
       reader_.expect_chunk(*bytes);
       return;
@@ -157,7 +180,7 @@ void Session::handle(ParsedLine parsed, std::string chunk) {
 
 void Session::fail_connection(const Json& id, const char* code, const std::string& sentence,
                               const std::string& pointer) {
-  spdlog::info("conn={} {}", number_, code);
+  spdlog::info("conn={} {}", peer_.number, code);
   send(error_line(id, error_object(code, sentence, pointer)) + "\n");
   finish();
 }
@@ -172,9 +195,8 @@ void Session::answer(const Json& id, const Answer& answer) {
                                                          std::to_string(max_line_) +
                                                          ": ask for less or say hello with a greater max_line"));
   }
-  line += '\n';
-  if (answer.chunk) line += *answer.chunk + "\n";
-  send(std::move(line));
+  send(line + "\n");
+  if (answer.chunk) send(*answer.chunk + "\n", Transport::Frame::chunk);
   answered();
 }
 
@@ -187,7 +209,7 @@ void Session::answered() {
   --pending_;
   held_ = false;
   // Not from within the caller's loop over frames: a pipelined burst must not become a recursion.
-  net::post(socket_.get_executor(), [self = shared_from_this()] {
+  net::post(services_.io, [self = shared_from_this()] {
     self->pump_input();
     self->close_if_done();
   });
@@ -206,19 +228,19 @@ void Session::send_event(const EventMessage& event) {
   send(line + "\n");
 }
 
-void Session::send(std::string bytes) {
+void Session::send(std::string frame, Transport::Frame kind) {
   if (closed_ || finishing_) return;
   if (queue_.empty()) last_step_ = Clock::now();
-  queued_bytes_ += bytes.size();
-  queue_.push_back(std::move(bytes));
+  queued_bytes_ += frame.size();
+  queue_.push_back({std::move(frame), kind});
   if (queued_bytes_ > services_.config.reply_limit_bytes) return close("slow_reader: too many unsent bytes");
   if (queue_.size() == 1) write();
 }
 
 void Session::write() {
-  const std::string& first = queue_.front();
-  socket_.async_write_some(
-      net::buffer(first.data() + sent_, first.size() - sent_),
+  const Outgoing& first = queue_.front();
+  transport_->write(
+      std::string_view(first.bytes).substr(sent_), first.kind,
       [self = shared_from_this()](const auto& error, std::size_t bytes) { self->on_write(error, bytes); });
 }
 
@@ -229,15 +251,14 @@ void Session::on_write(const boost::system::error_code& error, std::size_t bytes
   services_.counters.bytes_out += bytes;
   sent_ += bytes;
   queued_bytes_ -= bytes;
-  if (sent_ == queue_.front().size()) {
+  if (sent_ == queue_.front().bytes.size()) {
     queue_.pop_front();
     sent_ = 0;
   }
   if (!queue_.empty()) {
     write();
   } else if (finishing_) {
-    boost::system::error_code ignored;
-    socket_.shutdown(net::ip::tcp::socket::shutdown_send, ignored);
+    transport_->end_sending(shared_from_this());
     lingering_ = true;
     if (input_ended_) return close("finished");
     return read();
@@ -262,20 +283,22 @@ void Session::close_if_done() {
 void Session::close(const char* reason) {
   if (closed_) return;
   closed_ = true;
-  ++services_.counters.connections_closed;
-  spdlog::debug("conn={} closed: {}", number_, reason);
-  boost::system::error_code ignored;
-  socket_.close(ignored);
+  spdlog::debug("conn={} closed: {}", peer_.number, reason);
+  transport_->close();
   services_.streams.drop(*this);
   services_.waits.drop(*this);
 }
 
-void Session::check_stalled(Clock::time_point now, Clock::duration patience) {
+void Session::check_deadlines(Clock::time_point now) {
   if (closed_) return;
+  const Config& config = services_.config;
+  if (!identity_ && !finishing_ && now - opened_ > config.hello_time) {
+    return fail_connection(nullptr, "hello_required", "no hello came in time; the connection is closed");
+  }
   if (input_ended_ && broken()) return close("the peer is gone");
   if (lingering_ && now - last_step_ > linger_time) return close("lingered too long");
-  if (!queue_.empty() && now - last_step_ > patience) {
-    spdlog::info("conn={} slow_reader: took no bytes", number_);
+  if (!queue_.empty() && now - last_step_ > config.stall) {
+    spdlog::info("conn={} slow_reader: took no bytes", peer_.number);
     close("slow_reader");
   }
 }

@@ -12,7 +12,8 @@
 #include "proto/framing.hpp"
 #include "proto/messages.hpp"
 #include "proto/request.hpp"
-#include "server/net.hpp"
+#include "server/connection.hpp"
+#include "server/transport.hpp"
 
 namespace sculpt {
 
@@ -24,12 +25,11 @@ struct Answer {
   std::optional<std::string> chunk;
 };
 
-class Session : public std::enable_shared_from_this<Session> {
+class Session : public Connection, public std::enable_shared_from_this<Session> {
  public:
-  using Clock = std::chrono::steady_clock;
-
-  Session(net::ip::tcp::socket socket, std::uint64_t number, Services& services);
-  void start();
+  Session(std::unique_ptr<Transport> transport, Peer peer, Services& services);
+  /// `first`: what was read already.
+  void start(std::string_view first);
 
   /// Every dispatched request is answered exactly once, by one of these two. A reply over the client's max_line becomes
   /// an error.
@@ -41,24 +41,28 @@ class Session : public std::enable_shared_from_this<Session> {
   void hold() { held_ = true; }
   /// Sends what is queued, then closes.
   void finish();
-  void close(const char* reason);
+  void close(const char* reason) override;
+  /// Instead of start: says why, then closes.
+  void turn_away(const char* code, const std::string& sentence);
 
-  /// Closes a connection that takes no bytes although there are some, lingers after an error, or is gone without a
-  /// word.
-  void check_stalled(Clock::time_point now, Clock::duration patience);
+  /// Closes a connection that takes no bytes although there are some, says no hello, lingers after an error, or is gone
+  /// without a word.
+  void check_deadlines(Clock::time_point now) override;
   std::size_t queued_bytes() const { return queued_bytes_; }
   bool writable() const;
 
-  std::uint64_t number() const { return number_; }
-  bool greeted() const { return greeted_; }
-  void greet(const HelloParams& hello);
+  const Peer& peer() const { return peer_; }
+  /// From hello on.
+  const Identity* identity() const override { return identity_ ? &*identity_ : nullptr; }
+  std::string owner() const { return identity_ ? identity_->owner : std::string(); }
+  void greet(const HelloParams& hello, Identity identity);
   std::size_t max_line() const { return max_line_; }
   /// Jobs whose events this connection gets; kept by Streams.
   std::set<std::string>& subscriptions() { return subscriptions_; }
 
  private:
   void read();
-  void on_read(const boost::system::error_code& error, std::size_t bytes);
+  void on_read(const boost::system::error_code& error, std::string_view bytes);
   void pump_input();
   bool may_take_requests() const;
   void on_frame(WireFrame frame);
@@ -66,27 +70,34 @@ class Session : public std::enable_shared_from_this<Session> {
   void handle(ParsedLine parsed, std::string chunk);
   void fail_connection(const Json& id, const char* code, const std::string& sentence, const std::string& pointer = {});
   void answered();
-  void send(std::string bytes);
+  /// One frame, its LF included.
+  void send(std::string frame, Transport::Frame kind = Transport::Frame::line);
   void write();
   void on_write(const boost::system::error_code& error, std::size_t bytes);
   void on_input_end();
   bool broken();
+  void probe_after(int seconds);
   void close_if_done();
 
-  net::ip::tcp::socket socket_;
-  std::uint64_t number_;
+  struct Outgoing {
+    std::string bytes;
+    Transport::Frame kind;
+  };
+
+  std::unique_ptr<Transport> transport_;
+  Peer peer_;
   Services& services_;
   FrameReader reader_;
-  std::string buffer_;
   ParsedLine waiting_;  // the request whose chunk is being read
-  std::deque<std::string> queue_;
+  std::deque<Outgoing> queue_;
   std::size_t queued_bytes_ = 0;
   std::size_t sent_ = 0;  // of the first in the queue
   std::size_t max_line_ = max_line_bytes;
   int pending_ = 0;  // dispatched and not yet answered
   std::set<std::string> subscriptions_;
   Clock::time_point last_step_ = Clock::now();  // of the peer: bytes that it took, or the moment there were some for it
-  bool greeted_ = false;
+  Clock::time_point opened_ = Clock::now();
+  std::optional<Identity> identity_;
   bool first_line_ = true;
   bool reading_ = false;
   bool held_ = false;

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
-constexpr int max_workers = 1024;
+constexpr int max_workers = 1024, max_sockets = 1 << 20;
 constexpr double min_s = 0.001, max_s = 86400;
 
 // --- the kinds of settings
@@ -69,6 +69,22 @@ Setting path(const char* name, fs::path Config::*field, Change change, const cha
 std::string joined(const std::vector<std::string>& words, const char* between) {
   return std::accumulate(words.begin() + 1, words.end(), words.front(),
                          [=](const std::string& left, const std::string& right) { return left + between + right; });
+}
+
+Setting list(const char* name, std::vector<std::string> Config::*field, Change change, const char* help) {
+  return {name,
+          "JSON array of strings",
+          change,
+          help,
+          false,
+          [=](SettingEntry entry, Config& config) {
+            const Json& words = entry.fields.value(entry.name);
+            const auto is_word = [](const Json& word) { return word.is_string(); };
+            if (!words.is_array() || !std::ranges::all_of(words, is_word))
+              entry.fields.refuse(entry.name, "must be an array of strings");
+            config.*field = words.get<std::vector<std::string>>();
+          },
+          [=](const Config& config) -> Json { return config.*field; }};
 }
 
 Setting choice(const char* name, std::string Config::*field, const std::vector<std::string>& words, Change change,
@@ -160,6 +176,22 @@ const std::vector<Setting>& settings() {
             "unsent bytes of one connection; above it the connection is closed"),
       seconds("stall_s", &Config::stall, at_reload,
               "a connection that takes no bytes for so long while there are some is closed"),
+      seconds("hello_s", &Config::hello_time, at_reload,
+              "time for the TLS handshake, the head of an HTTP request, and hello"),
+      integer("max_connections", &Config::max_connections, 1, max_sockets, at_reload,
+              "open at once; never more than 32 fewer than the process may open files"),
+      integer("max_connections_per_owner", &Config::max_connections_per_owner, 1, max_sockets, at_reload,
+              "open at once with one token, certificate or user"),
+      bytes("disk_floor_bytes", &Config::disk_floor_bytes, at_reload, "free space below which /readyz says no"),
+      path("unix", &Config::unix_socket, at_start, "unix socket to listen on too; none by default"),
+      path("tokens", &Config::tokens, at_start, "file of the tokens that clients must show; none by default"),
+      path("tls_certificate", &Config::tls_certificate, at_start,
+           "PEM file, the certificate with its chain; none by default"),
+      path("tls_key", &Config::tls_key, at_start, "PEM file of its key; none by default"),
+      path("tls_client_ca", &Config::tls_client_ca, at_start,
+           "PEM file of the authority whose client certificates are taken; none by default"),
+      list("host_names", &Config::host_names, at_reload, "names by which HTTP may call the server"),
+      list("origins", &Config::origins, at_reload, "web pages that may call it, https://HOST[:PORT]"),
       seconds("drain_s", &Config::drain, at_reload,
               "a daemon that stops waits so long for running jobs to end in order"),
   };

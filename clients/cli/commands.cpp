@@ -7,22 +7,27 @@ namespace sculpt {
 
 namespace {
 
-const CLI::Validator host_and_port{
+const CLI::Validator address{
     [](std::string& text) {
+      if (text.rfind("unix:", 0) == 0) return std::string();
       const std::size_t colon = text.rfind(':');
       const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
       const bool digits = std::all_of(port.begin(), port.end(), [](unsigned char c) { return std::isdigit(c); });
       const bool usable = colon > 0 && !port.empty() && port.size() <= 5 && digits && std::stoi(port) <= 65535;
-      return usable ? std::string() : "'" + text + "' is no address: write HOST:PORT, for example 127.0.0.1:7878";
+      return usable ? std::string()
+                    : "'" + text +
+                          "' is no address: write HOST:PORT, tls:HOST:PORT or unix:PATH, for example 127.0.0.1:7878";
     },
     ""};
 
 }  // namespace
 
 void add_common_options(CLI::App& command, Invocation& invocation) {
-  command.add_option("--server", invocation.server, "Where sculptd listens (env SCULPT_SERVER)")
-      ->type_name("HOST:PORT")
-      ->check(host_and_port)
+  command
+      .add_option("--server", invocation.server,
+                  "Where sculptd listens: HOST:PORT, tls:HOST:PORT or unix:PATH (env SCULPT_SERVER)")
+      ->type_name("ADDRESS")
+      ->check(address)
       ->capture_default_str();
   command.set_version_flag("--version", client_name);
 }

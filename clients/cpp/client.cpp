@@ -35,8 +35,11 @@ struct Client::Exchange {
   std::string* reply_chunk = nullptr;
 };
 
-Client::Client(const std::string& server, const std::string& name) : connection_(std::make_unique<Connection>(server)) {
-  hello_ = call("hello", {{"protocol", {protocol_major, protocol_minor}}, {"client", name}});
+Client::Client(const std::string& server, const std::string& name, const Login& login)
+    : connection_(std::make_unique<Connection>(server, login)) {
+  Json hello{{"protocol", {protocol_major, protocol_minor}}, {"client", name}};
+  if (!login.token.empty()) hello["token"] = login.token;
+  hello_ = call("hello", hello);
 }
 
 Client::~Client() = default;

@@ -56,8 +56,8 @@ struct ArtifactRequest {
 /// the server refuses.
 class Client {
  public:
-  /// Connects ("HOST:PORT", "[V6]:PORT") and says hello. `name` is for the server's log.
-  Client(const std::string& server, const std::string& name);
+  /// Connects ("HOST:PORT", "[V6]:PORT", "tls:HOST:PORT", "unix:PATH") and says hello. `name` is for the server's log.
+  Client(const std::string& server, const std::string& name, const Login& login = login_from_environment());
   ~Client();
 
   /// The reply to hello: server, epoch, features, limits.

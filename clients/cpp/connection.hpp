@@ -1,11 +1,13 @@
-// A TCP connection that gives frames of the wire (proto/framing.hpp) instead of bytes.
+// A TCP, TLS or unix connection that gives frames of the wire (proto/framing.hpp) instead of bytes.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "clients/cpp/tls_link.hpp"
 #include "proto/framing.hpp"
 
 namespace sculpt {
@@ -19,8 +21,8 @@ class ServerUnreachable : public std::runtime_error {
 /// Blocking; not shared between threads. Every method throws ServerUnreachable.
 class Connection {
  public:
-  /// "HOST:PORT" or "[V6]:PORT".
-  explicit Connection(const std::string& server);
+  /// "HOST:PORT", "[V6]:PORT", "tls:HOST:PORT" or "unix:PATH".
+  explicit Connection(const std::string& server, const Login& login = login_from_environment());
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -35,10 +37,13 @@ class Connection {
 
  private:
   std::optional<WireFrame> read_frame(std::optional<double> timeout_s);
+  std::size_t receive(char* buffer, std::size_t bytes);
+  bool wait_for_bytes(int timeout_ms);
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string server_;
   int socket_ = -1;
+  std::unique_ptr<TlsLink> tls_;  // null: plain
   FrameReader frames_;
 };
 

@@ -23,6 +23,7 @@ import os
 import pathlib
 import re
 import socket
+import ssl
 import sys
 import xml.etree.ElementTree
 import zlib
@@ -42,21 +43,23 @@ class Failure(Exception):
 
 
 class Client:
-    """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED)."""
+    """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED).
 
-    def __init__(self, server="127.0.0.1:7878", name=VERSION):
-        host, _, port = server.rpartition(":")
-        if not host or not port.isdecimal() or int(port) > 65535:
-            raise Failure(USAGE, "usage", f"--server: '{server}' is no address: write HOST:PORT, for example 127.0.0.1:7878")
+    `server` is HOST:PORT, tls:HOST:PORT or unix:PATH. Without `token` it is SCULPT_TOKEN, or stands in the file SCULPT_TOKEN_FILE;
+    SCULPT_TLS_CA, SCULPT_TLS_CERT and SCULPT_TLS_KEY name the PEM files for TLS.
+    """
+
+    def __init__(self, server="127.0.0.1:7878", name=VERSION, token=None):
         self.server, self.next_id, self.events = server, 1, collections.deque()
+        token = read_token() if token is None else token
         try:
-            self.socket = socket.create_connection((host.strip("[]"), int(port)), timeout=10)
+            self.socket = connect(server)
             self.socket.settimeout(None)
         except OSError as error:
             raise Failure(UNREACHABLE, "unreachable",
                           f"no server answers at {server} ({error}): start sculptd, or say --server HOST:PORT") from error
         self.stream = self.socket.makefile("rwb")
-        self.hello = self.call("hello", protocol=[1, 0], client=name)
+        self.hello = self.call("hello", protocol=[1, 0], client=name, **({"token": token} if token else {}))
 
     def __enter__(self):
         return self
@@ -163,6 +166,35 @@ class Client:
     def _broken(self):
         return Failure(UNREACHABLE, "unreachable",
                        f"the connection to {self.server} broke; jobs go on when sculptd runs again: try again then")
+
+
+# The way to the server
+
+def connect(server):
+    """A connected socket; raises Failure (USAGE) for what is no address, and OSError."""
+    if server.startswith("unix:"):
+        plain = socket.socket(socket.AF_UNIX)
+        plain.connect(server[len("unix:"):])
+        return plain
+    host, _, port = server[len("tls:"):].rpartition(":") if server.startswith("tls:") else server.rpartition(":")
+    if not host or not port.isdecimal() or int(port) > 65535:
+        raise Failure(USAGE, "usage", f"--server: '{server}' is no address: write HOST:PORT, tls:HOST:PORT or unix:PATH, "
+                      "for example 127.0.0.1:7878")
+    plain = socket.create_connection((host.strip("[]"), int(port)), timeout=10)
+    if not server.startswith("tls:"):
+        return plain
+    context = ssl.create_default_context(cafile=os.environ.get("SCULPT_TLS_CA") or None)
+    context.minimum_version = ssl.TLSVersion.TLSv1_2
+    if os.environ.get("SCULPT_TLS_CERT"):
+        context.load_cert_chain(os.environ["SCULPT_TLS_CERT"], os.environ.get("SCULPT_TLS_KEY") or None)
+    return context.wrap_socket(plain, server_hostname=host.strip("[]"))
+
+
+def read_token():
+    path = os.environ.get("SCULPT_TOKEN_FILE")
+    if os.environ.get("SCULPT_TOKEN") or not path:
+        return os.environ.get("SCULPT_TOKEN", "")
+    return read_input(path, "token").decode("utf-8", "replace").partition("\n")[0].strip()
 
 
 # Files of this disk
@@ -582,8 +614,8 @@ def joined_lists(arguments):
 def parse_command_line(arguments):
     common = argparse.ArgumentParser(add_help=False)
     default = os.environ.get("SCULPT_SERVER") or "127.0.0.1:7878"
-    common.add_argument("--server", metavar="HOST:PORT", default=argparse.SUPPRESS,
-                        help=f"where sculptd listens (env SCULPT_SERVER; now {default})")
+    common.add_argument("--server", metavar="ADDRESS", default=argparse.SUPPRESS,
+                        help=f"HOST:PORT, tls:HOST:PORT or unix:PATH of sculptd (env SCULPT_SERVER; now {default})")
     common.add_argument("--version", action="version", version=VERSION)
     parser = argparse.ArgumentParser(prog="sculpt.py", parents=[common], description="Talks to sculptd, the plan server for robot carving.",
                                      epilog="Exit codes: 0 fine, 1 the job failed or the check found something, 2 usage, "

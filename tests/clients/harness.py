@@ -6,6 +6,7 @@ Environment: SCULPTD and SCULPT (the programs), SCULPT_SOURCE (the source tree).
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -21,14 +22,14 @@ PATIENCE_S = 300  # a hang becomes a failure; nothing is measured by it
 
 
 class Daemon:
-    """sculptd on a free port; its log is DATA.log. The data folder may be handed on to the next one."""
+    """sculptd on a free port; its log is DATA.log. The data folder may be handed on to the next one. `files`: how many it may open."""
 
-    def __init__(self, data, *options):
+    def __init__(self, data, *options, listen="127.0.0.1:0", files=None):
         self.log_path = pathlib.Path(f"{data}.log")
         with self.log_path.open("wb") as log:
             self.process = subprocess.Popen(
-                [os.environ["SCULPTD"], "--listen", "127.0.0.1:0", "--data", str(data), *options],
-                cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
+                [os.environ["SCULPTD"], "--listen", listen, "--data", str(data), *options],
+                cwd=SOURCE, preexec_fn=(lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))) if files else None, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
         self.address = self._read_address()
 
     def log(self):
@@ -80,7 +81,7 @@ def shared_data(test, path):
 
 def environment(server=None):
     """The caller's, with only this server and the cells of the source tree."""
-    env = {name: value for name, value in os.environ.items() if name != "SCULPT_SERVER"}
+    env = {name: value for name, value in os.environ.items() if not name.startswith(("SCULPT_SERVER", "SCULPT_T"))}
     env["SCULPT_CELLS"] = str(SOURCE / "config/cells")
     return {**env, "SCULPT_SERVER": server} if server else env
 

@@ -82,7 +82,7 @@ TEST_F(BadLines, BinaryGarbageGetsAnErrorAndTheEnd) {
 
 TEST_F(BadLines, AnotherProtocolIsTurnedAwayAtItsFirstLine) {
   Connection connection(live.address());
-  connection.send("POST / HTTP/1.1\r\nHost: x\r\n\r\n{\"id\":1,\"method\":\"ping\"}\n");
+  connection.send("EHLO x\r\n{\"id\":1,\"method\":\"ping\"}\n");
   EXPECT_EQ(read_error(connection), "not_text");
   EXPECT_TRUE(closed(connection));
 }

@@ -36,6 +36,12 @@ TEST(Config, TheShippedFileIsGoodAndSaysTheDefaults) {
   EXPECT_EQ(config.memory_cap_bytes, plain.memory_cap_bytes);
   EXPECT_EQ(config.reply_limit_bytes, plain.reply_limit_bytes);
   EXPECT_EQ(config.stall, plain.stall);
+  EXPECT_EQ(config.hello_time, plain.hello_time);
+  EXPECT_EQ(config.max_connections, plain.max_connections);
+  EXPECT_EQ(config.max_connections_per_owner, plain.max_connections_per_owner);
+  EXPECT_EQ(config.disk_floor_bytes, plain.disk_floor_bytes);
+  EXPECT_EQ(config.host_names, plain.host_names);
+  EXPECT_EQ(config.origins, plain.origins);
 }
 
 TEST(Config, MistakesAreNamed) {

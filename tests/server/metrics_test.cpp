@@ -30,6 +30,8 @@ struct Quiet {
   Scheduler scheduler{*store, {}, {}};
   Streams streams{*store, scheduler};
   Waits waits{io, *store};
+  Access access{config};
+  Connections connections;
   TaskQueue disk, admission, replays, exports;
   Services services{io,
                     config,
@@ -42,6 +44,8 @@ struct Quiet {
                     scheduler,
                     streams,
                     waits,
+                    access,
+                    connections,
                     disk,
                     admission,
                     replays,
@@ -64,14 +68,13 @@ TEST(Metrics, CountWhatHappened) {
   quiet.store->submit({"", 0, "{}", ""});
   quiet.store->submit({"", 0, "{}", ""});
   quiet.store->claim();
-  quiet.counters.connections_opened = 5;
-  quiet.counters.connections_closed = 2;
+  quiet.counters.connections = 5;
   quiet.counters.bytes_in = 77;
   const std::string text = metrics_text(quiet.services);
   EXPECT_TRUE(has_line(text, "sculptd_jobs{state=\"queued\"} 1")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_jobs{state=\"running\"} 1")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_workers 2")) << text;
-  EXPECT_TRUE(has_line(text, "sculptd_connections 3")) << text;
+  EXPECT_TRUE(has_line(text, "sculptd_connections 0")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_connections_total 5")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_received_bytes_total 77")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_commit_seconds_count " + std::to_string(commits + 3))) << text;

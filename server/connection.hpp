@@ -1,0 +1,49 @@
+// What every open connection has, whatever it speaks, and the list of all of them. I/O thread only.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/access.hpp"
+
+namespace sculpt {
+
+/// Who is at the other end, as far as the socket tells.
+struct Peer {
+  std::uint64_t number = 0;          ///< of the connection, for the log
+  bool near = true;                  ///< on this machine: loopback or unix socket
+  bool browsable = true;             ///< a browser may be behind it: anything but a unix socket
+  std::string address;               ///< of this server, as the peer reached it; empty for a unix socket
+  std::optional<Identity> identity;  ///< known without a token
+};
+
+class Connection {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  virtual ~Connection() = default;
+  virtual void close(const char* reason) = 0;
+  /// Closes it when it missed a deadline. Call a few times a second.
+  virtual void check_deadlines(Clock::time_point now) = 0;
+  /// Nobody until it has said who it is.
+  virtual const Identity* identity() const { return nullptr; }
+};
+
+class Connections {
+ public:
+  void add(const std::shared_ptr<Connection>& connection) { list_.push_back(connection); }
+  std::size_t count();
+  /// Those that have said that they are of this owner.
+  std::size_t count_of(const std::string& owner);
+  void for_each(const std::function<void(Connection&)>& visit);
+
+ private:
+  std::list<std::weak_ptr<Connection>> list_;
+};
+
+}  // namespace sculpt

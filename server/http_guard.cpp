@@ -1,0 +1,44 @@
+#include "server/http_guard.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "server/net.hpp"
+
+namespace sculpt {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+}  // namespace
+
+std::string host_of(std::string_view authority) {
+  if (authority.starts_with('[')) {
+    const std::size_t end = authority.find(']');
+    return end == std::string_view::npos ? std::string() : lower(authority.substr(1, end - 1));
+  }
+  return lower(authority.substr(0, authority.find(':')));
+}
+
+bool host_allowed(std::string_view host_header, const std::vector<std::string>& names) {
+  const std::string host = host_of(host_header);
+  if (host.empty()) return false;
+  if (host == "localhost") return true;
+  boost::system::error_code error;
+  const net::ip::address address = net::ip::make_address(host, error);
+  if (!error && address.is_loopback()) return true;
+  return std::ranges::any_of(names, [&](const std::string& name) { return lower(name) == host; });
+}
+
+bool origin_allowed(std::string_view origin, std::string_view host_header, const std::vector<std::string>& origins) {
+  if (origin.empty()) return true;
+  const std::size_t scheme = origin.find("://");
+  if (scheme != std::string_view::npos && lower(origin.substr(scheme + 3)) == lower(host_header)) return true;
+  return std::ranges::find(origins, origin) != origins.end();
+}
+
+}  // namespace sculpt

@@ -1,0 +1,163 @@
+#include "server/http_routes.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "server/byte_range.hpp"
+#include "server/health.hpp"
+#include "server/http_guard.hpp"
+#include "server/metrics.hpp"
+#include "server/services.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::string_view artifacts_path = "/v1/artifacts/";
+constexpr std::size_t piece_bytes = 1 << 20;
+
+HttpReply ready_reply(const Services& services) {
+  const std::string reason = why_not_ready(services);
+  if (reason.empty()) return {200, "text/plain; charset=utf-8", "ready\n"};
+  return {503, "text/plain; charset=utf-8", reason + "\n"};
+}
+
+void authorize(Services& services, const Peer& peer, const HttpRequest& request) {
+  constexpr std::string_view scheme = "Bearer ";
+  const bool bearer = request.authorization.starts_with(scheme);
+  const std::string token = bearer ? request.authorization.substr(scheme.size()) : std::string();
+  require_scope(services.access.identify(peer, token), Scope::read);
+}
+
+// JOB/NAME[?format=FORMAT]
+ArtifactReadParams read_artifact_path(std::string_view path) {
+  const std::size_t query = std::min(path.find('?'), path.size()), slash = path.find('/');
+  if (slash > query) {
+    throw ProtocolError("not_found", "an artifact's path is /v1/artifacts/JOB/NAME[?format=FORMAT]");
+  }
+  ArtifactReadParams wanted{
+      std::string(path.substr(0, slash)), std::string(path.substr(slash + 1, query - slash - 1)), {}, 0, piece_bytes};
+  if (query == path.size()) return wanted;
+  constexpr std::string_view format = "?format=";
+  if (!path.substr(query).starts_with(format)) {
+    throw ProtocolError("params_invalid", "the only thing that may follow an artifact's path is ?format=FORMAT");
+  }
+  wanted.format = path.substr(query + format.size());
+  return wanted;
+}
+
+const char* media_type(const std::string& format) {
+  if (format == "json") return "application/json";
+  if (format == "ndjson") return "application/x-ndjson";
+  return format == "csv" ? "text/csv; charset=utf-8" : "application/octet-stream";
+}
+
+// Of an artifact's own form its hash; the others are always made alike from it.
+std::string entity_tag(const std::vector<StoredArtifact>& stored, const ArtifactReadParams& wanted,
+                       const std::string& format) {
+  const auto found = std::ranges::find(stored, wanted.artifact, &StoredArtifact::artifact);
+  if (found == stored.end()) {
+    throw ProtocolError("wrong_state", "the " + wanted.artifact + " of job " + wanted.job +
+                                           " still grows: HTTP gives what is final; follow it with artifact.read");
+  }
+  return "\"" + found->sha256 + (format == found->format ? "" : "-" + format) + "\"";
+}
+
+bool names_tag(const std::string& header, const std::string& tag) {
+  return header == "*" || header.find(tag) != std::string::npos;
+}
+
+HttpReply artifact_reply(Services& services, ArtifactReadParams wanted, const HttpRequest& request) {
+  wanted.bytes = 0;
+  const ArtifactChunk now = services.artifacts.read(wanted);
+  wanted.format = now.format;
+  wanted.bytes = piece_bytes;
+  const std::string tag = entity_tag(services.store.artifacts(wanted.job), wanted, now.format);
+  HttpReply reply{200, media_type(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
+  if (!request.if_none_match.empty() && names_tag(request.if_none_match, tag)) {
+    reply.status = 304;
+    return reply;
+  }
+  const bool stale = !request.if_range.empty() && request.if_range != tag;
+  const ByteRange range = stale ? ByteRange{} : read_range(request.range, now.size);
+  const std::string size = std::to_string(now.size);
+  if (range.kind == ByteRange::Kind::unsatisfiable) {
+    reply.status = 416;
+    reply.headers.emplace_back("Content-Range", "bytes */" + size);
+    return reply;
+  }
+  reply.part = {wanted, now.size};
+  if (range.kind == ByteRange::Kind::part) {
+    reply.status = 206;
+    reply.part->at.offset = range.offset;
+    reply.part->bytes = range.bytes;
+    reply.headers.emplace_back("Content-Range", "bytes " + std::to_string(range.offset) + "-" +
+                                                    std::to_string(range.offset + range.bytes - 1) + "/" + size);
+  }
+  return reply;
+}
+
+Route artifact_route(Services& services, const HttpRequest& request) {
+  const ArtifactReadParams wanted = read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
+  if (!services.store.find(wanted.job)) throw ProtocolError("not_found", "there is no job '" + wanted.job + "'");
+  const bool to_export = services.artifacts.needs_export(wanted);
+  return {to_export ? &services.exports : &services.disk, [&services, wanted, request, to_export] {
+            if (to_export) services.artifacts.make_export(wanted);
+            return artifact_reply(services, wanted, request);
+          }};
+}
+
+unsigned status_of(std::string_view code) {
+  if (code == "not_found") return 404;
+  if (code == "params_invalid" || code == "bad_request") return 400;
+  if (code == "auth_required") return 401;
+  if (code == "forbidden" || code == "origin_refused") return 403;
+  if (code == "method_refused") return 405;
+  if (code == "wrong_state") return 409;
+  if (code == "host_refused") return 421;
+  return code == "stopping" ? 503 : 500;
+}
+
+}  // namespace
+
+HttpReply error_reply(const Json& error) {
+  HttpReply reply{status_of(error["data"]["code"].get<std::string>()), "application/json", write_json(error) + "\n"};
+  if (reply.status == 401) reply.headers.emplace_back("WWW-Authenticate", "Bearer");
+  if (reply.status == 405) reply.headers.emplace_back("Allow", "GET, HEAD");
+  return reply;
+}
+
+void check_page(const Services& services, const Peer& peer, const HttpRequest& request) {
+  if (!peer.browsable) return;
+  std::vector<std::string> names = services.config.host_names;
+  names.insert(names.end(), {services.config.host, peer.address});
+  if (!host_allowed(request.host, names)) {
+    throw ProtocolError("host_refused", "this server is not called '" + host_of(request.host) +
+                                            "': use its address, or add the name to host_names");
+  }
+  if (!origin_allowed(request.origin, request.host, services.config.origins)) {
+    throw ProtocolError("origin_refused", "pages of another origin may not call this server: add it to origins");
+  }
+}
+
+Route find_route(Services& services, const Peer& peer, const HttpRequest& request) {
+  if (request.method != "GET" && request.method != "HEAD") {
+    throw ProtocolError("method_refused", "HTTP only reads here (GET, HEAD): give work over " +
+                                              std::string(web_socket_path) + " or newline-delimited JSON-RPC");
+  }
+  if (request.target == "/livez")
+    return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
+  if (request.target == "/readyz") return {&services.disk, [&services] { return ready_reply(services); }};
+  authorize(services, peer, request);
+  if (request.target == "/metrics") {
+    return {nullptr, [&services] {
+              return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(services)};
+            }};
+  }
+  if (request.target.starts_with(artifacts_path)) return artifact_route(services, request);
+  throw ProtocolError("not_found",
+                      "there is nothing at this path: there are /livez, /readyz, /metrics, "
+                      "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
+                          std::string(web_socket_path));
+}
+
+}  // namespace sculpt
