@@ -30,7 +30,8 @@ constexpr std::array catalogue{
     ErrorCode{"stock_empty", 5018, false},       ErrorCode{"stock_out_of_reach", 5019, false},
     ErrorCode{"threads_invalid", 5020, false},   ErrorCode{"no_transit", 5021, false},
     ErrorCode{"file_unwritable", 5022, false},   ErrorCode{"verify_failed", 5090, false},
-    ErrorCode{"out_of_memory", 5091, false},
+    ErrorCode{"out_of_memory", 5091, false},     ErrorCode{"run_time_exceeded", 5092, false},
+    ErrorCode{"planner_crashed", 5093, false},   ErrorCode{"expired", 5094, false},
 };
 
 }  // namespace

@@ -32,6 +32,12 @@ void apply(Fields fields, const fs::path& folder, Config& config) {
   if (fields.has("cells")) config.cells = {folder / fields.text("cells")};
   if (fields.has("blob_limit_bytes")) config.blob_limit_bytes = fields.count("blob_limit_bytes", max_limit);
   if (fields.has("memory_cap_bytes")) config.memory_cap_bytes = fields.count("memory_cap_bytes", max_limit);
+  if (fields.has("memory_bytes")) config.memory_bytes = fields.count("memory_bytes", max_limit);
+  if (fields.has("isolate")) config.isolate = fields.flag("isolate");
+  if (fields.has("retry_backoff_s")) {
+    config.retry_backoff =
+        std::chrono::milliseconds(static_cast<std::int64_t>(1000 * fields.number("retry_backoff_s", 0.001, 86400)));
+  }
   if (fields.has("reply_limit_bytes")) config.reply_limit_bytes = fields.count("reply_limit_bytes", max_limit);
   if (fields.has("stall_s")) {
     config.stall = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * fields.number("stall_s", 0.001, 86400)));

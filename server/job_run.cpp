@@ -69,15 +69,14 @@ JobSpec read_stored_spec(const JobRecord& job) {
   }
 }
 
-RunJob make_run_job(const Planner& planner, const Blobs& blobs, const Artifacts& artifacts,
-                    const JobDefaults& defaults) {
-  return [&planner, &blobs, &artifacts, defaults](const JobRecord& record, const Watch& watch) {
-    const fs::path folder = artifacts.job_folder(record.id);
+RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
+  return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
+    const fs::path folder = jobs / record.id;
     try {
       fs::create_directories(folder);
       const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
       return run(record, job, folder, planner, watch);
-    } catch (...) {
+    } catch (const InputError&) {
       std::error_code ignored;
       fs::remove_all(folder, ignored);
       throw;

@@ -1,7 +1,7 @@
 // One run of a stored job: spec and blobs -> planner -> artifacts on disk.
 #pragma once
 
-#include "server/artifacts.hpp"
+#include "server/planner.hpp"
 #include "server/scheduler.hpp"
 #include "server/translate.hpp"
 
@@ -10,9 +10,9 @@ namespace sculpt {
 /// The spec as it was stored. Throws StorageError when the database gave back something else.
 JobSpec read_stored_spec(const JobRecord& job);
 
-/// What the scheduler calls. Everything is durable when it returns; when it throws, the job's files are gone. Refers to
-/// its arguments.
-RunJob make_run_job(const Planner& planner, const Blobs& blobs, const Artifacts& artifacts,
+/// Runs a job in this process. Everything is durable when it returns; when it throws InputError, the job's files are
+/// gone, else they stay for the next attempt. Refers to planner and blobs.
+RunJob make_run_job(const Planner& planner, const Blobs& blobs, const std::filesystem::path& jobs,
                     const JobDefaults& defaults);
 
 }  // namespace sculpt

@@ -10,6 +10,7 @@
 
 #include "server/config.hpp"
 #include "server/data_folder.hpp"
+#include "server/isolated_run.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
 #include "server/planner.hpp"
@@ -92,6 +93,7 @@ int fail(int code, const char* sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == run_job_option) return run_isolated_job(make_planner({}));
   Flags flags;
   bool done = false;
   if (const int code = parse_flags(argc, argv, flags, done); done) return code;
