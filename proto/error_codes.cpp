@@ -59,6 +59,9 @@ constexpr std::array catalogue{
     ErrorCode{"file_unwritable", 5022, false},
     ErrorCode{"verify_failed", 5090, false},
     ErrorCode{"out_of_memory", 5091, false},
+    ErrorCode{"run_time_exceeded", 5092, false},
+    ErrorCode{"planner_crashed", 5093, false},
+    ErrorCode{"expired", 5094, false},
 };
 
 }  // namespace

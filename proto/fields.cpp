@@ -1,6 +1,8 @@
 #include "proto/fields.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <regex>
 
 namespace sculpt {
 namespace {
@@ -85,6 +87,12 @@ std::uint64_t Fields::count(const std::string& field, std::uint64_t high) {
   return value.get<std::uint64_t>();
 }
 
+bool Fields::flag(const std::string& field) {
+  const Json& value = take(field);
+  if (!value.is_boolean()) refuse(field, "must be true or false");
+  return value.get<bool>();
+}
+
 double Fields::number(const std::string& field, double low, double high) {
   const Json& value = take(field);
   if (!value.is_number()) refuse(field, std::string("must be a number, not ") + value.type_name());
@@ -102,6 +110,22 @@ std::array<double, 3> Fields::triple(const std::string& field) {
     out[i] = value[i].get<double>();
   }
   return out;
+}
+
+std::string Fields::utc_time(const std::string& field) {
+  static const std::regex form(R"((\d{4})-(\d\d)-(\d\d)T([01]\d|2[0-3]):[0-5]\d:[0-5]\d(\.\d{1,3})?Z)");
+  const std::string given = text(field, 30);
+  std::smatch parts;
+  const bool well_formed = std::regex_match(given, parts, form);
+  const auto number = [&](std::size_t part) { return static_cast<unsigned>(std::stoul(parts[part])); };
+  if (!well_formed || !std::chrono::year_month_day(std::chrono::year(static_cast<int>(number(1))),
+                                                   std::chrono::month(number(2)), std::chrono::day(number(3)))
+                           .ok()) {
+    refuse(field, "must be a moment in UTC such as 2026-01-31T12:00:00Z, not '" + given + "'");
+  }
+  std::string fraction = parts[5].str().empty() ? "." : parts[5].str();
+  fraction.resize(4, '0');
+  return given.substr(0, 19) + fraction + "Z";
 }
 
 Fields Fields::object(const std::string& field) {

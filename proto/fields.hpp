@@ -26,8 +26,11 @@ class Fields {
   std::string sha256(const std::string& field);
   std::int64_t integer(const std::string& field, std::int64_t low, std::int64_t high);
   std::uint64_t count(const std::string& field, std::uint64_t high = UINT64_MAX);
+  bool flag(const std::string& field);
   double number(const std::string& field, double low, double high);
   std::array<double, 3> triple(const std::string& field);
+  /// A moment, "2026-01-31T12:00:00Z" or with up to three digits of seconds' fractions; given back with all three.
+  std::string utc_time(const std::string& field);
   Fields object(const std::string& field);
   /// The field as it is.
   const Json& value(const std::string& field);

@@ -10,6 +10,7 @@ constexpr std::size_t max_text_bytes = 200;
 constexpr int max_priority = 100;
 constexpr int max_list = 1000;
 constexpr double max_wait_s = 86400;
+constexpr std::int64_t max_runtime_s = 366 * 86400;
 
 Fields params_of(const Json& params) {
   return Fields(params, "/params");
@@ -64,6 +65,12 @@ SubmitParams read_submit(const Json& params) {
   if (fields.has("key")) submit.key = fields.text("key", max_text_bytes);
   if (fields.has("priority"))
     submit.priority = static_cast<int>(fields.integer("priority", -max_priority, max_priority));
+  if (fields.has("not_before")) submit.not_before = fields.utc_time("not_before");
+  if (fields.has("start_by")) submit.start_by = fields.utc_time("start_by");
+  if (!submit.start_by.empty() && submit.start_by <= submit.not_before) {
+    fields.refuse("start_by", "must be after not_before, else the job can never start");
+  }
+  if (fields.has("max_runtime_s")) submit.max_runtime_s = fields.integer("max_runtime_s", 1, max_runtime_s);
   submit.spec = read_job_spec(fields.object("spec"));
   fields.done();
   return submit;

@@ -32,11 +32,14 @@ std::string read_blob_name(const Json& params);
 struct SubmitParams {
   std::string key;  ///< empty: none
   int priority = 0;
+  // Moments in UTC with milliseconds, empty: none.
+  std::string not_before, start_by;
+  std::int64_t max_runtime_s = 0;  ///< of one run; 0: no limit
   JobSpec spec;
 };
 SubmitParams read_submit(const Json& params);
 
-/// job.get, job.cancel, job.report, job.verify, events.unsubscribe, artifact.list
+/// job.get, job.cancel, job.pause, job.resume, job.retry, job.report, job.verify, events.unsubscribe, artifact.list
 std::string read_job_id(const Json& params);
 
 struct ListParams {

@@ -97,14 +97,11 @@ JobRecord Artifacts::find(const std::string& job) const {
   return *record;
 }
 
-void Artifacts::discard(const std::string& job) const {
+void Artifacts::discard_leftovers(const std::string& job) const {
+  const std::optional<JobRecord> record = store_.find(job);
+  if (!record || !is_final(record->state) || !store_.artifacts(job).empty()) return;
   std::error_code ignored;
   fs::remove_all(job_folder(job), ignored);
-}
-
-void Artifacts::discard_cancelled(const std::string& job) const {
-  const std::optional<JobRecord> record = store_.find(job);
-  if (record && record->state == JobState::cancelled) discard(job);
 }
 
 Json Artifacts::list(const JobRecord& job) const {

@@ -28,10 +28,8 @@ class Artifacts {
   std::filesystem::path job_folder(const std::string& job) const { return folder_ / job; }
   std::filesystem::path trajectory(const std::string& job) const { return job_folder(job) / "trajectory.ndjson"; }
 
-  /// Removes the files of a job that will not run again and has no artifacts.
-  void discard(const std::string& job) const;
-  /// The same, if the job is cancelled.
-  void discard_cancelled(const std::string& job) const;
+  /// Removes the files of a job that has ended without artifacts.
+  void discard_leftovers(const std::string& job) const;
 
   /// The names and formats in the order of PROTOCOL.md; of an artifact that is not there yet size 0 and no hash.
   Json list(const JobRecord& job) const;

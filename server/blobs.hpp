@@ -18,6 +18,7 @@ class Blobs {
  public:
   Blobs(std::filesystem::path folder, std::uint64_t max_bytes) : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
+  const std::filesystem::path& folder() const { return folder_; }
   BlobState state(const std::string& sha256) const;
   /// Adds a piece; when the last byte is there the hash is checked and the blob becomes durable. Throws ProtocolError
   /// `too_large`, `offset_mismatch`, `blob_mismatch` (what was uploaded is dropped).

@@ -25,11 +25,15 @@ struct Config {
   std::string log = "info";                  ///< trace debug info warn error off
   std::string log_format = "text";           ///< text json
   std::uint64_t blob_limit_bytes = 2ull << 30;
-  std::uint64_t memory_cap_bytes = 2ull << 30;  ///< per job
+  std::uint64_t memory_cap_bytes = 2ull << 30;     ///< per job
+  std::uint64_t memory_bytes = 0;                  ///< of all jobs that run at once; 0: three quarters of the machine's
+  bool isolate = false;                            ///< run every job in a process of its own, not only suspects
+  std::chrono::milliseconds retry_backoff{10000};  ///< before the second try of a job that failed for a passing reason
+  std::filesystem::path worker = "/proc/self/exe";  ///< the program that runs a job with --run-job; not a setting
   std::uint64_t reply_limit_bytes = 32u << 20;  ///< unsent bytes of one connection; above it the connection is closed
   std::chrono::milliseconds stall{
       30000};  ///< a connection that takes no bytes for so long while there are some is closed
-  std::chrono::milliseconds drain{10000};  ///< for running jobs to end in order when the daemon stops
+  std::chrono::milliseconds drain{10000};       ///< for running jobs to end in order when the daemon stops
   std::chrono::milliseconds hello_time{10000};  ///< for the TLS handshake, an HTTP request's head, hello
   int max_connections = 1000;                   ///< fewer where the process may not open so many files
   int max_connections_per_owner = 500;

@@ -20,10 +20,17 @@ void on_submit(Services& services, Call call);
 // job_handlers.cpp
 void on_get(Services& services, Call call);
 void on_list(Services& services, Call call);
-void on_cancel(Services& services, Call call);
 void on_wait(Services& services, Call call);
 void on_report(Services& services, Call call);
 void on_verify(Services& services, Call call);
+
+// control_handlers.cpp
+void on_cancel(Services& services, Call call);
+void on_pause(Services& services, Call call);
+void on_resume(Services& services, Call call);
+void on_retry(Services& services, Call call);
+void on_queue_pause(Services& services, Call call);
+void on_queue_resume(Services& services, Call call);
 
 // event_handlers.cpp
 void on_subscribe(Services& services, Call call);

@@ -47,15 +47,6 @@ void on_list(Services& services, Call call) {
   answer(call, {{"jobs", std::move(views)}, {"more", more}});
 }
 
-void on_cancel(Services& services, Call call) {
-  const std::string job = read_job_id(call.params);
-  const JobState state = services.store.cancel(job);
-  services.scheduler.cancel(job);
-  answer(call, {{"job", job}, {"state", name(state)}});
-  services.discard_cancelled(job);
-  services.changed(job);
-}
-
 void on_wait(Services& services, Call call) {
   const WaitParams wait = read_wait(call.params);
   find_job(services.store, wait.job);

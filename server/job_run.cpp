@@ -74,20 +74,11 @@ JobSpec read_stored_spec(const JobRecord& job) {
   }
 }
 
-RunJob make_run_job(const Planner& planner, const Blobs& blobs, const Artifacts& artifacts,
-                    const JobDefaults& defaults) {
-  return [&planner, &blobs, &artifacts, defaults](const JobRecord& record, const Watch& watch) {
-    const fs::path folder = artifacts.job_folder(record.id);
-    try {
-      fs::create_directories(folder);
-      const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
-      return run(record, job, folder, planner, watch);
-    } catch (const Cancelled&) {
-      throw;  // the next run goes on from what is there
-    } catch (...) {
-      artifacts.discard(record.id);
-      throw;
-    }
+RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
+  return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
+    const fs::path folder = jobs / record.id;
+    fs::create_directories(folder);
+    return run(record, to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults), folder, planner, watch);
   };
 }
 

@@ -1,7 +1,7 @@
 // One run of a stored job: spec and blobs -> planner -> artifacts on disk.
 #pragma once
 
-#include "server/artifacts.hpp"
+#include "server/planner.hpp"
 #include "server/scheduler.hpp"
 #include "server/translate.hpp"
 
@@ -10,10 +10,9 @@ namespace sculpt {
 /// The spec as it was stored. Throws StorageError when the database gave back something else.
 JobSpec read_stored_spec(const JobRecord& job);
 
-/// What the scheduler calls. Everything is durable when it returns. When it throws Cancelled, trajectory and
-/// checkpoints are kept for the next run; when it throws anything else, the job's files are gone. Refers to its
-/// arguments.
-RunJob make_run_job(const Planner& planner, const Blobs& blobs, const Artifacts& artifacts,
+/// Runs a job in this process, from its last checkpoint on. Everything is durable when it returns; when it throws,
+/// trajectory and checkpoints are left for the next run. Refers to planner and blobs.
+RunJob make_run_job(const Planner& planner, const Blobs& blobs, const std::filesystem::path& jobs,
                     const JobDefaults& defaults);
 
 }  // namespace sculpt

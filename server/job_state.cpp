@@ -5,48 +5,65 @@
 namespace sculpt {
 namespace {
 
+using enum JobState;
+
 struct Move {
   JobState from, to;
   bool operator==(const Move&) const = default;
 };
 
 constexpr std::array moves{
-    Move{JobState::queued, JobState::running},        // claimed by a worker
-    Move{JobState::queued, JobState::cancelled},      //
-    Move{JobState::running, JobState::queued},        // interrupted: the daemon stopped or was killed
-    Move{JobState::running, JobState::cancelling},    //
-    Move{JobState::running, JobState::succeeded},     //
-    Move{JobState::running, JobState::failed},        //
-    Move{JobState::cancelling, JobState::cancelled},  // whatever the worker had reached by then
+    // time and workers
+    Move{held, queued}, Move{backoff, queued}, Move{held, expired}, Move{queued, expired}, Move{queued, running},
+    // how a run ends; back to the queue: interrupted, because the daemon stopped or was killed
+    Move{running, queued}, Move{running, succeeded}, Move{running, failed}, Move{running, backoff},
+    Move{running, quarantined},
+    // pause
+    Move{held, paused}, Move{queued, paused}, Move{backoff, paused}, Move{running, pausing}, Move{pausing, paused},
+    Move{pausing, succeeded}, Move{pausing, failed}, Move{pausing, quarantined}, Move{paused, held},
+    Move{paused, queued},
+    // cancel
+    Move{held, cancelled}, Move{queued, cancelled}, Move{backoff, cancelled}, Move{paused, cancelled},
+    Move{running, cancelling}, Move{pausing, cancelling}, Move{cancelling, cancelled},
+    // an operator
+    Move{quarantined, queued}};
+
+struct Named {
+  JobState state;
+  const char* name;
 };
+
+constexpr std::array names{Named{held, "held"},
+                           Named{queued, "queued"},
+                           Named{running, "running"},
+                           Named{pausing, "pausing"},
+                           Named{paused, "paused"},
+                           Named{backoff, "backoff"},
+                           Named{cancelling, "cancelling"},
+                           Named{succeeded, "succeeded"},
+                           Named{failed, "failed"},
+                           Named{quarantined, "quarantined"},
+                           Named{expired, "expired"},
+                           Named{cancelled, "cancelled"}};
+static_assert(names.size() == job_states.size());
 
 }  // namespace
 
 const char* name(JobState state) {
-  switch (state) {
-    case JobState::queued:
-      return "queued";
-    case JobState::running:
-      return "running";
-    case JobState::cancelling:
-      return "cancelling";
-    case JobState::succeeded:
-      return "succeeded";
-    case JobState::failed:
-      return "failed";
-    case JobState::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  return std::ranges::find(names, state, &Named::state)->name;
 }
 
 std::optional<JobState> find_state(std::string_view word) {
-  const auto* found = std::ranges::find_if(job_states, [&](JobState state) { return word == name(state); });
-  return found == job_states.end() ? std::nullopt : std::optional(*found);
+  const auto* found = std::ranges::find(names, word, &Named::name);
+  return found == names.end() ? std::nullopt : std::optional(found->state);
 }
 
 bool is_final(JobState state) {
-  return std::ranges::none_of(moves, [&](const Move& move) { return move.from == state; });
+  return state == succeeded || state == failed || state == quarantined || state == expired || state == cancelled;
+}
+
+bool is_active(JobState state) {
+  return state == running || state == pausing || state == cancelling;
 }
 
 bool may_move(JobState from, JobState to) {

@@ -2,17 +2,16 @@
 // another engine can fill it.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "server/histogram.hpp"
+#include "server/job_record.hpp"
 #include "server/job_state.hpp"
+#include "server/time_stamp.hpp"
 
 namespace sculpt {
 
@@ -20,25 +19,6 @@ namespace sculpt {
 class StorageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-struct NewJob {
-  std::string key;  ///< empty: none
-  int priority = 0;
-  std::string spec;         ///< JobSpec as canonical JSON
-  std::string cell_bundle;  ///< hash of the bundle that was valid when the job was submitted
-};
-
-struct JobRecord {
-  std::string id;
-  JobState state = JobState::queued;
-  std::string key;
-  int priority = 0;
-  std::string spec;
-  std::string cell_bundle;
-  int attempt = 0;  ///< how often it was claimed; also the fence: a worker's writes count only under its own number
-  std::string submitted_at, started_at, finished_at;
-  std::string error_code, error_sentence;
 };
 
 struct Submitted {
@@ -54,17 +34,15 @@ struct StateEvent {
   JobState to = JobState::queued;
 };
 
-struct StoredArtifact {
-  std::string artifact, format;
-  std::uint64_t size = 0;
-  std::string sha256;
-};
-
-/// How a run ended: succeeded or failed.
-struct Ending {
-  JobState state = JobState::failed;
-  std::string error_code, error_sentence;
-  std::vector<StoredArtifact> artifacts;
+/// What the store decides by.
+struct StoreRules {
+  std::function<std::uint64_t()> now_ms = unix_ms;  ///< wall time
+  std::uint64_t ageing_ms = 60'000;  ///< a job overtakes those that wait so long already for each step of priority
+  int max_failures = 3;              ///< a job that fails for the third time has failed, even if it could pass
+  std::uint64_t first_backoff_ms = 10'000;  ///< doubled with each failure
+  int max_crashes = 2;
+  bool isolate = false;            ///< every job runs in a process of its own, not only suspects
+  std::uint64_t memory_bytes = 0;  ///< predicted memory of the jobs that run at once; 0: no bound
 };
 
 /// Safe from any thread. A change is on disk when its call returns; with it, in the same transaction, is its event.
@@ -78,18 +56,37 @@ class JobStore {
   /// The same key and spec give the first job again. Throws ProtocolError `key_conflict` for the same key with another
   /// spec.
   virtual Submitted submit(const NewJob& job) = 0;
-  /// queued -> running of the best queued job: highest priority, then first submitted.
+  /// queued -> running of the job that is next: the one with the highest priority, where each step of priority is worth
+  /// some waiting (StoreRules::ageing_ms). Nothing while the queue is paused, or while the next job has no room in the
+  /// memory: none overtakes it. Suspects (jobs with crashes) run one at a time and are passed over meanwhile.
   virtual std::optional<JobRecord> claim() = 0;
-  /// running -> succeeded or failed; cancelling -> cancelled. False when this attempt does not own the job any more:
-  /// the result must be dropped.
+  /// Running: succeeded or failed, or by the ending's cause backoff or quarantined; pausing: the same, but paused
+  /// instead of backoff; cancelling: cancelled. False when this attempt does not own the job any more: the result must
+  /// be dropped.
   virtual bool finish(const std::string& job, int attempt, const Ending& ending) = 0;
-  /// The run stopped before its end: running -> queued (interrupted), cancelling -> cancelled. False as for finish.
+  /// The run stopped before its end, in order: running -> queued (interrupted), pausing -> paused, cancelling ->
+  /// cancelled. False as for finish.
   virtual bool release(const std::string& job, int attempt) = 0;
-  /// queued -> cancelled, running -> cancelling; cancelling and cancelled stay. Throws ProtocolError `not_found` or
-  /// `wrong_state`.
-  virtual JobState cancel(const std::string& job) = 0;
-  /// Call once before any worker starts: what a killed daemon left running is released. Returns how many.
+  /// Call once before any worker starts: what a killed daemon left running is released, and is suspected if it ran
+  /// inside the daemon. Returns how many.
   virtual int recover() = 0;
+  /// Lets time pass: held and backoff -> queued when their time has come, held and queued -> expired when they should
+  /// have started by now and never have. Gives the jobs that changed.
+  virtual std::vector<std::string> wake_due() = 0;
+
+  // Each gives the state that the job has now. They throw ProtocolError `not_found` or `wrong_state`.
+  /// Running and pausing -> cancelling, final ones are `wrong_state`, all others -> cancelled; repeating it is fine.
+  virtual JobState cancel(const std::string& job) = 0;
+  /// Held, queued and backoff -> paused, running -> pausing; repeating it is fine.
+  virtual JobState pause(const std::string& job) = 0;
+  /// Paused -> queued, or held when its time has not come. Fine for a job that is not paused and has not ended.
+  virtual JobState resume(const std::string& job) = 0;
+  /// Quarantined -> queued, with its crashes forgotten but for one: it runs in a process of its own.
+  virtual JobState retry(const std::string& job) = 0;
+
+  /// While the queue is paused nothing is claimed, also after a restart.
+  virtual void set_queue_paused(bool paused) = 0;
+  virtual bool queue_paused() = 0;
 
   virtual std::optional<JobRecord> find(const std::string& job) = 0;
   virtual std::optional<JobRecord> find_key(const std::string& key) = 0;
@@ -109,6 +106,6 @@ class JobStore {
 };
 
 /// Throws StorageError (unreadable, no database, made by a newer version).
-std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file);
+std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules = {});
 
 }  // namespace sculpt

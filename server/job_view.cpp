@@ -24,13 +24,17 @@ Json job_view(const Services& services, const JobRecord& job) {
   const JobSpec spec = read_stored_spec(job);
   Json view{{"job", job.id}, {"state", name(job.state)}};
   if (!job.key.empty()) view["key"] = job.key;
-  view["priority"] = job.priority;
+  view["priority"] = job.schedule.priority;
   view["mesh"] = spec.mesh.name;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);
   view["search"] = spec.search.value_or(Job{}.search);
   view["seed"] = spec.seed;
   view["resolution"] = spec.resolution;
   view["attempt"] = job.attempt;
+  if (!job.schedule.not_before.empty()) view["not_before"] = job.schedule.not_before;
+  if (!job.schedule.start_by.empty()) view["start_by"] = job.schedule.start_by;
+  if (job.schedule.max_runtime_s > 0) view["max_runtime_s"] = job.schedule.max_runtime_s;
+  if (!job.wake_at.empty()) view["until"] = job.wake_at;
   view["submitted_at"] = job.submitted_at;
   if (!job.started_at.empty()) view["started_at"] = job.started_at;
   if (!job.finished_at.empty()) view["finished_at"] = job.finished_at;
@@ -38,7 +42,7 @@ Json job_view(const Services& services, const JobRecord& job) {
   if (const std::optional<Progress> progress = services.scheduler.progress(job.id)) {
     view["progress"] = progress_view(*progress);
   }
-  if (job.state == JobState::failed) view["error"] = error_view(job);
+  if (!job.error_code.empty()) view["error"] = error_view(job);
   return view;
 }
 

@@ -9,7 +9,7 @@ namespace sculpt {
 Json job_view(const Services& services, const JobRecord& job);
 /// `{stage, done, total}`, and `loose_keep` where some of the target hangs on nothing.
 Json progress_view(const Progress& progress);
-/// `{code, message}` of a failed job.
+/// `{code, message}` of a job's last failure.
 Json error_view(const JobRecord& job);
 /// Throws ProtocolError `not_found`.
 JobRecord find_job(JobStore& store, const std::string& job);

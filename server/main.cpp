@@ -12,6 +12,7 @@
 #include "server/config.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
+#include "server/isolated_run.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
 #include "server/log.hpp"
@@ -107,6 +108,7 @@ int fail(int code, const char* sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == run_job_option) return run_isolated_job(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.

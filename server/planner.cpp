@@ -50,6 +50,7 @@ Planner make_planner(std::vector<fs::path> folders) {
   planner.cells = [folders] { return cell_names(folders); };
   planner.read_cell = [folders](const std::string& name) { return read_cell_files(find_cell(name, folders)); };
   planner.check = check_job;
+  planner.predict_memory = predict_memory;
   planner.run = run;
   planner.verify = verify;
   planner.to_csv = export_csv;

@@ -32,6 +32,8 @@ struct Planner {
   std::function<std::vector<std::string>()> cells;
   std::function<CellFiles(const std::string& name)> read_cell;
   std::function<void(const Job&, const Watch&)> check;
+  /// Bytes that a job needs.
+  std::function<std::uint64_t(const Job&)> predict_memory;
   /// Goes on where a run of the job with the same trajectory file was stopped or killed. Leaves its checkpoints beside
   /// the trajectory.
   std::function<PlanFiles(const Job&, const std::filesystem::path& trajectory, const Watch&)> run;

@@ -2,15 +2,26 @@
 
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <new>
+#include <system_error>
 
 #include "server/crash_point.hpp"
 
 namespace sculpt {
 
-/// One attempt at one job: how to stop it and how far it is.
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds beat{250};
+
+}  // namespace
+
+/// One attempt at one job: how to stop it, when it has to be over, and how far it is.
 struct Scheduler::Run {
+  std::optional<Clock::time_point> deadline;  // set before anybody else sees the run
+  std::atomic<bool> overdue = false;
   std::stop_source stop;
   std::mutex mutex;
   std::optional<Progress> progress;
@@ -21,22 +32,45 @@ namespace {
 // A full disk is tried again so often.
 constexpr std::chrono::seconds retry_time{1};
 
-Ending failed(const std::string& code, const std::string& sentence) {
-  return {JobState::failed, code, sentence, {}};
+Ending failed(const std::string& code, const std::string& sentence, Cause cause = Cause::job) {
+  return {JobState::failed, code, sentence, {}, cause};
 }
 
-/// Nothing when the job was let go.
-std::optional<Ending> guarded(const RunJob& run, const JobRecord& job, const Watch& watch) {
+Ending overdue(const JobRecord& job) {
+  return failed("run_time_exceeded", "it ran longer than its max_runtime_s, " +
+                                         std::to_string(job.schedule.max_runtime_s) +
+                                         ": submit it with more, or with a lower resolution");
+}
+
+void log_ending(const JobRecord& job, const std::optional<Ending>& ending) {
+  if (!ending) {
+    spdlog::info("job={} attempt={} let go", job.id, job.attempt);
+  } else if (ending->state == JobState::failed) {
+    spdlog::warn("job={} attempt={} failed code={}: {}", job.id, job.attempt, ending->error_code,
+                 ending->error_sentence);
+  } else {
+    spdlog::info("job={} attempt={} {}", job.id, job.attempt, name(ending->state));
+  }
+}
+
+}  // namespace
+
+std::optional<Ending> caught_ending() {
   try {
-    return run(job, watch);
+    throw;
   } catch (const Cancelled&) {
     return std::nullopt;
   } catch (const InputError& error) {
     return failed(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    return failed("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers");
+    return failed("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
+                  Cause::fault);
   } catch (const StorageError& error) {
-    return failed("storage_error", error.what());
+    return failed("storage_error", error.what(), Cause::fault);
+  } catch (const CrashError& error) {
+    return failed("planner_crashed", error.what(), Cause::crash);
+  } catch (const std::system_error& error) {
+    return failed("internal_error", std::string("the system refused: ") + error.what(), Cause::fault);
   } catch (const std::exception& error) {
     return failed("internal_error", std::string("the planner failed: ") + error.what());
   } catch (...) {
@@ -44,13 +78,12 @@ std::optional<Ending> guarded(const RunJob& run, const JobRecord& job, const Wat
   }
 }
 
-}  // namespace
-
 Scheduler::Scheduler(JobStore& store, RunJob run, std::function<void(const std::string&)> changed)
     : store_(store), run_(std::move(run)), changed_(std::move(changed)) {}
 
 void Scheduler::start(int workers) {
-  for (int i = 0; i < workers; ++i) workers_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
+  for (int i = 0; i < workers; ++i) threads_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
+  threads_.emplace_back([this](const std::stop_token& stop) { mind_time(stop); });
 }
 
 void Scheduler::stop() {
@@ -60,8 +93,8 @@ void Scheduler::stop() {
     wake_.notify_all();
     for (const auto& [job, run] : running_) run->stop.request_stop();
   }
-  for (std::jthread& worker : workers_) worker.request_stop();
-  workers_.clear();
+  for (std::jthread& thread : threads_) thread.request_stop();
+  threads_.clear();
 }
 
 void Scheduler::wake() {
@@ -72,7 +105,7 @@ void Scheduler::wake() {
   wake_.notify_all();
 }
 
-void Scheduler::cancel(const std::string& job) {
+void Scheduler::stop_run(const std::string& job) {
   const std::lock_guard lock(mutex_);
   if (const auto found = running_.find(job); found != running_.end()) found->second->stop.request_stop();
 }
@@ -100,6 +133,37 @@ void Scheduler::work(std::stop_token stop) {
   }
 }
 
+void Scheduler::mind_time(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    stop_overdue();
+    lock.unlock();
+    wake_due();
+    lock.lock();
+    time_.wait_for(lock, stop, beat, [] { return false; });
+  }
+}
+
+// Call with the mutex held.
+void Scheduler::stop_overdue() {
+  const auto now = Clock::now();
+  for (const auto& [job, run] : running_) {
+    if (!run->deadline || now < *run->deadline) continue;
+    run->overdue = true;
+    run->stop.request_stop();
+  }
+}
+
+void Scheduler::wake_due() {
+  try {
+    const std::vector<std::string> woken = store_.wake_due();
+    for (const std::string& job : woken) changed_(job);
+    if (!woken.empty()) wake();
+  } catch (const std::exception& error) {
+    spdlog::error("jobs whose time has come cannot be queued: {}", error.what());
+  }
+}
+
 // Claims and makes the run known under one lock: a cancel that comes after the claim always finds it.
 std::optional<JobRecord> Scheduler::claim(const std::shared_ptr<Run>& run) {
   const std::lock_guard lock(mutex_);
@@ -109,6 +173,8 @@ std::optional<JobRecord> Scheduler::claim(const std::shared_ptr<Run>& run) {
     std::optional<JobRecord> job = store_.claim();
     if (!job) return std::nullopt;
     work_ = true;
+    if (job->schedule.max_runtime_s > 0)
+      run->deadline = Clock::now() + std::chrono::seconds(job->schedule.max_runtime_s);
     running_[job->id] = run;
     return job;
   } catch (const std::exception& error) {
@@ -126,15 +192,29 @@ void Scheduler::run_one(const JobRecord& job, Run& run) {
                         spdlog::warn("job={} {} voxels of the target hang on nothing", job.id, progress.loose_keep);
                       run.progress = progress;
                     }};
-  const std::optional<Ending> ending = guarded(run_, job, watch);
+  std::optional<Ending> ending;
+  try {
+    ending = run_(job, watch);
+  } catch (...) {
+    ending = caught_ending();
+  }
+  if (!ending && run.overdue) ending = overdue(job);
   crash_point(CrashPoint::ending_known);
   while (!store_ending(job, ending)) {
     std::unique_lock lock(mutex_);
     if (wake_.wait_for(lock, retry_time, [this] { return stopping_; })) break;
   }
   crash_point(CrashPoint::ending_stored);
-  const std::lock_guard lock(mutex_);
-  running_.erase(job.id);
+  end_run(job.id, run);
+}
+
+// Another worker may run the job again by now. What waited for memory, or for its turn as a suspect, may have room.
+void Scheduler::end_run(const std::string& job, const Run& run) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = running_.find(job); found->second.get() == &run) running_.erase(found);
+  }
+  wake();
 }
 
 // False if it cannot be stored now. Given up at a stop only: then the job stays `running` in the store, and is released
@@ -143,14 +223,7 @@ bool Scheduler::store_ending(const JobRecord& job, const std::optional<Ending>& 
   try {
     const bool owned = ending ? store_.finish(job.id, job.attempt, *ending) : store_.release(job.id, job.attempt);
     if (!owned) spdlog::warn("job={} attempt={} does not own its job any more, result dropped", job.id, job.attempt);
-    if (!ending) {
-      spdlog::info("job={} attempt={} let go", job.id, job.attempt);
-    } else if (ending->state == JobState::failed) {
-      spdlog::warn("job={} attempt={} failed code={}: {}", job.id, job.attempt, ending->error_code,
-                   ending->error_sentence);
-    } else {
-      spdlog::info("job={} attempt={} {}", job.id, job.attempt, name(ending->state));
-    }
+    log_ending(job, ending);
   } catch (const StorageError& error) {
     spdlog::error("job={} attempt={} its end cannot be stored yet: {}", job.id, job.attempt, error.what());
     return false;

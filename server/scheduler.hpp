@@ -1,4 +1,4 @@
-// Worker threads: claim a queued job, run it, store how it ended.
+// Worker threads: claim a queued job, run it, store how it ended. One more thread minds the time.
 #pragma once
 
 #include <condition_variable>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,15 +17,24 @@
 
 namespace sculpt {
 
-/// Runs on a worker. May throw anything: InputError, bad_alloc and others become a failed job, Cancelled lets the job
-/// go.
+/// The process of a run ended before the run did.
+class CrashError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs on a worker. May throw anything: InputError, bad_alloc, CrashError and others become a failure, Cancelled lets
+/// the job go.
 using RunJob = std::function<Ending(const JobRecord&, const Watch&)>;
+
+/// What a run that threw ended with; nothing when it was let go. Call inside a catch block.
+std::optional<Ending> caught_ending();
 
 /// All methods are safe from any thread. Between them and a worker stands one mutex, which is never held while a job
 /// runs.
 class Scheduler {
  public:
-  /// `changed` is called on the worker after each change of a job's state, and must not throw.
+  /// `changed` is called after each change of a job's state, on the thread that made it, and must not throw.
   Scheduler(JobStore& store, RunJob run, std::function<void(const std::string& job)> changed);
   ~Scheduler() { stop(); }
 
@@ -33,27 +43,31 @@ class Scheduler {
   void stop();
   /// There may be a queued job.
   void wake();
-  /// Call after the store says `cancelling`.
-  void cancel(const std::string& job);
+  /// Asks a job to stop if it runs. Call after the store says `cancelling` or `pausing`.
+  void stop_run(const std::string& job);
   /// Nothing if the job does not run.
   std::optional<Progress> progress(const std::string& job) const;
 
  private:
   struct Run;
   void work(std::stop_token stop);
+  void mind_time(const std::stop_token& stop);
+  void stop_overdue();
+  void wake_due();
   std::optional<JobRecord> claim(const std::shared_ptr<Run>& run);
   void run_one(const JobRecord& job, Run& run);
+  void end_run(const std::string& job, const Run& run);
   bool store_ending(const JobRecord& job, const std::optional<Ending>& ending);
 
   JobStore& store_;
   RunJob run_;
   std::function<void(const std::string&)> changed_;
   mutable std::mutex mutex_;
-  std::condition_variable_any wake_;
+  std::condition_variable_any wake_, time_;
   bool work_ = true;  // a claim may find something
   bool stopping_ = false;
   std::map<std::string, std::shared_ptr<Run>> running_;
-  std::vector<std::jthread> workers_;
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace sculpt

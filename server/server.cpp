@@ -1,6 +1,7 @@
 #include "server/server.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -10,6 +11,7 @@
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 #include "server/drain_limit.hpp"
+#include "server/isolated_run.hpp"
 #include "server/job_run.hpp"
 #include "server/listener.hpp"
 #include "server/log.hpp"
@@ -35,8 +37,28 @@ int worker_count(const Config& config) {
   return config.workers > 0 ? config.workers : std::max(1, cores() - 1);
 }
 
+std::uint64_t job_memory(const Config& config) {
+  const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
+  const auto page_bytes = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return config.memory_bytes > 0 ? config.memory_bytes : pages * page_bytes / 4 * 3;
+}
+
+StoreRules store_rules(const Config& config) {
+  StoreRules rules;
+  rules.first_backoff_ms = static_cast<std::uint64_t>(config.retry_backoff.count());
+  rules.isolate = config.isolate;
+  rules.memory_bytes = job_memory(config);
+  return rules;
+}
+
 JobDefaults job_defaults(const Config& config) {
-  return {std::max(1, cores() / worker_count(config)), config.memory_cap_bytes};
+  return {std::max(1, cores() / worker_count(config)), std::min(config.memory_cap_bytes, job_memory(config))};
+}
+
+RunJob choose_run(RunJob here, RunJob isolated) {
+  return [here = std::move(here), isolated = std::move(isolated)](const JobRecord& job, const Watch& watch) {
+    return job.isolated ? isolated(job, watch) : here(job, watch);
+  };
 }
 
 // For the service manager's status line.
@@ -54,12 +76,9 @@ void Services::changed(const std::string& job) {
     streams.on_changed(job);
     waits.on_changed(job);
   });
-}
-
-void Services::discard_cancelled(const std::string& job) {
   disk.add([this, job](const std::stop_token&) {
     try {
-      artifacts.discard_cancelled(job);
+      artifacts.discard_leftovers(job);
     } catch (const std::exception& error) {
       spdlog::error("job={} its files could not be removed: {}", job, error.what());
     }
@@ -71,14 +90,16 @@ struct Server::Impl {
       : config(wanted),
         planner(std::move(given)),
         folder(config.data),
-        store(open_sqlite_store(folder.database())),
+        store(open_sqlite_store(folder.database(), store_rules(config))),
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
-        scheduler(*store, with_stage_times(make_run_job(planner, blobs, artifacts, job_defaults(config)), counters),
-                  [this](const std::string& job) {
-                    services.discard_cancelled(job);
-                    services.changed(job);
-                  }),
+        scheduler(
+            *store,
+            with_stage_times(
+                choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
+                           make_isolated_run({config.worker, blobs.folder(), folder.jobs(), job_defaults(config)})),
+                counters),
+            [this](const std::string& job) { services.changed(job); }),
         streams(*store, scheduler),
         waits(io, *store),
         listener(services, tcp_endpoint(config), make_tls(config)) {

@@ -71,6 +71,7 @@ void on_server_info(Services& services, Call call) {
                 {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
                 {"workers", services.workers},
                 {"cells", services.planner.cells()},
+                {"queue_paused", services.store.queue_paused()},
                 {"jobs", std::move(jobs)}});
 }
 

@@ -43,7 +43,6 @@ struct Services {
   /// A job changed its state: tells everybody who waits for that. Any thread.
   void changed(const std::string& job);
   /// If the job is cancelled now, removes its files, soon. Any thread.
-  void discard_cancelled(const std::string& job);
 };
 
 }  // namespace sculpt

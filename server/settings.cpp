@@ -39,6 +39,16 @@ Setting bytes(const char* name, std::uint64_t Config::*field, Change change, con
           [=](const Config& config) -> Json { return config.*field; }};
 }
 
+Setting flag(const char* name, bool Config::*field, Change change, const char* help) {
+  return {name,
+          "true, false",
+          change,
+          help,
+          false,
+          [=](SettingEntry entry, Config& config) { config.*field = entry.fields.flag(entry.name); },
+          [=](const Config& config) -> Json { return config.*field; }};
+}
+
 Setting seconds(const char* name, std::chrono::milliseconds Config::*field, Change change, const char* help) {
   return {name,
           "seconds",
@@ -172,6 +182,12 @@ const std::vector<Setting>& settings() {
       bytes("blob_limit_bytes", &Config::blob_limit_bytes, at_start, "largest upload"),
       bytes("memory_cap_bytes", &Config::memory_cap_bytes, at_start,
             "predicted memory of one job; above it the job is refused"),
+      bytes("memory_bytes", &Config::memory_bytes, at_start,
+            "predicted memory of the jobs that run at once; 0: three quarters of the machine's"),
+      flag("isolate", &Config::isolate, at_start,
+           "run every job in a process of its own, not only those that are suspected"),
+      seconds("retry_backoff_s", &Config::retry_backoff, at_start,
+              "before the second try of a job that failed for a reason that may pass; doubled for the third"),
       bytes("reply_limit_bytes", &Config::reply_limit_bytes, at_reload,
             "unsent bytes of one connection; above it the connection is closed"),
       seconds("stall_s", &Config::stall, at_reload,

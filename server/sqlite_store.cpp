@@ -1,90 +1,36 @@
 // The job store in SQLite: WAL, synchronous=FULL, so that a returned call survives a killed daemon and a power cut.
+#include <algorithm>
 #include <mutex>
 
 #include "proto/error_codes.hpp"
 #include "server/job_id.hpp"
 #include "server/job_store.hpp"
-#include "server/sqlite.hpp"
-#include "server/time_stamp.hpp"
+#include "server/job_table.hpp"
+#include "server/sqlite_schema.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr std::int64_t schema_version = 1;
+using enum JobState;
 
-constexpr const char* schema = R"(
-CREATE TABLE meta(name TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;
-CREATE TABLE job(
-  number INTEGER PRIMARY KEY,
-  id TEXT NOT NULL UNIQUE,
-  state TEXT NOT NULL,
-  key TEXT UNIQUE,
-  priority INTEGER NOT NULL,
-  spec TEXT NOT NULL,
-  cell_bundle TEXT NOT NULL,
-  attempt INTEGER NOT NULL DEFAULT 0,
-  submitted_at TEXT NOT NULL,
-  started_at TEXT NOT NULL DEFAULT '',
-  finished_at TEXT NOT NULL DEFAULT '',
-  error_code TEXT NOT NULL DEFAULT '',
-  error_sentence TEXT NOT NULL DEFAULT '') STRICT;
-CREATE INDEX job_queue ON job(state, priority DESC, number);
-CREATE TABLE event(
-  job INTEGER NOT NULL REFERENCES job(number),
-  seq INTEGER NOT NULL,
-  time TEXT NOT NULL,
-  state TEXT NOT NULL,
-  data TEXT NOT NULL,
-  PRIMARY KEY(job, seq)) STRICT, WITHOUT ROWID;
-CREATE TABLE artifact(
-  job INTEGER NOT NULL REFERENCES job(number),
-  place INTEGER NOT NULL,
-  artifact TEXT NOT NULL,
-  format TEXT NOT NULL,
-  size INTEGER NOT NULL,
-  sha256 TEXT NOT NULL,
-  PRIMARY KEY(job, place)) STRICT, WITHOUT ROWID;
-)";
+constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
 
-constexpr const char* job_columns =
-    "id, state, key, priority, spec, cell_bundle, attempt, submitted_at, started_at, finished_at, error_code, "
-    "error_sentence, number";
-constexpr int number_column = 12;
-
-struct NumberedJob {
-  JobRecord job;
-  std::int64_t number = 0;
-};
-
-NumberedJob read_job(const Statement& row) {
-  NumberedJob read;
-  JobRecord& job = read.job;
-  job.id = row.text(0);
-  const std::optional<JobState> state = find_state(row.text(1));
-  if (!state) throw StorageError("job " + job.id + " has the unknown state '" + row.text(1) + "' in the database");
-  job.state = *state;
-  job.key = row.text(2);
-  job.priority = static_cast<int>(row.number(3));
-  job.spec = row.text(4);
-  job.cell_bundle = row.text(5);
-  job.attempt = static_cast<int>(row.number(6));
-  job.submitted_at = row.text(7);
-  job.started_at = row.text(8);
-  job.finished_at = row.text(9);
-  job.error_code = row.text(10);
-  job.error_sentence = row.text(11);
-  read.number = row.number(number_column);
-  return read;
+[[noreturn]] void refuse(const JobRecord& job, const std::string& what) {
+  throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
 }
 
 class SqliteStore : public JobStore {
  public:
-  explicit SqliteStore(const std::filesystem::path& file) : database_(file) {
+  SqliteStore(const std::filesystem::path& file, StoreRules rules)
+      : rules_(std::move(rules)), database_(file), jobs_(database_, rules_) {
     database_.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
     database_.run("PRAGMA journal_size_limit=67108864;");
-    create_schema(file);
+    update_schema(database_, file);
     epoch_ = read_text("SELECT value FROM meta WHERE name='epoch'");
     ids_ = IdMaker(read_text("SELECT max(id) FROM job"));
+    Statement latest(database_, "SELECT max(rank + ? * priority) FROM job");
+    latest.bind(ageing()).step();
+    last_rank_ms_ = latest.number(0);
   }
 
   std::string epoch() override { return epoch_; }
@@ -92,7 +38,7 @@ class SqliteStore : public JobStore {
   Submitted submit(const NewJob& wanted) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
-    if (std::optional<NumberedJob> first = find_where("key", wanted.key); first && !wanted.key.empty()) {
+    if (const std::optional<JobRow> first = jobs_.find_key(wanted.key); first && !wanted.key.empty()) {
       if (first->job.spec != wanted.spec) {
         throw ProtocolError("key_conflict",
                             "the key '" + wanted.key + "' belongs to job " + first->job.id +
@@ -101,46 +47,41 @@ class SqliteStore : public JobStore {
       }
       return {first->job, true};
     }
-    const std::uint64_t now = unix_ms();
-    const std::string id = ids_.next(now);
-    Statement insert(
-        database_, "INSERT INTO job(id, state, key, priority, spec, cell_bundle, submitted_at) VALUES(?,?,?,?,?,?,?)");
-    insert.bind(id).bind(name(JobState::queued));
-    wanted.key.empty() ? insert.bind_null() : insert.bind(wanted.key);
-    insert.bind(wanted.priority).bind(wanted.spec).bind(wanted.cell_bundle).bind(utc_text(now)).run();
-    NumberedJob job = *find_where("id", id);
-    add_event(job, {{"to", name(JobState::queued)}, {"reason", "submitted"}});
+    const JobRow row = jobs_.insert(new_record(wanted));
     transaction.commit();
-    return {job.job, false};
+    return {row.job, false};
   }
 
   std::optional<JobRecord> claim() override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
-    std::optional<NumberedJob> best;
-    {
-      Statement query(database_, std::string("SELECT ") + job_columns +
-                                     " FROM job WHERE state='queued' ORDER BY priority DESC, number LIMIT 1");
-      if (!query.step()) return std::nullopt;
-      best = read_job(query);
-    }
-    move(*best, JobState::running, "claimed");
+    if (queue_is_paused()) return std::nullopt;
+    std::optional<JobRow> next =
+        jobs_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
+                                "(crashes=0 OR NOT EXISTS(SELECT 1 FROM job WHERE isolated=1 AND crashes>0 AND ") +
+                        active + ")) ORDER BY rank, number",
+                    {jobs_.now()});
+    if (!next || !has_room(next->job)) return std::nullopt;
+    JobRecord& job = next->job;
+    job.isolated = rules_.isolate || job.crashes > 0;
+    if (!job.isolated) ++job.crashes;  // taken back when the run ends while the daemon lives
+    job.error_code.clear();
+    job.error_sentence.clear();
+    jobs_.move(*next, running, "claimed");
     transaction.commit();
-    return best->job;
+    return job;
   }
 
   bool finish(const std::string& id, int attempt, const Ending& ending) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
-    std::optional<NumberedJob> job = find_where("id", id);
-    if (!job || !owned(job->job, attempt)) return false;
-    if (job->job.state == JobState::cancelling) {
-      move(*job, JobState::cancelled, "finished");
+    std::optional<JobRow> row = owned(id, attempt);
+    if (!row) return false;
+    acquit(row->job);
+    if (row->job.state == cancelling) {
+      jobs_.move(*row, cancelled, "finished");
     } else {
-      job->job.error_code = ending.error_code;
-      job->job.error_sentence = ending.error_sentence;
-      move(*job, ending.state, "finished");
-      add_artifacts(*job, ending.artifacts);
+      end(*row, ending);
     }
     transaction.commit();
     return true;
@@ -149,61 +90,121 @@ class SqliteStore : public JobStore {
   bool release(const std::string& id, int attempt) override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
-    std::optional<NumberedJob> job = find_where("id", id);
-    if (!job || !owned(job->job, attempt)) return false;
-    let_go(*job);
+    std::optional<JobRow> row = owned(id, attempt);
+    if (!row) return false;
+    acquit(row->job);
+    let_go(*row);
     transaction.commit();
     return true;
-  }
-
-  JobState cancel(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
-    std::optional<NumberedJob> job = find_where("id", id);
-    if (!job) throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
-    const JobState state = job->job.state;
-    if (state == JobState::cancelled || state == JobState::cancelling) return state;
-    if (is_final(state)) {
-      throw ProtocolError("wrong_state", "job " + id + " has already " + name(state) + " and cannot be cancelled");
-    }
-    move(*job, state == JobState::queued ? JobState::cancelled : JobState::cancelling, "cancel_requested");
-    transaction.commit();
-    return job->job.state;
   }
 
   int recover() override {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
-    std::vector<NumberedJob> left;
-    {
-      Statement query(database_, std::string("SELECT ") + job_columns +
-                                     " FROM job WHERE state IN ('running','cancelling') ORDER BY number");
-      while (query.step()) left.push_back(read_job(query));
-    }
-    for (NumberedJob& job : left) let_go(job);
+    std::vector<JobRow> left = jobs_.all(std::string(active) + " ORDER BY number", {});
+    for (JobRow& row : left) let_go(row);
     transaction.commit();
     return static_cast<int>(left.size());
   }
 
+  std::vector<std::string> wake_due() override {
+    const std::lock_guard lock(mutex_);
+    const std::string now = jobs_.now();
+    std::vector<JobRow> late =
+        jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND state IN ('held', 'queued') ORDER BY number", {now});
+    std::vector<JobRow> due = jobs_.all(
+        "state IN ('held', 'backoff') AND wake_at<=?1 AND (start_by='' OR start_by>=?1 OR attempt>0) ORDER BY number",
+        {now});
+    if (late.empty() && due.empty()) return {};
+    Transaction transaction(database_);
+    std::vector<std::string> changed;
+    for (JobRow& row : late) {
+      row.job.error_code = "expired";
+      row.job.error_sentence =
+          "it could not start by " + row.job.schedule.start_by + ": submit it again with more time";
+      jobs_.move(row, expired, "start_by_passed");
+      changed.push_back(row.job.id);
+    }
+    for (JobRow& row : due) {
+      jobs_.move(row, queued, "due");
+      changed.push_back(row.job.id);
+    }
+    transaction.commit();
+    return changed;
+  }
+
+  JobState cancel(const std::string& id) override {
+    return change(id, [this](JobRow& row) {
+      const JobState state = row.job.state;
+      if (state == cancelled || state == cancelling) return;
+      if (is_final(state)) refuse(row.job, "cancelled any more");
+      jobs_.move(row, is_active(state) ? cancelling : cancelled, "cancel_requested");
+    });
+  }
+
+  JobState pause(const std::string& id) override {
+    return change(id, [this](JobRow& row) {
+      const JobState state = row.job.state;
+      if (state == paused || state == pausing) return;
+      if (is_final(state) || state == cancelling) refuse(row.job, "paused");
+      jobs_.move(row, state == running ? pausing : paused, "pause_requested");
+    });
+  }
+
+  JobState resume(const std::string& id) override {
+    return change(id, [this](JobRow& row) {
+      JobRecord& job = row.job;
+      if (is_final(job.state) || job.state == cancelling) refuse(job, "resumed");
+      if (job.state == pausing) refuse(job, "resumed before it is paused: try again in a moment");
+      if (job.state != paused) return;
+      const bool early = job.schedule.not_before > jobs_.now();
+      if (early) job.wake_at = job.schedule.not_before;
+      jobs_.move(row, early ? held : queued, "resumed");
+    });
+  }
+
+  JobState retry(const std::string& id) override {
+    return change(id, [this](JobRow& row) {
+      JobRecord& job = row.job;
+      if (job.state != quarantined) refuse(job, "retried: only quarantined jobs are");
+      job.crashes = std::max(1, rules_.max_crashes - 1);
+      job.failures = 0;
+      job.error_code.clear();
+      job.error_sentence.clear();
+      jobs_.move(row, queued, "retried");
+    });
+  }
+
+  void set_queue_paused(bool wanted) override {
+    const std::lock_guard lock(mutex_);
+    Statement(database_, "INSERT INTO meta VALUES('queue_paused', ?1) ON CONFLICT(name) DO UPDATE SET value=?1")
+        .bind(wanted ? "1" : "0")
+        .run();
+  }
+
+  bool queue_paused() override {
+    const std::lock_guard lock(mutex_);
+    return queue_is_paused();
+  }
+
   std::optional<JobRecord> find(const std::string& id) override {
     const std::lock_guard lock(mutex_);
-    const std::optional<NumberedJob> job = find_where("id", id);
-    return job ? std::optional(job->job) : std::nullopt;
+    const std::optional<JobRow> row = jobs_.find(id);
+    return row ? std::optional(row->job) : std::nullopt;
   }
 
   std::optional<JobRecord> find_key(const std::string& key) override {
     const std::lock_guard lock(mutex_);
-    const std::optional<NumberedJob> job = find_where("key", key);
-    return job ? std::optional(job->job) : std::nullopt;
+    const std::optional<JobRow> row = jobs_.find_key(key);
+    return row ? std::optional(row->job) : std::nullopt;
   }
 
   std::vector<JobRecord> list(const std::string& after, int limit) override {
     const std::lock_guard lock(mutex_);
-    Statement query(database_, std::string("SELECT ") + job_columns + " FROM job WHERE id > ? ORDER BY id LIMIT ?");
-    query.bind(after).bind(limit);
-    std::vector<JobRecord> jobs;
-    while (query.step()) jobs.push_back(read_job(query).job);
-    return jobs;
+    std::vector<JobRecord> listed;
+    for (JobRow& row : jobs_.all("id>? ORDER BY id LIMIT " + std::to_string(limit), {after}))
+      listed.push_back(std::move(row.job));
+    return listed;
   }
 
   std::map<JobState, std::uint64_t> counts() override {
@@ -229,8 +230,8 @@ class SqliteStore : public JobStore {
   std::uint64_t position(const JobRecord& job) override {
     const std::lock_guard lock(mutex_);
     Statement query(database_,
-                    "SELECT count(*) FROM job WHERE state='queued' AND (priority > ? OR (priority = ? AND id < ?))");
-    query.bind(job.priority).bind(job.priority).bind(job.id).step();
+                    "SELECT count(*) FROM job WHERE state='queued' AND (rank < ?1 OR (rank = ?1 AND id < ?2))");
+    query.bind(job.rank).bind(job.id).step();
     return static_cast<std::uint64_t>(query.number(0));
   }
 
@@ -243,7 +244,7 @@ class SqliteStore : public JobStore {
     std::vector<StateEvent> events;
     while (query.step()) {
       const auto seq = static_cast<std::uint64_t>(query.number(0));
-      events.push_back({seq, query.text(1), query.text(2), find_state(query.text(3)).value_or(JobState::failed)});
+      events.push_back({seq, query.text(1), query.text(2), find_state(query.text(3)).value_or(failed)});
     }
     return events;
   }
@@ -269,98 +270,119 @@ class SqliteStore : public JobStore {
   }
 
  private:
-  void create_schema(const std::filesystem::path& file) {
-    Transaction transaction(database_);
-    std::int64_t version = 0;
-    {
-      Statement query(database_, "PRAGMA user_version");
-      query.step();
-      version = query.number(0);
-    }
-    if (version > schema_version) {
-      throw StorageError("the database '" + file.string() + "' was made by a newer sculptd: use that one");
-    }
-    if (version == 0) {
-      database_.run(schema);
-      Statement(database_, "INSERT INTO meta VALUES('epoch', ?)").bind(IdMaker().next(unix_ms())).run();
-      database_.run("PRAGMA user_version=1");
-    }
-    transaction.commit();
-  }
+  std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
 
   std::string read_text(const char* sql) {
     Statement query(database_, sql);
     return query.step() ? query.text(0) : std::string();
   }
 
-  std::optional<NumberedJob> find_where(const std::string& column, const std::string& value) {
-    Statement query(database_, std::string("SELECT ") + job_columns + " FROM job WHERE " + column + "=?");
-    query.bind(value);
-    return query.step() ? std::optional(read_job(query)) : std::nullopt;
-  }
+  bool queue_is_paused() { return read_text("SELECT value FROM meta WHERE name='queue_paused'") == "1"; }
 
-  static bool owned(const JobRecord& job, int attempt) {
-    return job.attempt == attempt && (job.state == JobState::running || job.state == JobState::cancelling);
-  }
-
-  void let_go(NumberedJob& job) {
-    const bool cancelling = job.job.state == JobState::cancelling;
-    move(job, cancelling ? JobState::cancelled : JobState::queued, cancelling ? "finished" : "interrupted");
-  }
-
-  // The only place where a state changes. The row must still be as it was read: anything else is a fault, not a shrug.
-  void move(NumberedJob& numbered, JobState to, const char* reason) {
-    JobRecord& job = numbered.job;
-    const JobState from = job.state;
-    if (!may_move(from, to)) {
-      throw std::logic_error(std::string("job ") + job.id + " may not go from " + name(from) + " to " + name(to));
+  // The rank counts from a time that never goes back, so that a clock that was set back lets no new job overtake.
+  JobRecord new_record(const NewJob& wanted) {
+    const std::uint64_t now_ms = rules_.now_ms();
+    last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
+    JobRecord job;
+    job.id = ids_.next(now_ms);
+    job.key = wanted.key;
+    job.schedule = wanted.schedule;
+    job.spec = wanted.spec;
+    job.cell_bundle = wanted.cell_bundle;
+    job.memory_bytes = wanted.memory_bytes;
+    job.rank = last_rank_ms_ - ageing() * wanted.schedule.priority;
+    job.submitted_at = utc_text(now_ms);
+    if (wanted.schedule.not_before > job.submitted_at) {
+      job.state = held;
+      job.wake_at = wanted.schedule.not_before;
     }
-    const std::string now = utc_text(unix_ms());
-    if (to == JobState::running) {
-      job.started_at = now;
-      ++job.attempt;
+    return job;
+  }
+
+  bool has_room(const JobRecord& job) {
+    Statement query(database_, std::string("SELECT count(*), coalesce(sum(memory_bytes), 0) FROM job WHERE ") + active);
+    query.step();
+    const auto taken = static_cast<std::uint64_t>(query.number(1));
+    return query.number(0) == 0 || rules_.memory_bytes == 0 || taken + job.memory_bytes <= rules_.memory_bytes;
+  }
+
+  std::optional<JobRow> owned(const std::string& id, int attempt) {
+    std::optional<JobRow> row = jobs_.find(id);
+    return row && row->job.attempt == attempt && is_active(row->job.state) ? row : std::nullopt;
+  }
+
+  // A run inside the daemon has ended and the daemon lives.
+  static void acquit(JobRecord& job) {
+    if (!job.isolated) job.crashes = 0;
+  }
+
+  void let_go(JobRow& row) {
+    switch (row.job.state) {
+      case cancelling:
+        return jobs_.move(row, cancelled, "finished");
+      case pausing:
+        return jobs_.move(row, paused, "interrupted");
+      default:
+        return jobs_.move(row, queued, "interrupted");
     }
-    if (is_final(to)) job.finished_at = now;
-    Statement update(database_,
-                     "UPDATE job SET state=?, attempt=?, started_at=?, finished_at=?, error_code=?, error_sentence=? "
-                     "WHERE number=? AND state=?");
-    update.bind(name(to)).bind(job.attempt).bind(job.started_at).bind(job.finished_at).bind(job.error_code);
-    update.bind(job.error_sentence).bind(numbered.number).bind(name(from));
-    if (update.run() != 1) throw StorageError("job " + job.id + " changed under the hands of the store");
-    job.state = to;
-    Json data{{"from", name(from)}, {"to", name(to)}};
-    if (job.attempt > 0) data["attempt"] = job.attempt;
-    data["reason"] = reason;
-    if (to == JobState::failed) data["error"] = {{"code", job.error_code}, {"message", job.error_sentence}};
-    add_event(numbered, data);
   }
 
-  void add_event(const NumberedJob& job, const Json& data) {
-    Statement insert(database_,
-                     "INSERT INTO event(job, seq, time, state, data) "
-                     "SELECT ?1, coalesce(max(seq), 0) + 1, ?2, ?3, ?4 FROM event WHERE job = ?1");
-    insert.bind(job.number).bind(utc_text(unix_ms())).bind(name(job.job.state)).bind(write_json(data)).run();
+  void end(JobRow& row, const Ending& ending) {
+    JobRecord& job = row.job;
+    job.error_code = ending.error_code;
+    job.error_sentence = ending.error_sentence;
+    if (ending.state == succeeded) job.crashes = job.failures = 0;
+    if (ending.state == failed && ending.cause != Cause::job) return end_badly(row, ending.cause);
+    jobs_.move(row, ending.state, "finished");
+    add_artifacts(row.number, ending.artifacts);
   }
 
-  void add_artifacts(const NumberedJob& job, const std::vector<StoredArtifact>& artifacts) {
+  // A failure that is not the job's own: another try, later and in a process of its own after a crash, or no more.
+  void end_badly(JobRow& row, Cause cause) {
+    JobRecord& job = row.job;
+    const bool crash = cause == Cause::crash;
+    const int tries = crash ? ++job.crashes : ++job.failures;
+    if (tries >= (crash ? rules_.max_crashes : rules_.max_failures)) {
+      return jobs_.move(row, crash ? quarantined : failed, crash ? "crashed" : "finished");
+    }
+    if (job.state == pausing) return jobs_.move(row, paused, crash ? "crashed" : "failed");
+    job.wake_at = utc_text(rules_.now_ms() + (rules_.first_backoff_ms << (tries - 1)));
+    jobs_.move(row, backoff, crash ? "crashed" : "failed");
+  }
+
+  template <typename Act>
+  JobState change(const std::string& id, Act act) {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(database_);
+    std::optional<JobRow> row = jobs_.find(id);
+    if (!row) throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+    act(*row);
+    transaction.commit();
+    return row->job.state;
+  }
+
+  void add_artifacts(std::int64_t job, const std::vector<StoredArtifact>& artifacts) {
     std::int64_t place = 0;
     for (const StoredArtifact& artifact : artifacts) {
       Statement insert(database_, "INSERT INTO artifact VALUES(?,?,?,?,?,?)");
-      insert.bind(job.number).bind(place++).bind(artifact.artifact).bind(artifact.format);
+      insert.bind(job).bind(place++).bind(artifact.artifact).bind(artifact.format);
       insert.bind(static_cast<std::int64_t>(artifact.size)).bind(artifact.sha256).run();
     }
   }
 
   std::mutex mutex_;
+  StoreRules rules_;
   Database database_;
+  JobTable jobs_;
   std::string epoch_;
   IdMaker ids_;
+  std::int64_t last_rank_ms_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file) {
-  return std::make_unique<SqliteStore>(file);
+std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules) {
+  return std::make_unique<SqliteStore>(file, std::move(rules));
 }
 
 }  // namespace sculpt

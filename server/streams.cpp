@@ -75,7 +75,7 @@ void Streams::send_durable(Session& session, const std::string& job, Subscriptio
     for (const StateEvent& event : events) {
       session.send_event({job, event.seq, event.time, "state", parse_json(event.data)});
       subscription.after = event.seq;
-      if (is_final(event.to)) subscription.ended = true;
+      subscription.ended = is_final(event.to);  // unless more comes: a quarantined job may have been retried
     }
     if (events.size() == events_at_once) continue;
     if (!subscription.live) session.send_event({job, std::nullopt, {}, "live", nullptr});

@@ -16,14 +16,21 @@ Answer submit_answer(const Submitted& submitted) {
 // Runs on the admission thread. A repeated submit is answered from the store: it must work even when its cell is gone
 // since.
 Answer admit(Services& services, const SubmitParams& submit, const std::stop_token& stop) {
-  NewJob job{submit.key, submit.priority, write_json(to_json(submit.spec)), submit.spec.cell_bundle};
+  NewJob job{submit.key,
+             {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s},
+             write_json(to_json(submit.spec)),
+             submit.spec.cell_bundle,
+             0};
   if (!submit.key.empty() && services.store.find_key(submit.key)) return submit_answer(services.store.submit(job));
   if (job.cell_bundle.empty())
     job.cell_bundle = store_cell(services.planner.read_cell(submit.spec.robot), services.blobs);
-  services.planner.check(to_job(submit.spec, job.cell_bundle, services.blobs, services.defaults), Watch{stop, {}});
+  const Job planned = to_job(submit.spec, job.cell_bundle, services.blobs, services.defaults);
+  services.planner.check(planned, Watch{stop, {}});
+  job.memory_bytes = services.planner.predict_memory(planned);
   const Submitted submitted = services.store.submit(job);
   crash_point(CrashPoint::submit_stored);
-  spdlog::info("job={} queued mesh={} resolution={}", submitted.job.id, submit.spec.mesh.name, submit.spec.resolution);
+  spdlog::info("job={} {} mesh={} resolution={}", submitted.job.id, name(submitted.job.state), submit.spec.mesh.name,
+               submit.spec.resolution);
   services.scheduler.wake();
   return submit_answer(submitted);
 }

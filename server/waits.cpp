@@ -11,7 +11,7 @@ namespace {
 
 void answer(const Call& call, const JobRecord& job) {
   Json result{{"job", job.id}, {"state", name(job.state)}, {"timed_out", !is_final(job.state)}};
-  if (job.state == JobState::failed) result["error"] = error_view(job);
+  if (!job.error_code.empty()) result["error"] = error_view(job);
   call.session->answer(call.id, {std::move(result), std::nullopt});
 }
 

@@ -9,7 +9,8 @@
 namespace sculpt {
 
 bool is_final(const std::string& state) {
-  return state == "succeeded" || state == "failed" || state == "cancelled";
+  return state == "succeeded" || state == "failed" || state == "quarantined" || state == "expired" ||
+         state == "cancelled";
 }
 
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
@@ -29,7 +30,9 @@ Json follow_job(Client& client, const std::string& job, ProgressLine& progress) 
       const std::string to = data.value("to", "");
       const std::string reason = data.value("reason", "");
       progress.say(reason == "interrupted" ? to + " again: the daemon was stopped while it ran" : to);
-      ended = is_final(to);
+      if (!is_final(to)) continue;
+      ended = is_final(client.call("job.get", {{"job", job}}).value("state", ""));
+      if (!ended) client.subscribe(job, event.value("seq", std::uint64_t{0}));  // quarantined, and retried since
     }
   }
   progress.clear();

@@ -1,4 +1,4 @@
-// sculpt list, status, cancel: one question, one answer.
+// sculpt list, status: one question, one answer.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -47,9 +47,9 @@ int run_list(const std::string& server, bool json) {
     std::cout << write_json({{"jobs", jobs}}) << "\n";
     return exit_fine;
   }
-  std::printf("%-26s  %-10s  %-24s  %5s  %-16s  %s\n", "JOB", "STATE", "MESH", "N", "ROBOT", "SUBMITTED");
+  std::printf("%-26s  %-11s  %-24s  %5s  %-16s  %s\n", "JOB", "STATE", "MESH", "N", "ROBOT", "SUBMITTED");
   for (const Json& job : jobs)
-    std::printf("%-26s  %-10s  %-24s  %5s  %-16s  %s  %s\n", text_of(job, "job").c_str(), text_of(job, "state").c_str(),
+    std::printf("%-26s  %-11s  %-24s  %5s  %-16s  %s  %s\n", text_of(job, "job").c_str(), text_of(job, "state").c_str(),
                 text_of(job, "mesh").c_str(), text_of(job, "resolution").c_str(), text_of(job, "robot").c_str(),
                 text_of(job, "submitted_at").c_str(), progress_of(job).c_str());
   return exit_fine;
@@ -76,13 +76,6 @@ int run_status(const std::string& server, const JobArgument& options) {
   return exit_fine;
 }
 
-int run_cancel(const std::string& server, const JobArgument& options) {
-  Client client(server, client_name);
-  const Json reply = client.call("job.cancel", {{"job", options.job}});
-  std::cout << (options.json ? write_json(reply) : text_of(reply, "state")) << "\n";
-  return exit_fine;
-}
-
 }  // namespace
 
 void add_list(CLI::App& app, Invocation& invocation) {
@@ -98,14 +91,6 @@ void add_status(CLI::App& app, Invocation& invocation) {
                                   [&invocation, options] { return run_status(invocation.server, *options); });
   command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
   command.add_flag("--json", options->json, "Print the job as one JSON document");
-}
-
-void add_cancel(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<JobArgument>();
-  CLI::App& command = add_command(app, invocation, "cancel", "Stop a job, queued or running",
-                                  [&invocation, options] { return run_cancel(invocation.server, *options); });
-  command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
-  command.add_flag("--json", options->json, "Print {job, state} as one JSON document");
 }
 
 }  // namespace sculpt

@@ -48,6 +48,10 @@ int main(int argc, char** argv) {
   sculpt::add_watch(app, invocation);
   sculpt::add_wait(app, invocation);
   sculpt::add_cancel(app, invocation);
+  sculpt::add_pause(app, invocation);
+  sculpt::add_resume(app, invocation);
+  sculpt::add_retry(app, invocation);
+  sculpt::add_queue(app, invocation);
   sculpt::add_report(app, invocation);
   sculpt::add_fetch(app, invocation);
   sculpt::add_verify(app, invocation);

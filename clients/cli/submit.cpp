@@ -15,7 +15,8 @@ namespace {
 struct SubmitOptions {
   JobOptions job;
   std::optional<int> priority;
-  std::string key;
+  std::string key, not_before, start_by;
+  std::optional<std::int64_t> max_runtime_s;
   bool wait = false;
   bool json = false;
 };
@@ -76,6 +77,9 @@ int run_submit(const std::string& server, const SubmitOptions& options) {
   Json params;
   if (!options.key.empty()) params["key"] = options.key;
   if (options.priority) params["priority"] = *options.priority;
+  if (!options.not_before.empty()) params["not_before"] = options.not_before;
+  if (!options.start_by.empty()) params["start_by"] = options.start_by;
+  if (options.max_runtime_s) params["max_runtime_s"] = *options.max_runtime_s;
   params["spec"] = make_spec(client, options.job, inputs);
   Json reply = client.call("job.submit", params);
   const std::string job = reply.at("job");
@@ -100,7 +104,14 @@ void add_submit(CLI::App& app, Invocation& invocation) {
   CLI::App& command = add_command(app, invocation, "submit", "Send a mesh and queue a job; prints the job's id",
                                   [&invocation, options] { return run_submit(invocation.server, *options); });
   add_job_options(command, options->job);
-  command.add_option("--priority", options->priority, "Higher runs first, -100 to 100")->type_name("P");
+  command
+      .add_option("--priority", options->priority,
+                  "Higher runs first, -100 to 100; a step is worth a minute of waiting")
+      ->type_name("P");
+  command.add_option("--not-before", options->not_before, "Hold it until then, UTC: 2026-01-31T12:00:00Z")
+      ->type_name("TIME");
+  command.add_option("--start-by", options->start_by, "Let it expire if it has not started by then")->type_name("TIME");
+  command.add_option("--max-runtime", options->max_runtime_s, "End a run that takes longer")->type_name("SECONDS");
   command.add_option("--key", options->key, "Your own name for this job: submitting it twice makes one job")
       ->type_name("KEY");
   command.add_flag("--wait", options->wait,

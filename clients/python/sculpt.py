@@ -31,7 +31,7 @@ import zlib
 VERSION = "sculpt.py/0.1.0"
 FINE, FAILED, USAGE, UNREACHABLE, REFUSED = range(5)
 CHUNK = 1 << 20
-FINAL = ("succeeded", "failed", "cancelled")
+FINAL = ("succeeded", "failed", "quarantined", "expired", "cancelled")
 
 
 class Failure(Exception):
@@ -427,7 +427,8 @@ def run_submit(options):
             spec["stock"] = {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}
         elif options.stock:
             spec["stock"] = {"mesh": client.upload_file(options.stock)}
-        named = {field: getattr(options, field) for field in ("key", "priority") if getattr(options, field) is not None}
+        named = {field: getattr(options, field) for field in ("key", "priority", "not_before", "start_by", "max_runtime_s")
+                 if getattr(options, field) is not None}
         reply, exit_code = client.submit(spec, **named), FINE
         if not options.json:
             print(reply["job"], flush=True)
@@ -448,9 +449,9 @@ def run_list(options):
     if options.json:
         print(json.dumps({"jobs": jobs}))
         return FINE
-    print(f"{'JOB':26}  {'STATE':10}  {'MESH':24}  {'N':>5}  {'ROBOT':16}  SUBMITTED")
+    print(f"{'JOB':26}  {'STATE':11}  {'MESH':24}  {'N':>5}  {'ROBOT':16}  SUBMITTED")
     for job in jobs:
-        print(f"{job['job']:26}  {job['state']:10}  {job.get('mesh', '-'):24}  {job.get('resolution', '-'):>5}  "
+        print(f"{job['job']:26}  {job['state']:11}  {job.get('mesh', '-'):24}  {job.get('resolution', '-'):>5}  "
               f"{job.get('robot', '-'):16}  {job.get('submitted_at', '-')}")
     return FINE
 
@@ -461,10 +462,20 @@ def run_status(options):
     return FINE
 
 
-def run_cancel(options):
+def order(verb):
+    """Runs job.cancel, job.pause, job.resume or job.retry."""
+    def run(options):
+        with Client(options.server) as client:
+            reply = client.call("job." + verb, job=options.job)
+        print(json.dumps(reply) if options.json else reply["state"])
+        return FINE
+    return run
+
+
+def run_queue(options):
     with Client(options.server) as client:
-        reply = client.call("job.cancel", job=options.job)
-    print(json.dumps(reply) if options.json else reply["state"])
+        reply = client.call("queue." + options.what)
+    print(json.dumps(reply) if options.json else "paused" if reply["paused"] else "open")
     return FINE
 
 
@@ -548,7 +559,10 @@ def follow(client, job, out, plain):
             if bar or plain:
                 print(("\r\x1b[K" if bar else "") + data["to"], file=out, flush=True)
             if data["to"] in FINAL:
-                return client.call("job.get", job=job)
+                end = client.call("job.get", job=job)
+                if end["state"] in FINAL:
+                    return end
+                client.call("events.subscribe", job=job, after=event["seq"])  # quarantined, and retried since
         elif event["type"] == "progress":
             share = data["done"] / data["total"] if data["total"] else 0
             counts = f"{data['stage']:9} {data['done']}/{data['total']}"
@@ -636,7 +650,12 @@ def parse_command_line(arguments):
     command("status", run_status, "what a job is and how far it has come")
     command("watch", run_watch, "show a job live until it ends; Ctrl-C leaves the job running")
     command("wait", run_wait, "return when a job has ended; exit 0 only if it succeeded")
-    command("cancel", run_cancel, "stop a job, queued or running")
+    command("cancel", order("cancel"), "stop a job, waiting or running, for good")
+    command("pause", order("pause"), "stop a job, waiting or running, until it is resumed")
+    command("resume", order("resume"), "queue a paused job again")
+    command("retry", order("retry"), "queue a quarantined job again")
+    queue = command("queue", run_queue, "let no more jobs start, or let them start again", job=False)
+    queue.add_argument("what", choices=["pause", "resume"])
     command("report", run_report, "the figures of a finished job")
     fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
@@ -655,6 +674,9 @@ def add_submit_options(submit):
     submit.add_argument("--search", metavar="NAME", help="the planner; default is the server's")
     submit.add_argument("--seed", type=int, default=0, metavar="K")
     submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
+    submit.add_argument("--not-before", metavar="TIME", help="hold it until then, UTC: 2026-01-31T12:00:00Z")
+    submit.add_argument("--start-by", metavar="TIME", help="let it expire if it has not started by then")
+    submit.add_argument("--max-runtime", dest="max_runtime_s", type=int, metavar="SECONDS", help="end a run that takes longer")
     submit.add_argument("--key", metavar="KEY", help="your own name for this job: submitting it twice makes one job")
     submit.add_argument("--wait", action="store_true", help="wait for the end, with progress on stderr")
     submit.add_argument("--scale", type=float, metavar="METRES", help="metres per unit of the mesh file")

@@ -29,10 +29,7 @@ std::string mib(double bytes) {
 }
 
 void check_memory(const Job& job) {
-  const double n = job.resolution;
-  double bytes = bytes_a_voxel * n * n * n;
-  if (job.mesh.extension != "binvox")
-    bytes += static_cast<double>(predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
+  const auto bytes = static_cast<double>(predict_memory(job));
   if (bytes > static_cast<double>(job.memory_cap_bytes))
     throw InputError("memory_cap",
                      "the job needs about " + mib(bytes) + ", over the cap of " +
@@ -107,6 +104,13 @@ VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
   VoxelGrid voxels{make_stock(job, grid, watch), make_target(job, grid, watch)};
   for (std::size_t w = 0; w < voxels.keep.words().size(); ++w) voxels.keep.words()[w] &= voxels.stock.words()[w];
   return voxels;
+}
+
+std::uint64_t predict_memory(const Job& job) {
+  const double n = job.resolution;
+  const auto voxels = static_cast<std::uint64_t>(bytes_a_voxel * n * n * n);
+  return voxels +
+         (job.mesh.extension == "binvox" ? 0 : predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
 }
 
 void check_job(const Job& job, const Watch& watch) {

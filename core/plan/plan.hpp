@@ -87,6 +87,9 @@ struct JobResult {
   std::vector<Residue> residue;
 };
 
+/// What the job is expected to need at most, meshes and voxels together.
+std::uint64_t predict_memory(const Job& job);
+
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
 /// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual
 /// meshes. Throws InputError.

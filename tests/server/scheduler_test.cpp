@@ -15,8 +15,8 @@ class SchedulerTest : public testing::Test {
  protected:
   SchedulerTest() { spdlog::set_level(spdlog::level::off); }
 
-  std::string add(const std::string& spec) {
-    std::string id = store->submit({{}, 0, spec, {}}).job.id;
+  std::string add(const std::string& spec, const Schedule& schedule = {}) {
+    std::string id = store->submit({{}, schedule, spec, {}, 1}).job.id;
     scheduler.wake();
     return id;
   }
@@ -34,6 +34,12 @@ class SchedulerTest : public testing::Test {
     changed.notify_all();
   }
 
+  static StoreRules rules() {
+    StoreRules rules;
+    rules.first_backoff_ms = 1;
+    return rules;
+  }
+
   // The spec is the wish.
   Ending run(const JobRecord& job, const Watch& watch) {
     watch.step(Stage::plan, 3, 4);
@@ -41,12 +47,13 @@ class SchedulerTest : public testing::Test {
     if (job.spec == "memory") throw std::bad_alloc();
     if (job.spec == "exception") throw std::runtime_error("a fault");
     if (job.spec == "number") throw 7;
+    if (job.spec == "crash") throw CrashError("signal 11");
     if (job.spec == "hold") gate.pass(watch.stop);
-    return {JobState::succeeded, {}, {}, {}};
+    return {JobState::succeeded, {}, {}, {}, Cause::job};
   }
 
   TempFolder folder;
-  std::unique_ptr<JobStore> store = open_sqlite_store(folder.path() / "db");
+  std::unique_ptr<JobStore> store = open_sqlite_store(folder.path() / "db", rules());
   std::mutex mutex;
   std::condition_variable changed;
   Gate gate;
@@ -85,7 +92,7 @@ TEST_F(SchedulerTest, ARunningJobIsCancelledAndItsWorkerTakesTheNext) {
   const std::string job = add("hold");
   ASSERT_EQ(await(job, JobState::running), JobState::running);
   ASSERT_EQ(store->cancel(job), JobState::cancelling);
-  scheduler.cancel(job);
+  scheduler.stop_run(job);
   EXPECT_EQ(await(job, JobState::cancelled), JobState::cancelled);
   EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
 }
@@ -96,9 +103,55 @@ TEST_F(SchedulerTest, CancellingRightAfterTheClaimIsNeverLost) {
     const std::string job = add("hold");
     if (i % 2 == 0) await(job, JobState::running);
     store->cancel(job);
-    scheduler.cancel(job);
+    scheduler.stop_run(job);
     ASSERT_EQ(await(job, JobState::cancelled), JobState::cancelled);
   }
+}
+
+TEST_F(SchedulerTest, AFaultThatMayPassIsTriedThreeTimesAndInputThatCannotWorkOnce) {
+  scheduler.start(1);
+  const std::string memory = add("memory"), input = add("input");
+  EXPECT_EQ(await(memory, JobState::failed), JobState::failed);
+  EXPECT_EQ(store->find(memory)->attempt, 3);
+  EXPECT_EQ(await(input, JobState::failed), JobState::failed);
+  EXPECT_EQ(store->find(input)->attempt, 1);
+}
+
+TEST_F(SchedulerTest, AJobThatCrashesTwiceIsQuarantined) {
+  scheduler.start(2);
+  const std::string job = add("crash");
+  EXPECT_EQ(await(job, JobState::quarantined), JobState::quarantined);
+  EXPECT_EQ(store->find(job)->attempt, 2);
+  EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, AJobThatRunsTooLongFails) {
+  scheduler.start(1);
+  const std::string job = add("hold", {0, {}, {}, 1});
+  EXPECT_EQ(await(job, JobState::failed), JobState::failed);
+  EXPECT_EQ(store->find(job)->error_code, "run_time_exceeded");
+}
+
+TEST_F(SchedulerTest, ARunningJobIsPausedAndGoesOnWhenItIsResumed) {
+  scheduler.start(1);
+  const std::string job = add("hold");
+  ASSERT_EQ(await(job, JobState::running), JobState::running);
+  ASSERT_EQ(store->pause(job), JobState::pausing);
+  scheduler.stop_run(job);
+  EXPECT_EQ(await(job, JobState::paused), JobState::paused);
+  EXPECT_EQ(await(add("fine"), JobState::succeeded), JobState::succeeded);
+  gate.open();
+  ASSERT_EQ(store->resume(job), JobState::queued);
+  scheduler.wake();
+  EXPECT_EQ(await(job, JobState::succeeded), JobState::succeeded);
+  EXPECT_EQ(store->find(job)->attempt, 2);
+}
+
+TEST_F(SchedulerTest, AHeldJobStartsWhenItsTimeHasCome) {
+  scheduler.start(1);
+  const std::string job = add("fine", {0, utc_text(unix_ms() + 300), {}, 0});
+  EXPECT_EQ(store->find(job)->state, JobState::held);
+  EXPECT_EQ(await(job, JobState::succeeded), JobState::succeeded);
 }
 
 TEST_F(SchedulerTest, StoppingPutsRunningJobsBackIntoTheQueue) {

@@ -1,0 +1,68 @@
+// sculpt cancel, pause, resume, retry, queue: one order, one answer.
+#include <iostream>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cpp/client.hpp"
+
+namespace sculpt {
+
+namespace {
+
+struct Order {
+  std::string job;
+  bool json = false;
+};
+
+int give_order(const std::string& server, const std::string& method, const Order& order) {
+  Client client(server, client_name);
+  const Json reply = client.call(method, {{"job", order.job}});
+  std::cout << (order.json ? write_json(reply) : reply.at("state").get<std::string>()) << "\n";
+  return exit_fine;
+}
+
+void add_order(CLI::App& app, Invocation& invocation, const std::string& verb, const std::string& description) {
+  const auto order = std::make_shared<Order>();
+  CLI::App& command = add_command(app, invocation, verb, description, [&invocation, verb, order] {
+    return give_order(invocation.server, "job." + verb, *order);
+  });
+  command.add_option("job", order->job, "The id that submit printed")->type_name("JOB")->required();
+  command.add_flag("--json", order->json, "Print {job, state} as one JSON document");
+}
+
+int set_queue(const std::string& server, const std::string& wish, bool json) {
+  Client client(server, client_name);
+  const Json reply = client.call("queue." + wish, Json::object());
+  std::cout << (json ? write_json(reply) : reply.at("paused").get<bool>() ? "paused" : "open") << "\n";
+  return exit_fine;
+}
+
+}  // namespace
+
+void add_cancel(CLI::App& app, Invocation& invocation) {
+  add_order(app, invocation, "cancel", "Stop a job, waiting or running, for good");
+}
+
+void add_pause(CLI::App& app, Invocation& invocation) {
+  add_order(app, invocation, "pause", "Stop a job, waiting or running, until it is resumed");
+}
+
+void add_resume(CLI::App& app, Invocation& invocation) {
+  add_order(app, invocation, "resume", "Queue a paused job again");
+}
+
+void add_retry(CLI::App& app, Invocation& invocation) {
+  add_order(app, invocation, "retry", "Queue a quarantined job again");
+}
+
+void add_queue(CLI::App& app, Invocation& invocation) {
+  const auto wish = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  CLI::App& command = add_command(app, invocation, "queue", "Let no more jobs start, or let them start again",
+                                  [&invocation, wish, json] { return set_queue(invocation.server, *wish, *json); });
+  command.add_option("what", *wish, "pause or resume")->required()->check(CLI::IsMember({"pause", "resume"}));
+  command.add_flag("--json", *json, "Print {paused} as one JSON document");
+}
+
+}  // namespace sculpt

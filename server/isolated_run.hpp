@@ -1,0 +1,30 @@
+// A run in a process of its own: whatever it does there, the daemon lives on. The daemon starts itself again with
+// --run-job and a description of the job; progress and ending come back as lines of JSON.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "server/planner.hpp"
+#include "server/scheduler.hpp"
+#include "server/translate.hpp"
+
+namespace sculpt {
+
+inline constexpr const char* run_job_option = "--run-job";
+
+struct Isolation {
+  std::filesystem::path worker;  ///< the program to start
+  std::filesystem::path blobs, jobs;
+  JobDefaults defaults;
+  std::chrono::milliseconds cancel_grace{10000};  ///< a child that was asked to stop is killed after so long
+};
+
+/// The daemon's side. Throws CrashError when the process dies before the job has ended, Cancelled when it was asked to
+/// stop.
+RunJob make_isolated_run(Isolation isolation);
+
+/// The child's side: main of a program that was started with --run-job. Gives the exit code.
+int run_isolated_job(const Planner& planner);
+
+}  // namespace sculpt

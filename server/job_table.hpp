@@ -1,0 +1,41 @@
+// The rows of jobs and their events in SQLite: the one place where a job's state changes. Call inside a transaction.
+#pragma once
+
+#include "proto/json.hpp"
+#include "server/job_store.hpp"
+#include "server/sqlite.hpp"
+
+namespace sculpt {
+
+/// A job with the number of its row.
+struct JobRow {
+  std::int64_t number = 0;
+  JobRecord job;
+};
+
+class JobTable {
+ public:
+  JobTable(Database& database, const StoreRules& rules) : database_(database), rules_(rules) {}
+
+  std::optional<JobRow> find(const std::string& id) { return first("id=?", {id}); }
+  std::optional<JobRow> find_key(const std::string& key) { return first("key=?", {key}); }
+  /// `rest` is what stands behind WHERE, with a ? for each value.
+  std::optional<JobRow> first(const std::string& rest, const std::vector<std::string>& values);
+  std::vector<JobRow> all(const std::string& rest, const std::vector<std::string>& values);
+
+  /// A new row with its first event.
+  JobRow insert(const JobRecord& job);
+  /// Writes the row as it stands, in its new state, with the event that says so. Throws StorageError when the row is
+  /// not as it was read, std::logic_error when the table of moves (job_state.cpp) does not have this one.
+  void move(JobRow& row, JobState to, const char* reason);
+
+  std::string now() const { return utc_text(rules_.now_ms()); }
+
+ private:
+  void add_event(const JobRow& row, Json data);
+
+  Database& database_;
+  const StoreRules& rules_;
+};
+
+}  // namespace sculpt
