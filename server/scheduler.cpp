@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "server/crash_point.hpp"
+#include "server/data_folder.hpp"
 
 namespace sculpt {
 
@@ -61,7 +62,10 @@ std::optional<Ending> caught_ending() {
   } catch (const Cancelled&) {
     return std::nullopt;
   } catch (const InputError& error) {
-    return failed(error.code(), error.what());
+    // There may be space again.
+    return failed(error.code(), error.what(), error.code() == "file_unwritable" ? Cause::fault : Cause::job);
+  } catch (const SyncError& error) {
+    end_after_failed_sync(error.what());
   } catch (const std::bad_alloc&) {
     return failed("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
                   Cause::fault);

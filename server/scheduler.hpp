@@ -27,7 +27,8 @@ class CrashError : public std::runtime_error {
 /// the job go.
 using RunJob = std::function<Ending(const JobRecord&, const Watch&)>;
 
-/// What a run that threw ended with; nothing when it was let go. Call inside a catch block.
+/// What a run that threw ended with; nothing when it was let go. Ends the process after a SyncError. Call inside a
+/// catch block.
 std::optional<Ending> caught_ending();
 
 /// All methods are safe from any thread. Between them and a worker stands one mutex, which is never held while a job

@@ -26,6 +26,7 @@ void sync_file(const fs::path& path) {
   const bool done = file >= 0 && ::fsync(file) == 0;
   const int error = errno;
   if (file >= 0) ::close(file);
+  if (!done && error == EIO) throw SyncError(path.string());
   if (!done) refuse(path, std::string(" (") + std::strerror(error) + ")");
 }
 

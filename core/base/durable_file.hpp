@@ -6,11 +6,11 @@
 
 namespace sculpt {
 
-/// Waits until what was written to a file, or the names in a folder, are on the disk. Throws InputError
-/// `file_unwritable`.
+// Both throw InputError `file_unwritable`, and SyncError.
+/// Waits until what was written to a file, or the names in a folder, are on the disk.
 void sync_file(const std::filesystem::path& path);
 
-/// `file` holds `bytes`, durably, or what it held before: never a part. Throws InputError `file_unwritable`.
+/// `file` holds `bytes`, durably, or what it held before: never a part.
 void replace_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace sculpt

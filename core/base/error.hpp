@@ -19,4 +19,11 @@ class InputError : public std::runtime_error {
 /// Thrown by `Watch::step` once a stop was requested. Not an error: the work simply ends.
 struct Cancelled {};
 
+/// A disk failed to sync: the kernel may have dropped what it held, and a second try would hide that. what() names the
+/// file.
+class SyncError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace sculpt

@@ -23,7 +23,7 @@ class Config(ClientTest):
         self.assertEqual(values["stall_s"], (7, "file"))
         self.assertEqual(values["log"], ("debug", "flag"))
         self.assertEqual(values["workers"], (0, "default"))
-        self.assertIn("stall_s            7", self.fine("--config", file, "config"))
+        self.assertRegex(self.fine("--config", file, "config"), r"(?m)^stall_s +7 +file$")
 
     def test_the_environment_stands_between_file_and_flags(self):
         env = {**environment(), "SCULPTD_STALL_S": "8"}

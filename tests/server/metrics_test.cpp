@@ -65,8 +65,8 @@ std::uint64_t count_in(const std::string& histogram) {
 TEST(Metrics, CountWhatHappened) {
   Quiet quiet;
   const std::uint64_t commits = count_in(quiet.store->commit_times().text("t", ""));
-  quiet.store->submit({"", 0, "{}", ""});
-  quiet.store->submit({"", 0, "{}", ""});
+  quiet.store->submit({"", {}, "{}", "", 0});
+  quiet.store->submit({"", {}, "{}", "", 0});
   quiet.store->claim();
   quiet.counters.connections = 5;
   quiet.counters.bytes_in = 77;
