@@ -334,7 +334,8 @@ class Model:
             return
         self.struck |= {job for job in self.jobs if self.possible(job) & {"running", "pausing"}}
         self.kills += 1
-        os.kill(self.random.choice(processes), signal.SIGKILL)  # at worst one that has ended and waits to be reaped
+        with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
+            os.kill(self.random.choice(processes), signal.SIGKILL)
 
     def restart(self, _connection):
         killed = self.random.random() < 0.5
