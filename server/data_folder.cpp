@@ -18,14 +18,14 @@ namespace sculpt {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 void remove_drafts_in(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".draft") fs::remove(entry.path(), ignored);
   }
 }
+
+namespace {
 
 // A daemon that was killed leaves the files that it was writing: nothing refers to them.
 void remove_drafts(const fs::path& blobs, const fs::path& jobs) {

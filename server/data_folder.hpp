@@ -40,5 +40,7 @@ class DataFolder {
 void sync_to_disk(const std::filesystem::path& file_or_folder);
 /// Writes a whole file so that it is there completely or not at all, also after a power cut.
 void write_durably(const std::filesystem::path& file, std::string_view bytes);
+/// Removes what a process that died left of files that it was writing as a whole, in this folder alone.
+void remove_drafts_in(const std::filesystem::path& folder);
 
 }  // namespace sculpt

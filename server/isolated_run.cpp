@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "server/child_process.hpp"
+#include "server/data_folder.hpp"
 #include "server/job_run.hpp"
 
 namespace sculpt {
@@ -113,6 +114,7 @@ Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watc
   }
   const std::string end = child.wait();
   if (heard.ending) return std::move(*heard.ending);
+  remove_drafts_in(isolation.jobs / job.id);
   if (heard.let_go || stopper.asked()) throw Cancelled{};
   throw CrashError("the process that planned it ended with " + (end.empty() ? "exit code 0 and no result" : end));
 }

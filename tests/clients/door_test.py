@@ -5,6 +5,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import shutil
 import socket
 import ssl
@@ -377,6 +378,22 @@ class Tokens(DoorTest):
             self.assertEqual(self.word(wire, {**HELLO, "params": {**HELLO["params"], **params}}), "auth_required")
             self.assertIsNone(wire.read(), "the connection is closed")
         self.served(self.greeted(daemon, token=good))
+
+    def test_a_token_that_has_ended_opens_nothing(self):
+        secret = self.make("visitor", "--scope", "admin", "--days", "1")
+        daemon = self.daemon(tokens="tokens.json")
+        self.greeted(daemon, token=secret)
+        daemon.stop()
+        path = self.scratch / "tokens.json"
+        text, ended = re.subn(r'"expires": ?"[^"]*"', '"expires":"2020-01-31T12:00:00.000Z"', path.read_text())
+        self.assertEqual(ended, 1)
+        path.write_text(text)
+        daemon = self.daemon(tokens="tokens.json")
+        self.assertEqual(self.word(self.wire(daemon), {**HELLO, "params": {**HELLO["params"], "token": secret}}), "auth_required")
+        connection = http.client.HTTPConnection(daemon.address, timeout=PATIENCE_S)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/metrics", headers={"Authorization": f"Bearer {secret}"})
+        self.assertEqual(connection.getresponse().status, 401)
 
     def test_each_scope_opens_its_methods(self):
         daemon = self.daemon(tokens="tokens.json")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <mutex>
 
 #include "server/blobs.hpp"
@@ -71,6 +72,14 @@ TEST_F(IsolatedRunTest, AProcessThatDiesIsACrashThatSaysHow) {
   EXPECT_NE(crash("segfault").find("signal 11"), std::string::npos);
   EXPECT_NE(crash("abort").find("signal 6"), std::string::npos);
   EXPECT_NE(crash("exit").find("exit code 0"), std::string::npos);
+}
+
+TEST_F(IsolatedRunTest, AProcessThatDiesLeavesNoDraft) {
+  const std::filesystem::path draft = folder.path() / "jobs" / "JOB" / "report.json.draft";
+  std::filesystem::create_directories(draft.parent_path());
+  std::ofstream(draft) << "half of a rep";
+  crash("segfault");
+  EXPECT_FALSE(std::filesystem::exists(draft));
 }
 
 TEST_F(IsolatedRunTest, AStopIsHeardAndTheDeafAreKilled) {

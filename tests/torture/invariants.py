@@ -18,8 +18,20 @@ import sqlite3
 import sys
 
 ACTIVE = {"running", "pausing", "cancelling"}
-FINAL = {"succeeded", "failed", "expired", "cancelled"}
-STATES = ACTIVE | FINAL | {"held", "queued", "paused", "backoff", "quarantined"}
+FINAL = {"succeeded", "failed", "expired", "cancelled"}  # for good: a quarantined job can be retried
+# From each state, for which reason, to which (PROTOCOL.md, "The life of a job").
+MOVES = {None: {"submitted": {"held", "queued"}},
+         "held": {"due": {"queued"}, "start_by_passed": {"expired"}, "pause_requested": {"paused"}, "cancel_requested": {"cancelled"}},
+         "queued": {"claimed": {"running"}, "start_by_passed": {"expired"}, "pause_requested": {"paused"}, "cancel_requested": {"cancelled"}},
+         "running": {"finished": {"succeeded", "failed"}, "interrupted": {"queued"}, "failed": {"backoff"}, "crashed": {"backoff", "quarantined"},
+                     "pause_requested": {"pausing"}, "cancel_requested": {"cancelling"}},
+         "pausing": {"finished": {"succeeded", "failed"}, "interrupted": {"paused"}, "failed": {"paused"}, "crashed": {"paused", "quarantined"},
+                     "cancel_requested": {"cancelling"}},
+         "paused": {"resumed": {"queued", "held"}, "cancel_requested": {"cancelled"}},
+         "backoff": {"due": {"queued"}, "pause_requested": {"paused"}, "cancel_requested": {"cancelled"}},
+         "cancelling": {"finished": {"cancelled"}},
+         "quarantined": {"retried": {"queued"}}}
+STATES = (MOVES.keys() - {None}) | FINAL
 
 
 class DaemonRuns(Exception):
@@ -56,24 +68,37 @@ def check_jobs(database, killed):
     submitted = database.execute("SELECT count(*) FROM event WHERE data ->> 'reason' = 'submitted'").fetchone()[0]
     if submitted != sum(counts.values()):
         yield f"{submitted} jobs were submitted, but there are {sum(counts.values())}: {dict(counts)}"
+    for job in database.execute("SELECT id, state, wake_at, finished_at FROM job"):
+        if (job["wake_at"] != "") != (job["state"] in {"held", "backoff"}):
+            yield f"job {job['id']}: it is {job['state']} and waits for the time {job['wake_at']!r}"
+        if (job["finished_at"] != "") != (job["state"] in FINAL | {"quarantined"}):
+            yield f"job {job['id']}: it is {job['state']} and ended at {job['finished_at']!r}"
     if not killed:
         for state in ACTIVE & counts.keys():
             yield f"{counts[state]} jobs are {state}, but no daemon runs"
 
 
 def check_events(database):
-    """Numbered 1, 2, 3...; each goes on from where the one before ended; the last is the job's state; nothing follows a final one."""
+    """Numbered 1, 2, 3...; each goes on from where the one before ended; the last is the job's state; nothing follows a final one,
+    and each says a reason that there is for it."""
     for job in database.execute("SELECT number, id, state FROM job ORDER BY number").fetchall():
         events = database.execute("SELECT seq, state, data FROM event WHERE job=? ORDER BY seq", (job["number"],)).fetchall()
         if [event["seq"] for event in events] != list(range(1, len(events) + 1)):
             yield f"job {job['id']}: its events are numbered {[event['seq'] for event in events]}"
-        state = None
+        state, attempt = None, 0
         for event in events:
             data = json.loads(event["data"])
             if data.get("from") != state or data["to"] != event["state"]:
                 yield f"job {job['id']}: event {event['seq']} goes from {data.get('from')} to {data['to']} in the state {state}"
             if state in FINAL:
                 yield f"job {job['id']}: it ended as {state}, and then event {event['seq']} made it {data['to']}"
+            elif data["to"] not in MOVES.get(state, {}).get(data.get("reason"), ()):
+                yield f"job {job['id']}: event {event['seq']} makes it {data['to']} from {state} because it is {data.get('reason')}"
+            attempt += data["to"] == "running"
+            if data.get("attempt", 0) != attempt:
+                yield f"job {job['id']}: event {event['seq']} speaks of attempt {data.get('attempt', 0)}, not {attempt}"
+            if data["to"] == "expired" and attempt:
+                yield f"job {job['id']}: it expired though it had run"
             state = event["state"]
         if state != job["state"]:
             yield f"job {job['id']}: it is {job['state']}, its last event says {state}"

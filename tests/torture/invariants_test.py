@@ -65,8 +65,26 @@ class Invariants(unittest.TestCase):
         self.change("""INSERT INTO event SELECT job, 4, time, 'failed', '{"from":"succeeded","to":"failed"}' FROM event WHERE seq=3""")
         self.assertIn("ended as succeeded", self.found())
 
+    def test_a_move_that_no_job_makes(self):
+        self.change("""UPDATE event SET data=replace(data, 'finished', 'claimed') WHERE seq=3""")
+        self.assertIn("makes it succeeded from running because it is claimed", self.found())
+
+    def test_an_attempt_that_is_not_counted(self):
+        self.change("""UPDATE event SET data=replace(data, '"attempt":1', '"attempt":2') WHERE seq=3""")
+        self.assertIn("speaks of attempt 2, not 1", self.found())
+
+    def test_a_job_that_expired_though_it_had_run(self):
+        self.change("""UPDATE event SET state='expired', data=replace(data, 'succeeded', 'expired') WHERE seq=3""")
+        self.assertIn("expired though it had run", self.found())
+
+    def test_times_that_do_not_fit_the_state(self):
+        self.change("UPDATE job SET wake_at='2100-01-31T12:00:00.000Z', finished_at=''")
+        found = self.found()
+        self.assertIn("waits for the time '2100", found)
+        self.assertIn("ended at ''", found)
+
     def test_a_job_that_was_never_submitted(self):
-        self.change("""UPDATE event SET data='{"to":"queued"}' WHERE seq=1""")
+        self.change("""UPDATE event SET data='{"to":"queued","reason":"found"}' WHERE seq=1""")
         self.assertIn("0 jobs were submitted", self.found())
 
     def test_an_artifact_that_is_changed_or_gone(self):
