@@ -12,8 +12,14 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent
 SCULPT = SOURCE / "build/release/bin/sculpt"
 FINE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
-# `other_cores`: how many cores all other programs kept busy meanwhile, None where that is not known.
-Ended = collections.namedtuple("Ended", "stdout stderr exit_code seconds other_cores")
+
+class Ended(collections.namedtuple("Ended", "stdout stderr exit_code seconds other_cores")):
+    """How a program ended. `other_cores`: how many cores all other programs kept busy meanwhile, None where that is not known."""
+
+    @property
+    def error(self):
+        """Its last line on stderr; progress may stand before it."""
+        return (self.stderr.strip() or f"ended with {self.exit_code} and no word").splitlines()[-1]
 
 
 class Failure(Exception):

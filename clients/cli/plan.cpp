@@ -1,4 +1,6 @@
 // sculpt plan: the same planner in this process, without a server.
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -37,7 +39,7 @@ int run_plan(const PlanOptions& options) {
 
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
-  ProgressLine progress(2, false);
+  ProgressLine progress(STDERR_FILENO, PlainLines::each_second);
   bool warned = false;
   const Watch watch{stop.get_token(), [&](const Progress& at) {
                       if (at.loose_keep > 0 && !std::exchange(warned, true)) {

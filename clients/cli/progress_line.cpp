@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace sculpt {
 
@@ -27,8 +28,12 @@ std::string bar_text(const std::string& stage, std::uint64_t done, std::uint64_t
 
 }  // namespace
 
-ProgressLine::ProgressLine(int file_descriptor, bool plain)
-    : file_descriptor_(file_descriptor), bar_(isatty(file_descriptor) == 1), plain_(plain) {}
+ProgressLine::ProgressLine(int file_descriptor, PlainLines plain, std::function<Clock::time_point()> now)
+    : file_descriptor_(file_descriptor),
+      bar_(isatty(file_descriptor) == 1),
+      plain_(plain),
+      now_(std::move(now)),
+      line_at_(now_()) {}
 
 ProgressLine::~ProgressLine() {
   clear();
@@ -37,24 +42,40 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::tell(const std::string& stage, std::uint64_t done, std::uint64_t total) {
   const std::lock_guard lock(mutex_);
   const std::uint64_t tenth = total == 0 ? 0 : 10 * std::min(done, total) / total;
-  const bool moved_on = stage != stage_ || tenth != tenth_;
   if (bar_) {
-    const auto now = std::chrono::steady_clock::now();
-    if (stage == stage_ && now - drawn_at_ < std::chrono::milliseconds(100)) return;
-    drawn_at_ = now;
-    write("\r\x1b[K" + bar_text(stage, done, total));
-    on_screen_ = true;
-  } else if (plain_ && moved_on) {
+    draw(stage, done, total);
+  } else if (line_is_due(stage, tenth)) {
     const std::string numbers = counts(done, total);
     write(stage + (numbers.empty() ? "" : " " + numbers) + "\n");
+    line_at_ = now_();
   }
   stage_ = stage;
   tenth_ = tenth;
 }
 
+void ProgressLine::draw(const std::string& stage, std::uint64_t done, std::uint64_t total) {
+  const Clock::time_point now = now_();
+  if (stage == stage_ && now - drawn_at_ < std::chrono::milliseconds(100)) return;
+  drawn_at_ = now;
+  write("\r\x1b[K" + bar_text(stage, done, total));
+  on_screen_ = true;
+}
+
+bool ProgressLine::line_is_due(const std::string& stage, std::uint64_t tenth) const {
+  switch (plain_) {
+    case PlainLines::none:
+      return false;
+    case PlainLines::on_change:
+      return stage != stage_ || tenth != tenth_;
+    case PlainLines::each_second:
+      return now_() - line_at_ >= std::chrono::seconds(1);
+  }
+  return false;
+}
+
 void ProgressLine::say(const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (!bar_ && !plain_) return;
+  if (!bar_ && plain_ == PlainLines::none) return;
   write((on_screen_ ? "\r\x1b[K" : "") + line + "\n");
   on_screen_ = false;
 }

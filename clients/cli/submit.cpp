@@ -1,4 +1,6 @@
 // sculpt submit: uploads what the server does not have yet and queues the job.
+#include <unistd.h>
+
 #include <iostream>
 #include <memory>
 
@@ -87,7 +89,7 @@ int run_submit(const std::string& server, const SubmitOptions& options) {
   int exit_code = exit_fine;
   if (!options.json) std::cout << job << std::endl;
   if (options.wait) {
-    ProgressLine progress(2, true);
+    ProgressLine progress(STDERR_FILENO, PlainLines::on_change);
     if (options.json) progress.say("job " + job);
     const Json end = follow_job(client, job, progress);
     reply["state"] = end.at("state");

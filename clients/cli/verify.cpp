@@ -1,6 +1,8 @@
 // sculpt verify: a job by its server, or a file by the replay in this process.
 #include "core/verify/verify.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -77,7 +79,7 @@ int verify_file(const VerifyOptions& options) {
 
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
-  ProgressLine progress(2, false);
+  ProgressLine progress(STDERR_FILENO, PlainLines::each_second);
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   check_resolution(job.resolution);
   const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);

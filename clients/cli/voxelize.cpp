@@ -1,4 +1,6 @@
 // sculpt voxelize: a mesh as the planner sees it, without a server.
+#include <unistd.h>
+
 #include <iostream>
 #include <memory>
 
@@ -35,7 +37,7 @@ int run_voxelize(const VoxelizeOptions& options) {
 
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
-  ProgressLine progress(2, false);
+  ProgressLine progress(STDERR_FILENO, PlainLines::each_second);
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   const VoxelGrid voxels = make_voxels(job, grid, watch);
   progress.clear();

@@ -26,7 +26,8 @@ int run_watch(const std::string& server, const WatchOptions& options) {
     std::_Exit(exit_failed);
   });
   Client client(server, client_name);
-  ProgressLine progress(options.json ? STDERR_FILENO : STDOUT_FILENO, !options.json);
+  ProgressLine progress(options.json ? STDERR_FILENO : STDOUT_FILENO,
+                        options.json ? PlainLines::none : PlainLines::on_change);
   const Json end = follow_job(client, options.job, progress);
   if (options.json) std::cout << write_json(end) << "\n";
   return end_exit_code(end);

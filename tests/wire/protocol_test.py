@@ -1,4 +1,4 @@
-"""Every `session` of proto/PROTOCOL.md, in order, against a real daemon; and the tables of that file against each other."""
+"""Every `session` of proto/PROTOCOL.md and docs/cell-controller.md, in order, against a real daemon; and the tables of PROTOCOL.md against each other."""
 
 import json
 import re
@@ -9,6 +9,7 @@ import unittest
 from harness import PATIENCE_S, SOURCE, Daemon
 
 PROTOCOL = SOURCE / "proto/PROTOCOL.md"
+CELL_CONTROLLER = SOURCE / "docs/cell-controller.md"
 
 
 def sessions(text):
@@ -64,13 +65,18 @@ def difference(expected, got, names, place=""):
     return None if same else f"{place}: expected {expected!r}, got {got!r}"
 
 
-def play(lines, first_number, address, names):
+def has_blanks(line):
+    """Whether there are blanks between the parts of a JSON line: simple clients search its text."""
+    return re.search(r"\s", re.sub(r'"(\\.|[^"\\])*"', "", line.rstrip("\n"))) is not None
+
+
+def play(lines, first_number, address, names, document):
     """Runs one session; raises AssertionError that names the line."""
     connection = Connection(address)
     try:
         announced = 0
         for number, line in enumerate(lines, first_number):
-            where = f"PROTOCOL.md:{number}: {line}\n"
+            where = f"{document}:{number}: {line}\n"
             kind, _, content = line.partition(" ")
             if kind == "C":
                 connection.send(fill(content, names).encode())
@@ -79,6 +85,7 @@ def play(lines, first_number, address, names):
             elif kind == "S":
                 answer = connection.read_line()
                 assert answer, where + "the connection was closed"
+                assert not has_blanks(answer), where + answer + "has blanks between its parts"
                 found = difference(json.loads(content), json.loads(answer), names)
                 assert not found, f"{where}{answer}{found}"
                 result = json.loads(answer).get("result")
@@ -93,14 +100,21 @@ def play(lines, first_number, address, names):
 
 
 class Examples(unittest.TestCase):
-    def test_every_session_goes_as_written(self):
-        text, names, played = PROTOCOL.read_text(), {}, 0
+    def play_all(self, document):
+        """How many sessions the document has; all share a fresh daemon."""
+        names, played = {}, 0
         with tempfile.TemporaryDirectory(prefix="sculpt-test-") as folder, Daemon(f"{folder}/data") as daemon:
-            for number, lines in sessions(text):
+            for number, lines in sessions(document.read_text()):
                 with self.subTest(line=number):
-                    play(lines, number, daemon.address, names)
+                    play(lines, number, daemon.address, names, document.name)
                 played += 1
-        self.assertGreater(played, 10, "the sessions of PROTOCOL.md were not found")
+        return played
+
+    def test_every_session_goes_as_written(self):
+        self.assertGreater(self.play_all(PROTOCOL), 10, "the sessions of PROTOCOL.md were not found")
+
+    def test_every_session_of_the_cell_controller_goes_as_written(self):
+        self.assertGreater(self.play_all(CELL_CONTROLLER), 3, "the sessions of cell-controller.md were not found")
 
     def test_every_method_has_an_example(self):
         text = PROTOCOL.read_text()
@@ -132,6 +146,10 @@ class TheComparison(unittest.TestCase):
         for expected, got in (({"a": 1}, {"a": 2}), ({"a": 1}, {"a": True}), ({"a": 1}, {}), ({}, {"a": 1}), ([1], [1, 2]), (["$x", "$x"], ["a", "b"]),
                               ("$x", 1), ({"a": 1}, {"a": 1.0})):
             self.assertIsNotNone(difference(expected, got, {}), (expected, got))
+
+    def test_it_sees_blanks_between_parts_only(self):
+        self.assertFalse(has_blanks('{"a b":"c \\" d",1:[2,3]}\n'))
+        self.assertTrue(has_blanks('{"a": "b"}\n'))
 
 
 if __name__ == "__main__":
