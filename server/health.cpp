@@ -1,24 +1,21 @@
 #include "server/health.hpp"
 
-#include <filesystem>
-
 #include "server/data_folder.hpp"
-#include "server/services.hpp"
+#include "server/job_store.hpp"
 
 namespace sculpt {
 
-std::string why_not_ready(const Services& services) {
-  const std::filesystem::path& data = services.config.data;
+std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(data, error);
   if (error) return "the data folder cannot be looked at: " + error.message();
-  if (space.available < services.config.disk_floor_bytes) {
+  if (space.available < disk_floor_bytes) {
     return "the disk of the data folder has " + std::to_string(space.available) + " free bytes, under the floor of " +
-           std::to_string(services.config.disk_floor_bytes) + ": make room or lower disk_floor_bytes";
+           std::to_string(disk_floor_bytes) + ": make room or lower disk_floor_bytes";
   }
   try {
     write_durably(data / "probe", "ready?\n");
-    services.store.counts();
+    store.counts();
   } catch (const StorageError& fault) {
     return fault.what();
   }

@@ -1,13 +1,15 @@
 // Whether new work can be taken.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace sculpt {
 
-struct Services;
+class JobStore;
 
 /// Why the server is not ready, as a sentence; empty: it is. Touches the disk: not on the I/O thread.
-std::string why_not_ready(const Services& services);
+std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store);
 
 }  // namespace sculpt

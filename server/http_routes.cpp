@@ -15,8 +15,7 @@ namespace {
 constexpr std::string_view artifacts_path = "/v1/artifacts/";
 constexpr std::size_t piece_bytes = 1 << 20;
 
-HttpReply ready_reply(const Services& services) {
-  const std::string reason = why_not_ready(services);
+HttpReply ready_reply(const std::string& reason) {
   if (reason.empty()) return {200, "text/plain; charset=utf-8", "ready\n"};
   return {503, "text/plain; charset=utf-8", reason + "\n"};
 }
@@ -146,7 +145,13 @@ Route find_route(Services& services, const Peer& peer, const HttpRequest& reques
   }
   if (request.target == "/livez")
     return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
-  if (request.target == "/readyz") return {&services.disk, [&services] { return ready_reply(services); }};
+  if (request.target == "/readyz") {
+    // Copied here: a reload changes the config while the disk is looked at.
+    return {&services.disk,
+            [&store = services.store, data = services.config.data, floor = services.config.disk_floor_bytes] {
+              return ready_reply(why_not_ready(data, floor, store));
+            }};
+  }
   authorize(services, peer, request);
   if (request.target == "/metrics") {
     return {nullptr, [&services] {
