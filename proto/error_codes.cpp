@@ -26,6 +26,7 @@ constexpr std::array catalogue{
     ErrorCode{"not_found", 2001, false},
     ErrorCode{"key_conflict", 2002, false},
     ErrorCode{"wrong_state", 2003, false},
+    ErrorCode{"gone", 2004, false},
     ErrorCode{"blob_missing", 2005, false},
     ErrorCode{"blob_mismatch", 2006, false},
     ErrorCode{"offset_mismatch", 2007, true},

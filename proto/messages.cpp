@@ -117,6 +117,14 @@ ArtifactReadParams read_artifact_read(const Json& params) {
   return read;
 }
 
+PinParams read_pin(const Json& params) {
+  Fields fields = params_of(params);
+  PinParams pin{fields.text("job", max_id_bytes), true};
+  if (fields.has("pinned")) pin.pinned = fields.flag("pinned");
+  fields.done();
+  return pin;
+}
+
 void read_nothing(const Json& params) {
   params_of(params).done();
 }

@@ -68,6 +68,12 @@ struct ArtifactReadParams {
 };
 ArtifactReadParams read_artifact_read(const Json& params);
 
+struct PinParams {
+  std::string job;
+  bool pinned = true;
+};
+PinParams read_pin(const Json& params);
+
 /// A method without params.
 void read_nothing(const Json& params);
 

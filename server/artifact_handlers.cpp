@@ -31,6 +31,13 @@ void on_artifact_list(Services& services, Call call) {
   });
 }
 
+void on_artifact_pin(Services& services, Call call) {
+  const PinParams pin = read_pin(call.params);
+  find_job(services.store, pin.job);
+  services.store.pin(pin.job, pin.pinned);
+  answer(call, {{"job", pin.job}, {"pinned", pin.pinned}});
+}
+
 void on_artifact_read(Services& services, Call call) {
   const ArtifactReadParams wanted = read_artifact_read(call.params);
   find_job(services.store, wanted.job);

@@ -91,15 +91,9 @@ std::string read_part(const fs::path& file, std::uint64_t offset, std::uint64_t 
 
 }  // namespace
 
-JobRecord Artifacts::find(const std::string& job) const {
-  const std::optional<JobRecord> record = store_.find(job);
-  if (!record) throw ProtocolError("not_found", "there is no job '" + job + "'", "/params/job");
-  return *record;
-}
-
 void Artifacts::discard_leftovers(const std::string& job) const {
   const std::optional<JobRecord> record = store_.find(job);
-  if (!record || !is_final(record->state) || !store_.artifacts(job).empty()) return;
+  if (record && (!is_final(record->state) || !store_.artifacts(job).empty())) return;
   std::error_code ignored;
   fs::remove_all(job_folder(job), ignored);
 }
@@ -123,7 +117,7 @@ Json Artifacts::list(const JobRecord& job) const {
 ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted) const {
   ArtifactChunk chunk;
   chunk.format = choose_format(wanted);
-  const JobRecord job = find(wanted.job);
+  const JobRecord job = find_job(store_, wanted.job);
   const fs::path file = job_folder(job.id) / file_name(wanted.artifact, chunk.format);
   chunk.final = find_stored(store_.artifacts(job.id), wanted.artifact).has_value();
   const bool grows = wanted.artifact == "trajectory" && chunk.format == "ndjson" && !is_final(job.state);
@@ -148,7 +142,7 @@ bool Artifacts::needs_export(const ArtifactReadParams& wanted) const {
 
 void Artifacts::make_export(const ArtifactReadParams& wanted) const {
   if (!needs_export(wanted)) return;
-  const JobRecord job = find(wanted.job);
+  const JobRecord job = find_job(store_, wanted.job);
   if (!find_stored(store_.artifacts(job.id), wanted.artifact)) {
     refuse_missing(job, "final trajectory to make " + wanted.format + " from; ndjson can be read while it grows");
   }

@@ -28,7 +28,7 @@ class Artifacts {
   std::filesystem::path job_folder(const std::string& job) const { return folder_ / job; }
   std::filesystem::path trajectory(const std::string& job) const { return job_folder(job) / "trajectory.ndjson"; }
 
-  /// Removes the files of a job that has ended without artifacts.
+  /// Removes the files of a job that has ended without artifacts, or was removed.
   void discard_leftovers(const std::string& job) const;
 
   /// The names and formats in the order of PROTOCOL.md; of an artifact that is not there yet size 0 and no hash.
@@ -43,8 +43,6 @@ class Artifacts {
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
 
  private:
-  JobRecord find(const std::string& job) const;
-
   std::filesystem::path folder_;
   JobStore& store_;
   const Planner& planner_;

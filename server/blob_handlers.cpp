@@ -15,7 +15,7 @@ void on_blob_has(Services& services, Call call) {
   const std::string sha256 = read_blob_name(call.params);
   call.session->hold();
   answer_from(services.disk, services, std::move(call), [&blobs = services.blobs, sha256](const std::stop_token&) {
-    return blob_answer(sha256, blobs.state(sha256));
+    return blob_answer(sha256, blobs.use(sha256));
   });
 }
 

@@ -75,8 +75,30 @@ BlobState Blobs::state(const std::string& sha256) const {
   return {error ? 0 : size, false};
 }
 
+BlobState Blobs::use(const std::string& sha256) const {
+  const std::lock_guard lock(removal_);
+  std::error_code ignored;
+  fs::last_write_time(place(sha256), fs::file_time_type::clock::now(), ignored);
+  return state(sha256);
+}
+
+void Blobs::remove_unused(const std::set<std::string>& needed, std::chrono::seconds age) {
+  const auto oldest = fs::file_time_type::clock::now() - age;
+  std::vector<fs::path> unneeded;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_, error)) {
+    std::error_code gone;
+    if (entry.is_regular_file(gone) && !needed.contains(entry.path().filename())) unneeded.push_back(entry.path());
+  }
+  for (const fs::path& file : unneeded) {
+    const std::lock_guard lock(removal_);
+    const auto used = fs::last_write_time(file, error);
+    if (!error && used < oldest) fs::remove(file, error);
+  }
+}
+
 BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes) {
-  const BlobState before = state(sha256);
+  const BlobState before = use(sha256);
   if (before.complete) return before;
   if (size > max_bytes_) {
     throw ProtocolError("too_large",
@@ -115,7 +137,7 @@ void Blobs::complete(const std::string& sha256, std::uint64_t size) {
 std::string Blobs::add(std::string_view bytes) {
   static std::atomic<std::uint64_t> drafts = 0;
   std::string sha256 = sha256_hex(bytes);
-  if (state(sha256).complete) return sha256;
+  if (use(sha256).complete) return sha256;
   const fs::path draft = folder_ / (sha256 + "." + std::to_string(drafts++) + ".draft");
   try {
     write_at(draft, 0, bytes);
@@ -129,6 +151,7 @@ std::string Blobs::add(std::string_view bytes) {
 }
 
 std::string Blobs::read(const std::string& sha256, const std::string& pointer) const {
+  use(sha256);
   std::ifstream in(place(sha256), std::ios::binary);
   if (!in) {
     throw ProtocolError("blob_missing",

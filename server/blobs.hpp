@@ -1,8 +1,11 @@
 // Files by content: blobs/ab/abcdef..., uploaded in pieces into blobs/HASH.part.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -13,16 +16,21 @@ struct BlobState {
   bool complete = false;
 };
 
-/// `put` belongs to one thread; everything else may be called from any. Throws StorageError where the disk fails.
+/// `put` and `remove_unused` belong to one thread; everything else may be called from any. Throws StorageError where
+/// the disk fails.
 class Blobs {
  public:
   Blobs(std::filesystem::path folder, std::uint64_t max_bytes) : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
   const std::filesystem::path& folder() const { return folder_; }
   BlobState state(const std::string& sha256) const;
+  /// The same; the blob counts as used now, as by `put`, `add` and `read`.
+  BlobState use(const std::string& sha256) const;
   /// Adds a piece; when the last byte is there the hash is checked and the blob becomes durable. Throws ProtocolError
   /// `too_large`, `offset_mismatch`, `blob_mismatch` (what was uploaded is dropped).
   BlobState put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes);
+  /// Removes blobs, and pieces of blobs, that are not in `needed` and were not used for so long.
+  void remove_unused(const std::set<std::string>& needed, std::chrono::seconds age);
   /// Stores content made here and returns its hash.
   std::string add(std::string_view bytes);
   /// Throws ProtocolError `blob_missing` with `pointer`.
@@ -35,6 +43,7 @@ class Blobs {
 
   std::filesystem::path folder_;
   std::uint64_t max_bytes_;
+  mutable std::mutex removal_;  ///< a blob is used, or found unused and removed
 };
 
 }  // namespace sculpt

@@ -16,11 +16,11 @@ namespace sculpt {
 namespace {
 
 // In the order of the enum.
-constexpr std::array<std::string_view, 15> names{
-    "recovered",     "blob_written",     "blob_synced",        "blob_renamed",  "before_commit",
-    "after_commit",  "submit_stored",    "trajectory_planned", "draft_written", "draft_synced",
-    "draft_renamed", "artifacts_synced", "ending_known",       "ending_stored", "export_synced"};
-static_assert(names.size() == static_cast<std::size_t>(CrashPoint::export_synced) + 1);
+constexpr std::array<std::string_view, 17> names{
+    "recovered",     "blob_written",       "blob_synced",   "blob_renamed", "before_commit", "after_commit",
+    "submit_stored", "trajectory_planned", "draft_written", "draft_synced", "draft_renamed", "artifacts_synced",
+    "ending_known",  "ending_stored",      "export_synced", "job_removed",  "files_removed"};
+static_assert(names.size() == static_cast<std::size_t>(CrashPoint::files_removed) + 1);
 
 CrashPoint armed{};
 std::atomic<int> visits_left = 0;

@@ -20,6 +20,8 @@ enum class CrashPoint {
   ending_known,        // the job is not yet stored as ended
   ending_stored,       //
   export_synced,       // a csv or binary trajectory is on disk under its temporary name
+  job_removed,         // a finished job whose time is over is out of the store, its files are still there
+  files_removed,       // they are gone too
 };
 
 /// Call before the first thread. `wanted` is the value of the variable, nullptr if it is not set. Throws ConfigError

@@ -44,6 +44,7 @@ constexpr std::array table{
     Entry{"events.unsubscribe", on_unsubscribe, Scope::read},
     Entry{"artifact.list", on_artifact_list, Scope::read},
     Entry{"artifact.read", on_artifact_read, Scope::read},
+    Entry{"artifact.pin", on_artifact_pin, Scope::submit},
 };
 
 const Entry& find_entry(const std::string& method) {

@@ -38,6 +38,7 @@ void on_unsubscribe(Services& services, Call call);
 
 // artifact_handlers.cpp
 void on_artifact_list(Services& services, Call call);
+void on_artifact_pin(Services& services, Call call);
 void on_artifact_read(Services& services, Call call);
 
 }  // namespace sculpt

@@ -97,7 +97,7 @@ HttpReply artifact_reply(Services& services, ArtifactReadParams wanted, const Ht
 
 Route artifact_route(Services& services, const HttpRequest& request) {
   const ArtifactReadParams wanted = read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
-  if (!services.store.find(wanted.job)) throw ProtocolError("not_found", "there is no job '" + wanted.job + "'");
+  find_job(services.store, wanted.job);
   const bool to_export = services.artifacts.needs_export(wanted);
   return {to_export ? &services.exports : &services.disk, [&services, wanted, request, to_export] {
             if (to_export) services.artifacts.make_export(wanted);
@@ -107,6 +107,7 @@ Route artifact_route(Services& services, const HttpRequest& request) {
 
 unsigned status_of(std::string_view code) {
   if (code == "not_found") return 404;
+  if (code == "gone") return 410;
   if (code == "params_invalid" || code == "bad_request") return 400;
   if (code == "auth_required") return 401;
   if (code == "forbidden" || code == "origin_refused") return 403;

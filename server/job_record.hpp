@@ -40,6 +40,7 @@ struct JobRecord {
   int crashes =
       0;  ///< runs that took their process down, as far as is known; a run inside the daemon counts when it begins
   bool isolated = false;  ///< runs in a process of its own
+  bool pinned = false;    ///< never removed
   std::string wake_at;    ///< while held or backoff: when it is queued
   std::string submitted_at, started_at, finished_at;
   std::string error_code, error_sentence;  ///< of its last failure

@@ -88,6 +88,13 @@ class JobStore {
   virtual void set_queue_paused(bool paused) = 0;
   virtual bool queue_paused() = 0;
 
+  /// Keeps a job for ever, or not any more. Throws ProtocolError `not_found`.
+  virtual void pin(const std::string& job, bool pinned) = 0;
+  /// Forgets a final job that is not pinned, with its events and artifacts; its key is free again. False if it is none.
+  virtual bool remove(const std::string& job) = 0;
+  /// There was such a job, and `remove` took it.
+  virtual bool was_removed(const std::string& job) = 0;
+
   virtual std::optional<JobRecord> find(const std::string& job) = 0;
   virtual std::optional<JobRecord> find_key(const std::string& key) = 0;
   /// In the order of submission, behind `after` (empty: from the first).
@@ -104,6 +111,9 @@ class JobStore {
   virtual std::uint64_t last_event(const std::string& job) = 0;
   virtual std::vector<StoredArtifact> artifacts(const std::string& job) = 0;
 };
+
+/// Throws ProtocolError `not_found`, or `gone` for one that was removed.
+JobRecord find_job(JobStore& store, const std::string& job);
 
 /// Throws StorageError (unreadable, no database, made by a newer version).
 std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules = {});

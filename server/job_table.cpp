@@ -5,7 +5,8 @@ namespace {
 
 constexpr const char* columns =
     "number, id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, memory_bytes, rank, "
-    "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence";
+    "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence, "
+    "pinned";
 
 JobRow read_row(const Statement& row) {
   JobRow read;
@@ -39,6 +40,7 @@ JobRow read_row(const Statement& row) {
   job.finished_at = text();
   job.error_code = text();
   job.error_sentence = text();
+  job.pinned = number() != 0;
   return read;
 }
 

@@ -4,11 +4,13 @@
 
 namespace sculpt {
 
-JobRecord find_job(JobStore& store, const std::string& job) {
-  std::optional<JobRecord> record = store.find(job);
-  if (!record) throw ProtocolError("not_found", "there is no job '" + job + "'", "/params/job");
-  return std::move(*record);
+namespace {
+
+std::string expiry(const JobRecord& job, std::chrono::milliseconds keep) {
+  return utc_text(unix_ms_of(job.finished_at) + static_cast<std::uint64_t>(keep.count()));
 }
+
+}  // namespace
 
 Json progress_view(const Progress& progress) {
   Json view{{"stage", name(progress.stage)}, {"done", progress.done}, {"total", progress.total}};
@@ -38,6 +40,8 @@ Json job_view(const Services& services, const JobRecord& job) {
   view["submitted_at"] = job.submitted_at;
   if (!job.started_at.empty()) view["started_at"] = job.started_at;
   if (!job.finished_at.empty()) view["finished_at"] = job.finished_at;
+  if (job.pinned) view["pinned"] = true;
+  if (is_final(job.state) && !job.pinned) view["expires_at"] = expiry(job, services.config.keep);
   if (job.state == JobState::queued) view["position"] = services.store.position(job);
   if (const std::optional<Progress> progress = services.scheduler.progress(job.id)) {
     view["progress"] = progress_view(*progress);

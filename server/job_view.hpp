@@ -11,7 +11,5 @@ Json job_view(const Services& services, const JobRecord& job);
 Json progress_view(const Progress& progress);
 /// `{code, message}` of a job's last failure.
 Json error_view(const JobRecord& job);
-/// Throws ProtocolError `not_found`.
-JobRecord find_job(JobStore& store, const std::string& job);
 
 }  // namespace sculpt

@@ -16,6 +16,7 @@
 #include "server/listener.hpp"
 #include "server/log.hpp"
 #include "server/net.hpp"
+#include "server/retention.hpp"
 #include "server/service_manager.hpp"
 #include "server/services.hpp"
 #include "server/settings.hpp"
@@ -26,6 +27,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::chrono::milliseconds tick_time{250};
+constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
 
 int cores() {
@@ -102,6 +104,7 @@ struct Server::Impl {
             [this](const std::string& job) { services.changed(job); }),
         streams(*store, scheduler),
         waits(io, *store),
+        retention(*store, blobs, artifacts, folder.jobs()),
         listener(services, tcp_endpoint(config), make_tls(config)) {
     if (!config.unix_socket.empty()) unix_listener.emplace(services, unix_endpoint(config), nullptr);
     if (const int left = store->recover(); left > 0)
@@ -116,9 +119,22 @@ struct Server::Impl {
       const auto now = Connection::Clock::now();
       streams.tick(now);
       connections.for_each([&](Connection& connection) { connection.check_deadlines(now); });
+      if (now >= next_sweep) sweep(now);
       manager.alive(now);
       if (manager.listens() && ticks++ % ticks_per_status == 0) manager.status(queue_sentence(*store));
       tick();
+    });
+  }
+
+  // On the thread of disk work, where blobs are written.
+  void sweep(Connection::Clock::time_point now) {
+    next_sweep = now + sweep_time;
+    disk.add([this, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
+      try {
+        retention.sweep(rules, unix_ms());
+      } catch (const std::exception& error) {
+        spdlog::error("old jobs and blobs cannot be removed: {}", error.what());
+      }
     });
   }
 
@@ -160,6 +176,7 @@ struct Server::Impl {
   Scheduler scheduler;
   Streams streams;
   Waits waits;
+  Retention retention;
   Access access{config};
   Connections connections;
   TaskQueue disk, admission, replays, exports;
@@ -185,6 +202,7 @@ struct Server::Impl {
   Listener listener;
   std::optional<Listener> unix_listener;
   net::steady_timer timer{io};
+  Connection::Clock::time_point next_sweep;
   net::signal_set signals{io}, hangups{io};
   std::function<Config()> reread;
   ServiceManager manager;

@@ -42,7 +42,6 @@ struct Services {
 
   /// A job changed its state: tells everybody who waits for that. Any thread.
   void changed(const std::string& job);
-  /// If the job is cancelled now, removes its files, soon. Any thread.
 };
 
 }  // namespace sculpt

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
 constexpr int max_workers = 1024, max_sockets = 1 << 20;
-constexpr double min_s = 0.001, max_s = 86400;
+constexpr double min_s = 0.001, max_s = 86400, max_keep_s = 100.0 * 366 * 86400;
 
 // --- the kinds of settings
 
@@ -49,14 +49,15 @@ Setting flag(const char* name, bool Config::*field, Change change, const char* h
           [=](const Config& config) -> Json { return config.*field; }};
 }
 
-Setting seconds(const char* name, std::chrono::milliseconds Config::*field, Change change, const char* help) {
+Setting seconds(const char* name, std::chrono::milliseconds Config::*field, Change change, const char* help,
+                double high = max_s) {
   return {name,
           "seconds",
           change,
           help,
           false,
           [=](SettingEntry entry, Config& config) {
-            const double wanted = entry.fields.number(entry.name, min_s, max_s);
+            const double wanted = entry.fields.number(entry.name, min_s, high);
             config.*field = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * wanted));
           },
           [=](const Config& config) -> Json {
@@ -184,6 +185,10 @@ const std::vector<Setting>& settings() {
             "predicted memory of one job; above it the job is refused"),
       bytes("memory_bytes", &Config::memory_bytes, at_start,
             "predicted memory of the jobs that run at once; 0: three quarters of the machine's"),
+      seconds("keep_s", &Config::keep, at_reload, "a finished job and its results are kept so long, unless pinned",
+              max_keep_s),
+      bytes("keep_bytes", &Config::keep_bytes, at_reload,
+            "results of all finished jobs; above it the oldest jobs go, unless pinned"),
       flag("isolate", &Config::isolate, at_start,
            "run every job in a process of its own, not only those that are suspected"),
       seconds("retry_backoff_s", &Config::retry_backoff, at_start,

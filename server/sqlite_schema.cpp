@@ -61,7 +61,12 @@ CREATE INDEX job_queue ON job(state, rank, number);
 CREATE INDEX job_start_by ON job(start_by) WHERE start_by <> '';
 )";
 
-constexpr std::array<const char*, schema_version> steps{version_1, version_2};
+constexpr const char* version_3 = R"(
+ALTER TABLE job ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0;
+CREATE TABLE removed(id TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+)";
+
+constexpr std::array<const char*, schema_version> steps{version_1, version_2, version_3};
 
 std::int64_t read_version(Database& database) {
   Statement query(database, "PRAGMA user_version");

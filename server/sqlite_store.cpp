@@ -19,6 +19,10 @@ constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
   throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
 }
 
+[[noreturn]] void refuse_unknown(const std::string& id) {
+  throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+}
+
 class SqliteStore : public JobStore {
  public:
   SqliteStore(const std::filesystem::path& file, StoreRules rules)
@@ -27,7 +31,7 @@ class SqliteStore : public JobStore {
     database_.run("PRAGMA journal_size_limit=67108864;");
     update_schema(database_, file);
     epoch_ = read_text("SELECT value FROM meta WHERE name='epoch'");
-    ids_ = IdMaker(read_text("SELECT max(id) FROM job"));
+    ids_ = IdMaker(read_text("SELECT max(id) FROM (SELECT id FROM job UNION ALL SELECT id FROM removed)"));
     Statement latest(database_, "SELECT max(rank + ? * priority) FROM job");
     latest.bind(ageing()).step();
     last_rank_ms_ = latest.number(0);
@@ -185,6 +189,32 @@ class SqliteStore : public JobStore {
   bool queue_paused() override {
     const std::lock_guard lock(mutex_);
     return queue_is_paused();
+  }
+
+  void pin(const std::string& id, bool pinned) override {
+    const std::lock_guard lock(mutex_);
+    Statement update(database_, "UPDATE job SET pinned=? WHERE id=?");
+    if (update.bind(pinned ? 1 : 0).bind(id).run() != 1) refuse_unknown(id);
+  }
+
+  bool remove(const std::string& id) override {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(database_);
+    const std::optional<JobRow> row = jobs_.find(id);
+    if (!row || !is_final(row->job.state) || row->job.pinned) return false;
+    for (const char* sql :
+         {"DELETE FROM event WHERE job=?", "DELETE FROM artifact WHERE job=?", "DELETE FROM job WHERE number=?"}) {
+      Statement(database_, sql).bind(row->number).run();
+    }
+    Statement(database_, "INSERT INTO removed VALUES(?)").bind(id).run();
+    transaction.commit();
+    return true;
+  }
+
+  bool was_removed(const std::string& id) override {
+    const std::lock_guard lock(mutex_);
+    Statement query(database_, "SELECT 1 FROM removed WHERE id=?");
+    return query.bind(id).step();
   }
 
   std::optional<JobRecord> find(const std::string& id) override {
@@ -355,7 +385,7 @@ class SqliteStore : public JobStore {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     std::optional<JobRow> row = jobs_.find(id);
-    if (!row) throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+    if (!row) refuse_unknown(id);
     act(*row);
     transaction.commit();
     return row->job.state;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <stdexcept>
 
 namespace sculpt {
 
@@ -21,6 +22,13 @@ std::string utc_text(std::uint64_t unix_milliseconds) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%s.%03dZ", date.data(), static_cast<int>(unix_milliseconds % 1000));
   return text.data();
+}
+
+std::uint64_t unix_ms_of(const std::string& utc_text) {
+  std::tm parts{};
+  const char* rest = strptime(utc_text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
+  if (rest == nullptr) throw std::invalid_argument("'" + utc_text + "' is no time stamp");
+  return 1000 * static_cast<std::uint64_t>(timegm(&parts)) + std::stoul(rest + 1);
 }
 
 }  // namespace sculpt

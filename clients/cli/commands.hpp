@@ -33,6 +33,7 @@ void add_cancel(CLI::App& app, Invocation& invocation);
 void add_pause(CLI::App& app, Invocation& invocation);
 void add_resume(CLI::App& app, Invocation& invocation);
 void add_retry(CLI::App& app, Invocation& invocation);
+void add_pin(CLI::App& app, Invocation& invocation);
 void add_queue(CLI::App& app, Invocation& invocation);
 void add_report(CLI::App& app, Invocation& invocation);
 void add_fetch(CLI::App& app, Invocation& invocation);

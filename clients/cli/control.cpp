@@ -1,4 +1,4 @@
-// sculpt cancel, pause, resume, retry, queue: one order, one answer.
+// sculpt cancel, pause, resume, retry, pin, queue: one order, one answer.
 #include <iostream>
 #include <memory>
 
@@ -31,6 +31,13 @@ void add_order(CLI::App& app, Invocation& invocation, const std::string& verb, c
   command.add_flag("--json", order->json, "Print {job, state} as one JSON document");
 }
 
+int pin_job(const std::string& server, const Order& order, bool pinned) {
+  Client client(server, client_name);
+  const Json reply = client.call("artifact.pin", {{"job", order.job}, {"pinned", pinned}});
+  std::cout << (order.json ? write_json(reply) : pinned ? "pinned" : "not pinned") << "\n";
+  return exit_fine;
+}
+
 int set_queue(const std::string& server, const std::string& wish, bool json) {
   Client client(server, client_name);
   const Json reply = client.call("queue." + wish, Json::object());
@@ -54,6 +61,16 @@ void add_resume(CLI::App& app, Invocation& invocation) {
 
 void add_retry(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "retry", "Queue a quarantined job again");
+}
+
+void add_pin(CLI::App& app, Invocation& invocation) {
+  const auto order = std::make_shared<Order>();
+  const auto off = std::make_shared<bool>(false);
+  CLI::App& command = add_command(app, invocation, "pin", "Keep a job and its results for ever",
+                                  [&invocation, order, off] { return pin_job(invocation.server, *order, !*off); });
+  command.add_option("job", order->job, "The id that submit printed")->type_name("JOB")->required();
+  command.add_flag("--off", *off, "Keep it no longer than others");
+  command.add_flag("--json", order->json, "Print {job, pinned} as one JSON document");
 }
 
 void add_queue(CLI::App& app, Invocation& invocation) {

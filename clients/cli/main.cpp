@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   sculpt::add_pause(app, invocation);
   sculpt::add_resume(app, invocation);
   sculpt::add_retry(app, invocation);
+  sculpt::add_pin(app, invocation);
   sculpt::add_queue(app, invocation);
   sculpt::add_report(app, invocation);
   sculpt::add_fetch(app, invocation);

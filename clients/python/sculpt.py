@@ -472,6 +472,13 @@ def order(verb):
     return run
 
 
+def run_pin(options):
+    with Client(options.server) as client:
+        reply = client.call("artifact.pin", job=options.job, pinned=not options.off)
+    print(json.dumps(reply) if options.json else "pinned" if reply["pinned"] else "not pinned")
+    return FINE
+
+
 def run_queue(options):
     with Client(options.server) as client:
         reply = client.call("queue." + options.what)
@@ -654,6 +661,8 @@ def parse_command_line(arguments):
     command("pause", order("pause"), "stop a job, waiting or running, until it is resumed")
     command("resume", order("resume"), "queue a paused job again")
     command("retry", order("retry"), "queue a quarantined job again")
+    pin = command("pin", run_pin, "keep a job and its results for ever")
+    pin.add_argument("--off", action="store_true", help="keep it no longer than others")
     queue = command("queue", run_queue, "let no more jobs start, or let them start again", job=False)
     queue.add_argument("what", choices=["pause", "resume"])
     command("report", run_report, "the figures of a finished job")

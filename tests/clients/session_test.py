@@ -155,6 +155,13 @@ class Verbs:
         while client.next_event().get("data", {}).get("to") != state:
             pass
 
+    def test_a_job_is_pinned(self):
+        job = self.finished()
+        self.assertEqual(self.fine("pin", job), "pinned\n")
+        self.assertTrue(json.loads(self.fine("status", job, "--json"))["pinned"])
+        self.assertEqual(json.loads(self.fine("pin", job, "--off", "--json")), {"job": job, "pinned": False})
+        self.assertIn("expires_at", json.loads(self.fine("status", job, "--json")))
+
     def test_while_the_queue_is_paused_no_job_starts(self):
         self.assertEqual(self.fine("queue", "pause"), "paused\n")
         try:

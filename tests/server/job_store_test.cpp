@@ -21,6 +21,14 @@ class JobStoreTest : public testing::Test {
     store.reset();
     store = open_sqlite_store(file());
   }
+  /// Puts a database that a daemon of an older version left in the place of the store's.
+  void load(const std::string& sql_file) {
+    store.reset();
+    std::filesystem::remove(file());
+    std::ifstream sql(std::filesystem::path(SOURCE_DIR) / "tests/server" / sql_file);
+    const std::string text{std::istreambuf_iterator<char>(sql), std::istreambuf_iterator<char>()};
+    Database(file()).run(text.c_str());
+  }
   std::filesystem::path file() const { return folder.path() / "sculptd.db"; }
   JobState state(const std::string& job) { return store->find(job)->state; }
 
@@ -232,11 +240,7 @@ TEST_F(JobStoreTest, APausedQueueStaysPausedAfterARestart) {
 }
 
 TEST_F(JobStoreTest, ADatabaseOfVersion1IsBroughtUpToDate) {
-  store.reset();
-  std::filesystem::remove(file());
-  std::ifstream sql(std::filesystem::path(SOURCE_DIR) / "tests/server/store_version_1.sql");
-  const std::string text{std::istreambuf_iterator<char>(sql), std::istreambuf_iterator<char>()};
-  Database(file()).run(text.c_str());
+  load("store_version_1.sql");
   for (int opened = 0; opened < 2; ++opened) {
     reopen();
     EXPECT_EQ(store->epoch(), "01M7Z88KGJBTZDB219QR92F322");
@@ -252,6 +256,33 @@ TEST_F(JobStoreTest, ADatabaseOfVersion1IsBroughtUpToDate) {
   EXPECT_EQ(suspect.id, running);
   EXPECT_TRUE(suspect.isolated) << "it ran in the daemon that was killed";
   EXPECT_EQ(store->claim()->id, store->find_key("order 1")->id);
+}
+
+TEST_F(JobStoreTest, ADatabaseOfVersion2IsBroughtUpToDate) {
+  load("store_version_2.sql");
+  for (int opened = 0; opened < 2; ++opened) {
+    reopen();
+    EXPECT_EQ(store->epoch(), "01M7ZD1DA5WTXE4BBXGP8TXEHG");
+    EXPECT_EQ(store->list({}, 100).size(), 5u);
+  }
+  const std::string done = "01M7ZD1ER06667WEP120VG7WK4";
+  EXPECT_EQ(store->find_key("order 2")->schedule.not_before, "2031-01-01T00:00:00.000Z");
+  EXPECT_FALSE(store->find(done)->pinned);
+  store->pin(done, true);
+  EXPECT_FALSE(store->remove(done));
+  store->pin(done, false);
+  EXPECT_TRUE(store->remove(done));
+  EXPECT_TRUE(store->was_removed(done));
+  EXPECT_EQ(store->recover(), 1);
+  EXPECT_EQ(store->claim()->id, "01M7ZD1FAYFH84SDA0NB7716S2");
+}
+
+TEST_F(JobStoreTest, TheIdOfARemovedJobIsNeverGivenAgain) {
+  const std::string job = add();
+  store->cancel(job);
+  ASSERT_TRUE(store->remove(job));
+  reopen();
+  EXPECT_GT(add(), job);
 }
 
 TEST_F(JobStoreTest, ADatabaseOfANewerVersionIsRefused) {

@@ -158,6 +158,13 @@ std::optional<JobState> StoreModel::retry(const std::string& id) {
   return job.state = queued;
 }
 
+bool StoreModel::remove(const std::string& id) {
+  const ModelJob& job = at(id);
+  if (!is_final(job.state) || job.pinned) return false;
+  jobs_.erase(std::ranges::find(jobs_, id, &ModelJob::id));
+  return true;
+}
+
 std::uint64_t StoreModel::position(const ModelJob& wanted) const {
   return static_cast<std::uint64_t>(std::ranges::count_if(
       jobs_, [&](const ModelJob& job) { return job.state == queued && comes_before(job, wanted); }));

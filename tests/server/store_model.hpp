@@ -18,7 +18,7 @@ struct ModelJob {
   std::uint64_t submitted_ms = 0, not_before_ms = 0, start_by_ms = 0, wake_ms = 0;  // 0: none
   std::uint64_t memory_bytes = 0;
   int attempt = 0, failures = 0, crashes = 0;
-  bool isolated = false;
+  bool isolated = false, pinned = false;
 };
 
 /// Refused moves give nothing.
@@ -37,6 +37,8 @@ class StoreModel {
   std::optional<JobState> pause(const std::string& id);
   std::optional<JobState> resume(const std::string& id);
   std::optional<JobState> retry(const std::string& id);
+  void pin(const std::string& id, bool pinned) { at(id).pinned = pinned; }
+  bool remove(const std::string& id);
   bool queue_paused = false;
 
   const std::vector<ModelJob>& jobs() const { return jobs_; }

@@ -68,10 +68,11 @@ class History {
   }
 
   void step() {
+    if (model_.jobs().empty()) return submit();
     const std::size_t chosen = below(model_.jobs().size());
     const std::string job = model_.jobs()[chosen].id;
     const int attempt = model_.jobs()[chosen].attempt - (below(8) == 0 ? 1 : 0);
-    switch (below(15)) {
+    switch (below(16)) {
       case 0:
       case 1:
         return submit();
@@ -115,6 +116,18 @@ class History {
         if (below(4) == 0) store_->set_queue_paused(model_.queue_paused = !model_.queue_paused);
         ASSERT_EQ(refused_or([&] { return store_->resume(job); }), model_.resume(job));
         return;
+      case 14: {
+        if (below(2) == 0) {
+          const bool pinned = below(2) == 0;
+          store_->pin(job, pinned);
+          model_.pin(job, pinned);
+        }
+        const bool removed = model_.remove(job);
+        ASSERT_EQ(store_->remove(job), removed);
+        ASSERT_EQ(store_->was_removed(job), removed);
+        ASSERT_EQ(store_->last_event(job) == 0, removed);
+        return;
+      }
       default:
         ASSERT_EQ(refused_or([&] { return store_->retry(job); }), model_.retry(job));
         return;

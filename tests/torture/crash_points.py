@@ -9,9 +9,12 @@ import os
 import re
 import signal
 import subprocess
+import time
 
 import kit
 from kit import sculpt
+
+REMOVING = {"job_removed", "files_removed"}  # not reached while jobs are kept
 
 
 def crash_points():
@@ -83,6 +86,42 @@ def crash_and_recover(data, mesh, point):
     return True
 
 
+def await_no_files(data, daemon):
+    # There is no event for it. Ends when the daemon has died, too.
+    while daemon.process.poll() is None and any((data / "jobs").iterdir()):
+        time.sleep(0.02)
+
+
+def crash_while_removing(data, mesh, point):
+    """As crash_and_recover, of a daemon that keeps no results: the next one ends what was begun, and no id is forgotten."""
+    session = Session(mesh)
+    with kit.Daemon(data, "--workers", "1") as daemon:
+        session.run(daemon.address)
+    os.environ["SCULPT_CRASH_AT"] = point
+    try:
+        daemon = kit.Daemon(data, "--keep-bytes", "0")
+    finally:
+        del os.environ["SCULPT_CRASH_AT"]
+    await_no_files(data, daemon)
+    if daemon.stop() != -signal.SIGKILL:
+        return False
+    kit.expect_clean(data, session.acked(), killed=True)
+    with kit.Daemon(data, "--keep-bytes", "0") as daemon, sculpt.Client(daemon.address) as client:
+        await_no_files(data, daemon)
+        told = {job: state_or_error(client, job) for job in session.results}
+        wanted = {job: "gone" if result["state"] == "succeeded" else result["state"] for job, result in session.results.items()}
+        kit.expect(told == wanted, f"{told}, not {wanted}")
+    kit.expect_clean(data, session.acked())
+    return True
+
+
+def state_or_error(client, job):
+    try:
+        return client.call("job.get", job=job)["state"]
+    except sculpt.Failure as failure:
+        return failure.code
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--visits", type=int, default=2, help="die at the first, second, ... of so many visits of a point")
@@ -92,7 +131,8 @@ def main():
         for visit in range(1, arguments.visits + 1):
             with kit.scratch_folder() as folder:
                 try:
-                    reached = crash_and_recover(folder / "data", mesh, f"{name}:{visit}")
+                    crash = crash_while_removing if name in REMOVING else crash_and_recover
+                    reached = crash(folder / "data", mesh, f"{name}:{visit}")
                 except AssertionError as error:
                     raise AssertionError(f"{name}:{visit}: {error}") from error
             crashes += reached

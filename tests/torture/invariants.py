@@ -49,7 +49,7 @@ def breaches(data, acked=(), killed=False):
         with contextlib.closing(sqlite3.connect(data / "sculptd.db")) as database:
             database.row_factory = sqlite3.Row
             return [*check_database(database), *check_jobs(database, killed), *check_events(database), *check_artifacts(database, data),
-                    *check_acked(database, acked), *check_files(data, killed)]
+                    *check_acked(database, acked), *check_blobs(database, data), *check_files(data, killed)]
 
 
 def check_database(database):
@@ -65,6 +65,8 @@ def check_jobs(database, killed):
     counts = collections.Counter(row["state"] for row in database.execute("SELECT state FROM job"))
     for state in counts.keys() - STATES:
         yield f"{counts[state]} jobs are in the unknown state {state!r}"
+    for row in database.execute("SELECT id FROM job JOIN removed USING(id)"):
+        yield f"job {row['id']} was removed and is still there"
     submitted = database.execute("SELECT count(*) FROM event WHERE data ->> 'reason' = 'submitted'").fetchone()[0]
     if submitted != sum(counts.values()):
         yield f"{submitted} jobs were submitted, but there are {sum(counts.values())}: {dict(counts)}"
@@ -122,6 +124,8 @@ def check_acked(database, acked):
     for record in acked:
         job = database.execute("SELECT number, state, key FROM job WHERE id=?", (record["job"],)).fetchone()
         if job is None:
+            if database.execute("SELECT 1 FROM removed WHERE id=?", (record["job"],)).fetchone() and record.get("state", "succeeded") in FINAL:
+                continue  # its time of keeping was over
             yield f"job {record['job']} was acknowledged and is lost"
             continue
         if record.get("key") not in (None, job["key"]):
@@ -132,6 +136,14 @@ def check_acked(database, acked):
             stored = database.execute("SELECT sha256 FROM artifact WHERE job=? AND artifact='trajectory'", (job["number"],)).fetchone()
             if stored is None or stored["sha256"] != record["sha256"]:
                 yield f"job {record['job']}: its trajectory is not the one that a client was told of"
+
+
+def check_blobs(database, data):
+    """What a job was submitted with is there as long as the job."""
+    for row in database.execute("SELECT id, cell_bundle, spec ->> '$.mesh.blob' AS mesh FROM job"):
+        for blob in (row["mesh"], row["cell_bundle"]):
+            if not (data / "blobs" / blob[:2] / blob).is_file():
+                yield f"job {row['id']}: its blob {blob} is missing"
 
 
 def check_files(data, killed):

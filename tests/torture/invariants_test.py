@@ -45,6 +45,23 @@ class Invariants(unittest.TestCase):
     def test_a_lost_job(self):
         self.assertIn("is lost", self.found([{"job": "01M7XRMDB8NWM1BF9DPP1KFA0R"}]))
 
+    def remove(self):
+        for sql in ("DELETE FROM event", "DELETE FROM artifact", "INSERT INTO removed SELECT id FROM job", "DELETE FROM job"):
+            self.change(sql)
+
+    def test_a_removed_job_is_not_lost_if_it_had_ended(self):
+        self.remove()
+        self.assertEqual(self.found([self.acked]), "")
+        self.assertIn("is lost", self.found([{**self.acked, "state": "running"}]))
+
+    def test_a_removed_job_that_is_still_there(self):
+        self.change("INSERT INTO removed SELECT id FROM job")
+        self.assertIn("is still there", self.found())
+
+    def test_a_blob_that_is_gone(self):
+        next(self.data.glob("blobs/??/" + kit.hashlib.sha256(kit.ball()).hexdigest())).unlink()
+        self.assertRegex(self.found(), "its blob .* is missing")
+
     def test_a_job_under_another_key(self):
         self.assertIn("stored with 'first'", self.found([{**self.acked, "key": "second"}]))
 
