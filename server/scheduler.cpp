@@ -7,6 +7,7 @@
 #include <new>
 #include <system_error>
 
+#include "server/background.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
 
@@ -123,6 +124,7 @@ std::optional<Progress> Scheduler::progress(const std::string& job) const {
 }
 
 void Scheduler::work(std::stop_token stop) {
+  work_in_background();
   while (!stop.stop_requested()) {
     const auto run = std::make_shared<Run>();
     const std::optional<JobRecord> job = claim(run);

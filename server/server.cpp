@@ -179,7 +179,8 @@ struct Server::Impl {
   Retention retention;
   Access access{config};
   Connections connections;
-  TaskQueue disk, admission, replays, exports;
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt};
+  TaskQueue replays{Pace::background}, exports{Pace::background};
   Services services{io,
                     config,
                     planner,

@@ -1,8 +1,10 @@
 #include "server/task_queue.hpp"
 
+#include "server/background.hpp"
+
 namespace sculpt {
 
-TaskQueue::TaskQueue() : thread_([this](std::stop_token stop) { work(std::move(stop)); }) {}
+TaskQueue::TaskQueue(Pace pace) : thread_([this, pace](std::stop_token stop) { work(pace, std::move(stop)); }) {}
 
 void TaskQueue::add(Task task) {
   {
@@ -19,7 +21,8 @@ void TaskQueue::stop() {
   tasks_.clear();
 }
 
-void TaskQueue::work(std::stop_token stop) {
+void TaskQueue::work(Pace pace, std::stop_token stop) {
+  if (pace == Pace::background) work_in_background();
   while (true) {
     Task task;
     {

@@ -10,19 +10,21 @@
 
 namespace sculpt {
 
+enum class Pace { prompt, background };
+
 /// `add` is safe from any thread. A task must not throw; it gets the token that `stop` (or the destructor) triggers.
 class TaskQueue {
  public:
   using Task = std::function<void(std::stop_token)>;
 
-  TaskQueue();
+  explicit TaskQueue(Pace pace);
   ~TaskQueue() { stop(); }
   void add(Task task);
   /// Asks the running task to end, waits for it and drops the waiting ones.
   void stop();
 
  private:
-  void work(std::stop_token stop);
+  void work(Pace pace, std::stop_token stop);
 
   std::mutex mutex_;
   std::condition_variable_any wake_;

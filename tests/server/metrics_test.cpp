@@ -32,7 +32,7 @@ struct Quiet {
   Waits waits{io, *store};
   Access access{config};
   Connections connections;
-  TaskQueue disk, admission, replays, exports;
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, replays{Pace::prompt}, exports{Pace::prompt};
   Services services{io,
                     config,
                     planner,

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
+#include <atomic>
 #include <new>
 
 #include "tests/server/fake_planner.hpp"
@@ -43,6 +45,7 @@ class SchedulerTest : public testing::Test {
   // The spec is the wish.
   Ending run(const JobRecord& job, const Watch& watch) {
     watch.step(Stage::plan, 3, 4);
+    priority_of_run = getpriority(PRIO_PROCESS, 0);
     if (job.spec == "input") throw InputError("mesh_empty", "no triangle");
     if (job.spec == "memory") throw std::bad_alloc();
     if (job.spec == "exception") throw std::runtime_error("a fault");
@@ -57,6 +60,7 @@ class SchedulerTest : public testing::Test {
   std::mutex mutex;
   std::condition_variable changed;
   Gate gate;
+  std::atomic<int> priority_of_run = 0;
   Scheduler scheduler{*store, [this](const JobRecord& job, const Watch& watch) { return run(job, watch); },
                       [this](const std::string&) { on_change(); }};
 };
@@ -70,6 +74,14 @@ TEST_F(SchedulerTest, JobsThatWaitedBeforeTheStartRunToo) {
   const std::string job = add("fine");
   scheduler.start(1);
   EXPECT_EQ(await(job, JobState::succeeded), JobState::succeeded);
+}
+
+TEST_F(SchedulerTest, RunsLeaveTheCoresToWhoeverAnswersClients) {
+  const int mine = getpriority(PRIO_PROCESS, 0);
+  scheduler.start(1);
+  await(add("fine"), JobState::succeeded);
+  EXPECT_GT(priority_of_run, mine);
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), mine);
 }
 
 TEST_F(SchedulerTest, WhateverARunThrowsTheWorkerLivesOn) {
