@@ -34,6 +34,17 @@ void remove_drafts(const fs::path& blobs, const fs::path& jobs) {
   for (const fs::directory_entry& job : fs::directory_iterator(jobs, ignored)) remove_drafts_in(job.path());
 }
 
+// The lock is given back at once: the runs of this daemon take it.
+void await_runs(const fs::path& jobs) {
+  const int folder = ::open(jobs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (::flock(folder, LOCK_EX | LOCK_NB) != 0) {
+    spdlog::info("waits for the end of a process that the last daemon ran a job in");
+    while (::flock(folder, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ::close(folder);
+}
+
 }  // namespace
 
 DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
@@ -56,11 +67,18 @@ DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
     throw DataFolderError("another sculptd uses the data folder '" + folder_.string() +
                           "': stop it or name another with --data");
   }
+  await_runs(jobs());
   remove_drafts(blobs(), jobs());
 }
 
 DataFolder::~DataFolder() {
   ::close(lock_);
+}
+
+void hold_until_exit(const fs::path& jobs) {
+  const int folder = ::open(jobs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0 || ::flock(folder, LOCK_SH) != 0)
+    throw StorageError("cannot lock '" + jobs.string() + "': " + std::strerror(errno));
 }
 
 void sync_to_disk(const fs::path& path) {

@@ -16,7 +16,7 @@ class DataFolderError : public std::runtime_error {
 
 class DataFolder {
  public:
-  /// Creates what is missing and takes the lock. Throws DataFolderError (no rights, or another daemon has it).
+  /// Creates what is missing, takes the lock and waits for the end of hold_until_exit. Throws DataFolderError (no rights, or another daemon has it).
   explicit DataFolder(const std::filesystem::path& folder);
   ~DataFolder();
   DataFolder(const DataFolder&) = delete;
@@ -34,6 +34,11 @@ class DataFolder {
 /// A sync failed with EIO: the kernel may have dropped what it held, and a second try would hide that. Logs, and ends
 /// the process with EX_IOERR: everything acknowledged is on disk, and the next daemon reads it from there. Any thread.
 [[noreturn]] void end_after_failed_sync(const std::string& what);
+
+/// For a process that runs a job: the next daemon on the folder waits until this process has ended. A daemon that is
+/// killed takes such a process with it, but not before a system call that it is in returns, and that may make a file.
+/// Throws StorageError.
+void hold_until_exit(const std::filesystem::path& jobs);
 
 // Both throw StorageError and end the process as above.
 /// Makes a file's content durable, and a folder's entries.

@@ -181,6 +181,8 @@ RunJob make_isolated_run(Isolation isolation) {
 int run_isolated_job(const Planner& planner) {
   const std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
   const Json told = parse_json(text);
+  const std::filesystem::path jobs = told.at("jobs").get<std::string>();
+  hold_until_exit(jobs);
   tie_to_parent(told.at("daemon").get<pid_t>());
   JobRecord job;
   job.id = told.at("job");
@@ -192,7 +194,7 @@ int run_isolated_job(const Planner& planner) {
   const Watch watch{stop_on_signal(), [&voice](const Progress& progress) { voice.tell(progress); }};
   std::optional<Ending> ending;
   try {
-    ending = make_run_job(planner, blobs, told.at("jobs").get<std::string>(), defaults)(job, watch);
+    ending = make_run_job(planner, blobs, jobs, defaults)(job, watch);
   } catch (...) {
     ending = caught_ending();
   }

@@ -42,7 +42,10 @@ class IsolatedRunTest : public testing::Test {
   Blobs blobs{folder.path() / "blobs", 1 << 20};
   std::chrono::milliseconds grace{10000};
 
-  void SetUp() override { std::filesystem::create_directories(blobs.folder()); }
+  void SetUp() override {
+    std::filesystem::create_directories(blobs.folder());
+    std::filesystem::create_directories(folder.path() / "jobs");
+  }
 };
 
 TEST_F(IsolatedRunTest, AJobEndsAsItWouldHere) {
