@@ -30,11 +30,14 @@ constexpr std::array catalogue{
     ErrorCode{"blob_missing", 2005, false},
     ErrorCode{"blob_mismatch", 2006, false},
     ErrorCode{"offset_mismatch", 2007, true},
-    ErrorCode{"stopping", 3003, true},
+    ErrorCode{"queue_full", 3001, true, 5000},
+    ErrorCode{"quota", 3002, true, 5000},
+    ErrorCode{"stopping", 3003, true, 2000},
     ErrorCode{"line_too_long", 3004, false},
     ErrorCode{"too_large", 3005, false},
     ErrorCode{"reply_too_long", 3006, false},
-    ErrorCode{"too_many_connections", 3007, true},
+    ErrorCode{"too_many_connections", 3007, true, 1000},
+    ErrorCode{"storage_full", 4001, true, 5000},
     ErrorCode{"storage_error", 4002, false},
     ErrorCode{"resolution_invalid", 5001, false},
     ErrorCode{"search_unknown", 5002, false},
@@ -63,6 +66,7 @@ constexpr std::array catalogue{
     ErrorCode{"run_time_exceeded", 5092, false},
     ErrorCode{"planner_crashed", 5093, false},
     ErrorCode{"expired", 5094, false},
+    ErrorCode{"replay_gap", 6001, false},
 };
 
 }  // namespace
@@ -79,6 +83,7 @@ ErrorCode find_error(std::string_view word) {
 Json error_object(const std::string& word, const std::string& sentence, const std::string& pointer) {
   const ErrorCode code = find_error(word);
   Json data{{"code", word}, {"retryable", code.retryable}};
+  if (code.retry_after_ms > 0) data["retry_after_ms"] = code.retry_after_ms;
   if (!pointer.empty()) data["pointer"] = pointer;
   return {{"code", code.number}, {"message", sentence}, {"data", std::move(data)}};
 }

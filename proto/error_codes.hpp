@@ -14,6 +14,7 @@ struct ErrorCode {
   std::string_view word;
   int number;
   bool retryable;
+  int retry_after_ms = 0;  ///< 0: nobody knows when
 };
 
 /// The whole catalogue, in the order of PROTOCOL.md.

@@ -37,7 +37,7 @@ void write_at(const fs::path& path, std::uint64_t offset, std::string_view bytes
   }
   const int error = errno;
   if (file >= 0) ::close(file);
-  if (!fine) throw StorageError("cannot write '" + path.string() + "': " + std::strerror(error));
+  if (!fine) fail_to_store(error, "cannot write '" + path.string() + "'");
 }
 
 std::string file_hash(const fs::path& path) {

@@ -77,8 +77,13 @@ DataFolder::~DataFolder() {
 
 void hold_until_exit(const fs::path& jobs) {
   const int folder = ::open(jobs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0 || ::flock(folder, LOCK_SH) != 0)
-    throw StorageError("cannot lock '" + jobs.string() + "': " + std::strerror(errno));
+  if (folder < 0 || ::flock(folder, LOCK_SH) != 0) fail_to_store(errno, "cannot lock '" + jobs.string() + "'");
+}
+
+void fail_to_store(int error, const std::string& what) {
+  const std::string sentence = what + ": " + std::strerror(error);
+  if (error == ENOSPC || error == EDQUOT) throw StorageFull(sentence + ": make space, then try again");
+  throw StorageError(sentence);
 }
 
 void sync_to_disk(const fs::path& path) {
@@ -87,7 +92,7 @@ void sync_to_disk(const fs::path& path) {
   const int error = errno;
   if (file >= 0) ::close(file);
   if (!done && error == EIO) end_after_failed_sync(path.string());
-  if (!done) throw StorageError("cannot make '" + path.string() + "' durable: " + std::strerror(error));
+  if (!done) fail_to_store(error, "cannot make '" + path.string() + "' durable");
 }
 
 void end_after_failed_sync(const std::string& what) {

@@ -16,7 +16,8 @@ class DataFolderError : public std::runtime_error {
 
 class DataFolder {
  public:
-  /// Creates what is missing, takes the lock and waits for the end of hold_until_exit. Throws DataFolderError (no rights, or another daemon has it).
+  /// Creates what is missing, takes the lock and waits for the end of hold_until_exit. Throws DataFolderError (no
+  /// rights, or another daemon has it).
   explicit DataFolder(const std::filesystem::path& folder);
   ~DataFolder();
   DataFolder(const DataFolder&) = delete;
@@ -39,6 +40,9 @@ class DataFolder {
 /// killed takes such a process with it, but not before a system call that it is in returns, and that may make a file.
 /// Throws StorageError.
 void hold_until_exit(const std::filesystem::path& jobs);
+
+/// Throws StorageFull or StorageError, by the errno of a call that failed.
+[[noreturn]] void fail_to_store(int error, const std::string& what);
 
 // Both throw StorageError and end the process as above.
 /// Makes a file's content durable, and a folder's entries.

@@ -66,6 +66,8 @@ Json current_error() {
     return error_object(error.code(), error.what());
   } catch (const Cancelled&) {
     return error_object("stopping", "the daemon is stopping: try again when it is back");
+  } catch (const StorageFull& error) {
+    return error_object("storage_full", error.what());
   } catch (const StorageError& error) {
     spdlog::error("{}", error.what());
     return error_object("storage_error", error.what());

@@ -14,7 +14,7 @@ void on_subscribe(Services& services, Call call) {
   find_job(services.store, wanted.job);
   const std::uint64_t last = services.store.last_event(wanted.job);
   if (wanted.after > last) {
-    throw ProtocolError("params_invalid",
+    throw ProtocolError("replay_gap",
                         "after is " + std::to_string(wanted.after) + ", but the last event of the job is " +
                             std::to_string(last) + ": the store was replaced, start again from 0",
                         "/params/after");

@@ -24,12 +24,14 @@ struct NewJob {
   std::string spec;                ///< JobSpec as canonical JSON
   std::string cell_bundle;         ///< hash of the bundle that was valid when the job was submitted
   std::uint64_t memory_bytes = 0;  ///< predicted
+  std::string owner{};             ///< who submits it; empty: nobody has a name
 };
 
 struct JobRecord {
   std::string id;
   JobState state = JobState::queued;
   std::string key;
+  std::string owner;
   Schedule schedule;
   std::string spec;
   std::string cell_bundle;

@@ -21,6 +21,12 @@ class StorageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The disk has no space left; nothing was acknowledged.
+class StorageFull : public StorageError {
+ public:
+  using StorageError::StorageError;
+};
+
 struct Submitted {
   JobRecord job;
   bool duplicate = false;
@@ -43,6 +49,8 @@ struct StoreRules {
   int max_crashes = 2;
   bool isolate = false;            ///< every job runs in a process of its own, not only suspects
   std::uint64_t memory_bytes = 0;  ///< predicted memory of the jobs that run at once; 0: no bound
+  int max_jobs = 100'000;          ///< that have not ended
+  int max_jobs_per_owner = 10'000;
 };
 
 /// Safe from any thread. A change is on disk when its call returns; with it, in the same transaction, is its event.
@@ -54,7 +62,7 @@ class JobStore {
   virtual std::string epoch() = 0;
 
   /// The same key and spec give the first job again. Throws ProtocolError `key_conflict` for the same key with another
-  /// spec.
+  /// spec, `queue_full` and `quota` for a new job above max_jobs and, of an owner with a name, max_jobs_per_owner.
   virtual Submitted submit(const NewJob& job) = 0;
   /// queued -> running of the job that is next: the one with the highest priority, where each step of priority is worth
   /// some waiting (StoreRules::ageing_ms). Nothing while the queue is paused, or while the next job has no room in the

@@ -6,7 +6,7 @@ namespace {
 constexpr const char* columns =
     "number, id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, memory_bytes, rank, "
     "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence, "
-    "pinned";
+    "pinned, owner";
 
 JobRow read_row(const Statement& row) {
   JobRow read;
@@ -41,6 +41,7 @@ JobRow read_row(const Statement& row) {
   job.error_code = text();
   job.error_sentence = text();
   job.pinned = number() != 0;
+  job.owner = text();
   return read;
 }
 
@@ -69,13 +70,13 @@ std::vector<JobRow> JobTable::all(const std::string& rest, const std::vector<std
 JobRow JobTable::insert(const JobRecord& job) {
   Statement insert(database_,
                    "INSERT INTO job(id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, "
-                   "memory_bytes, rank, wake_at, submitted_at) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)");
+                   "memory_bytes, rank, wake_at, submitted_at, owner) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   insert.bind(job.id).bind(name(job.state));
   job.key.empty() ? insert.bind_null() : insert.bind(job.key);
   insert.bind(job.schedule.priority).bind(job.schedule.not_before).bind(job.schedule.start_by);
   insert.bind(job.schedule.max_runtime_s).bind(job.spec).bind(job.cell_bundle);
   insert.bind(static_cast<std::int64_t>(job.memory_bytes)).bind(job.rank).bind(job.wake_at).bind(job.submitted_at);
-  insert.run();
+  insert.bind(job.owner).run();
   JobRow row = *find(job.id);
   Json data{{"to", name(job.state)}, {"reason", "submitted"}};
   describe(job, data);

@@ -3,7 +3,6 @@
 #include "server/job_run.hpp"
 
 namespace sculpt {
-
 namespace {
 
 std::string expiry(const JobRecord& job, std::chrono::milliseconds keep) {
@@ -26,6 +25,7 @@ Json job_view(const Services& services, const JobRecord& job) {
   const JobSpec spec = read_stored_spec(job);
   Json view{{"job", job.id}, {"state", name(job.state)}};
   if (!job.key.empty()) view["key"] = job.key;
+  if (!job.owner.empty()) view["owner"] = job.owner;
   view["priority"] = job.schedule.priority;
   view["mesh"] = spec.mesh.name;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);

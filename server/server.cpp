@@ -49,6 +49,8 @@ StoreRules store_rules(const Config& config) {
   StoreRules rules;
   rules.first_backoff_ms = static_cast<std::uint64_t>(config.retry_backoff.count());
   rules.isolate = config.isolate;
+  rules.max_jobs = config.max_jobs;
+  rules.max_jobs_per_owner = config.max_jobs_per_owner;
   rules.memory_bytes = job_memory(config);
   return rules;
 }

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
-constexpr int max_workers = 1024, max_sockets = 1 << 20;
+constexpr int max_workers = 1024, max_sockets = 1 << 20, max_open_jobs = 100'000'000;
 constexpr double min_s = 0.001, max_s = 86400, max_keep_s = 100.0 * 366 * 86400;
 
 // --- the kinds of settings
@@ -189,6 +189,10 @@ const std::vector<Setting>& settings() {
               max_keep_s),
       bytes("keep_bytes", &Config::keep_bytes, at_reload,
             "results of all finished jobs; above it the oldest jobs go, unless pinned"),
+      integer("max_jobs", &Config::max_jobs, 1, max_open_jobs, at_start,
+              "that have not ended; above it new ones are refused"),
+      integer("max_jobs_per_owner", &Config::max_jobs_per_owner, 1, max_open_jobs, at_start,
+              "that have not ended, of one token, certificate or user"),
       flag("isolate", &Config::isolate, at_start,
            "run every job in a process of its own, not only those that are suspected"),
       seconds("retry_backoff_s", &Config::retry_backoff, at_start,

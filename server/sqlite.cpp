@@ -12,7 +12,9 @@ constexpr int busy_timeout_ms = 5000;
 [[noreturn]] void fail(sqlite3* handle, const char* doing) {
   const int error = sqlite3_extended_errcode(handle);
   if (error == SQLITE_IOERR_FSYNC || error == SQLITE_IOERR_DIR_FSYNC) end_after_failed_sync("the database");
-  throw StorageError(std::string("the database failed to ") + doing + ": " + sqlite3_errmsg(handle));
+  const std::string sentence = std::string("the database failed to ") + doing + ": " + sqlite3_errmsg(handle);
+  if (error == SQLITE_FULL) throw StorageFull(sentence + ": make space, then try again");
+  throw StorageError(sentence);
 }
 
 sqlite3* open(const std::filesystem::path& file) {

@@ -63,6 +63,8 @@ CREATE INDEX job_start_by ON job(start_by) WHERE start_by <> '';
 
 constexpr const char* version_3 = R"(
 ALTER TABLE job ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+CREATE INDEX job_owner ON job(owner, state);
 CREATE TABLE removed(id TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
 )";
 

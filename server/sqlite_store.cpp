@@ -51,6 +51,7 @@ class SqliteStore : public JobStore {
       }
       return {first->job, true};
     }
+    refuse_too_many(wanted.owner);
     const JobRow row = jobs_.insert(new_record(wanted));
     transaction.commit();
     return {row.job, false};
@@ -316,6 +317,7 @@ class SqliteStore : public JobStore {
     JobRecord job;
     job.id = ids_.next(now_ms);
     job.key = wanted.key;
+    job.owner = wanted.owner;
     job.schedule = wanted.schedule;
     job.spec = wanted.spec;
     job.cell_bundle = wanted.cell_bundle;
@@ -327,6 +329,31 @@ class SqliteStore : public JobStore {
       job.wake_at = wanted.schedule.not_before;
     }
     return job;
+  }
+
+  void refuse_too_many(const std::string& owner) {
+    if (count_open({}) >= rules_.max_jobs) {
+      throw ProtocolError("queue_full",
+                          "the server has " + std::to_string(rules_.max_jobs) +
+                              " jobs that have not ended, as many as it may: try again when some have, or "
+                              "raise max_jobs");
+    }
+    if (!owner.empty() && count_open(owner) >= rules_.max_jobs_per_owner) {
+      throw ProtocolError("quota", "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
+                                       " jobs that have not ended, as many as one may: try again when some have, or "
+                                       "raise max_jobs_per_owner");
+    }
+  }
+
+  // Of everybody where no owner is given.
+  std::int64_t count_open(const std::string& owner) {
+    std::string sql = "SELECT count(*) FROM job WHERE state IN (";
+    for (const JobState state : job_states)
+      if (!is_final(state)) sql += (sql.ends_with("(") ? "'" : ",'") + std::string(name(state)) + "'";
+    Statement query(database_, sql + (owner.empty() ? ")" : ") AND owner=?"));
+    if (!owner.empty()) query.bind(owner);
+    query.step();
+    return query.number(0);
   }
 
   bool has_room(const JobRecord& job) {

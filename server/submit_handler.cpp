@@ -15,12 +15,13 @@ Answer submit_answer(const Submitted& submitted) {
 
 // Runs on the admission thread. A repeated submit is answered from the store: it must work even when its cell is gone
 // since.
-Answer admit(Services& services, const SubmitParams& submit, const std::stop_token& stop) {
+Answer admit(Services& services, const SubmitParams& submit, const std::string& owner, const std::stop_token& stop) {
   NewJob job{submit.key,
              {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s},
              write_json(to_json(submit.spec)),
              submit.spec.cell_bundle,
-             0};
+             0,
+             owner};
   if (!submit.key.empty() && services.store.find_key(submit.key)) return submit_answer(services.store.submit(job));
   if (job.cell_bundle.empty())
     job.cell_bundle = store_cell(services.planner.read_cell(submit.spec.robot), services.blobs);
@@ -39,8 +40,10 @@ Answer admit(Services& services, const SubmitParams& submit, const std::stop_tok
 
 void on_submit(Services& services, Call call) {
   const auto submit = std::make_shared<const SubmitParams>(read_submit(call.params));
-  answer_from(services.admission, services, std::move(call),
-              [&services, submit](const std::stop_token& stop) { return admit(services, *submit, stop); });
+  const std::string owner = call.session->owner();
+  answer_from(services.admission, services, std::move(call), [&services, submit, owner](const std::stop_token& stop) {
+    return admit(services, *submit, owner, stop);
+  });
 }
 
 }  // namespace sculpt

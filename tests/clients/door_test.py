@@ -402,6 +402,20 @@ class Tokens(DoorTest):
             wire = self.greeted(daemon, token=self.tokens[scope])
             self.assertEqual([self.word(wire, message) for message in (look, work)], expected, scope)
 
+    def test_who_has_too_many_jobs_is_refused_and_nobody_else(self):
+        daemon = self.daemon(tokens="tokens.json", max_jobs_per_owner=1)
+        first, second = (sculpt.Client(daemon.address, token=self.tokens[scope]) for scope in ("submit", "admin"))
+        with first, second:
+            second.call("queue.pause")
+            mesh = first.upload_file(shapes.write_stl(self.scratch / "steps.stl", shapes.steps()))
+            spec = {"mesh": mesh, "robot": "gantry", "resolution": 8}
+            job = first.submit(spec)["job"]
+            self.assertEqual(second.call("job.get", job=job)["owner"], "the-submit")
+            with self.assertRaises(sculpt.Failure) as refused:
+                first.submit(spec)
+            self.assertEqual(refused.exception.code, "quota")
+            second.submit(spec)
+
     def test_a_token_made_or_removed_while_it_runs(self):
         daemon = self.daemon(tokens="tokens.json")
         self.greeted(daemon, token=self.make("late", "--scope", "read"))

@@ -26,10 +26,22 @@ bool StoreModel::is_late(const ModelJob& job) const {
   return job.start_by_ms != 0 && job.start_by_ms < now_ms_ && job.attempt == 0;
 }
 
-void StoreModel::submit(const std::string& id, int priority, std::uint64_t not_before_ms, std::uint64_t start_by_ms,
-                        std::uint64_t memory_bytes) {
+std::string StoreModel::refusal_of(const std::string& owner) const {
+  int open = 0, own = 0;
+  for (const ModelJob& job : jobs_) {
+    if (is_final(job.state)) continue;
+    ++open;
+    own += job.owner == owner;
+  }
+  if (open >= rules_.max_jobs) return "queue_full";
+  return !owner.empty() && own >= rules_.max_jobs_per_owner ? "quota" : "";
+}
+
+void StoreModel::submit(const std::string& id, const std::string& owner, int priority, std::uint64_t not_before_ms,
+                        std::uint64_t start_by_ms, std::uint64_t memory_bytes) {
   ModelJob job;
   job.id = id;
+  job.owner = owner;
   job.priority = priority;
   job.submitted_ms = now_ms_;
   job.not_before_ms = job.wake_ms = not_before_ms;

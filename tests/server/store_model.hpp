@@ -19,6 +19,7 @@ struct ModelJob {
   std::uint64_t memory_bytes = 0;
   int attempt = 0, failures = 0, crashes = 0;
   bool isolated = false, pinned = false;
+  std::string owner;
 };
 
 /// Refused moves give nothing.
@@ -26,8 +27,10 @@ class StoreModel {
  public:
   StoreModel(const StoreRules& rules, const std::uint64_t& now_ms) : rules_(rules), now_ms_(now_ms) {}
 
-  void submit(const std::string& id, int priority, std::uint64_t not_before_ms, std::uint64_t start_by_ms,
-              std::uint64_t memory_bytes);
+  /// The code of the error with which a submit is refused now, or empty.
+  std::string refusal_of(const std::string& owner) const;
+  void submit(const std::string& id, const std::string& owner, int priority, std::uint64_t not_before_ms,
+              std::uint64_t start_by_ms, std::uint64_t memory_bytes);
   std::optional<std::string> claim();
   bool finish(const std::string& id, int attempt, const Ending& ending);
   bool release(const std::string& id, int attempt);

@@ -33,6 +33,8 @@ class History {
   explicit History(std::uint64_t seed) : random_(seed) {
     rules_.isolate = seed % 5 == 0;
     rules_.memory_bytes = 10;
+    rules_.max_jobs = 9;
+    rules_.max_jobs_per_owner = 4;
     rules_.now_ms = [this] { return now_ms_; };
     open();
   }
@@ -63,8 +65,15 @@ class History {
     job.schedule.not_before = text(not_before);
     job.schedule.start_by = text(start_by);
     job.memory_bytes = 1 + below(12);
-    const std::string id = store_->submit(job).job.id;
-    model_.submit(id, job.schedule.priority, not_before, start_by, job.memory_bytes);
+    job.owner = std::vector<std::string>{"", "arm", "gantry"}[below(3)];
+    const std::string refusal = model_.refusal_of(job.owner);
+    try {
+      const std::string id = store_->submit(job).job.id;
+      model_.submit(id, job.owner, job.schedule.priority, not_before, start_by, job.memory_bytes);
+      ASSERT_EQ(refusal, "");
+    } catch (const ProtocolError& error) {
+      ASSERT_EQ(refusal, error.code());
+    }
   }
 
   void step() {
@@ -144,6 +153,7 @@ class History {
       const JobRecord& job = records[i];
       ASSERT_EQ(job.id, wanted.id);
       ASSERT_STREQ(name(job.state), name(wanted.state));
+      ASSERT_EQ(job.owner, wanted.owner);
       ASSERT_EQ(job.attempt, wanted.attempt);
       ASSERT_EQ(job.failures, wanted.failures);
       ASSERT_EQ(job.crashes, wanted.crashes);

@@ -34,7 +34,7 @@ TEST(Streams, ALateSubscriberGetsTheWholeStoryOrTheRestOfIt) {
     for (std::uint64_t seq = after + 1; seq <= 3; ++seq) EXPECT_EQ(client.next_event()->at("seq"), seq);
     EXPECT_EQ(client.next_event()->at("type"), "live");
   }
-  EXPECT_EQ(refusal(client, "events.subscribe", {{"job", job}, {"after", 4}}), "params_invalid");
+  EXPECT_EQ(refusal(client, "events.subscribe", {{"job", job}, {"after", 4}}), "replay_gap");
 }
 
 TEST(Streams, AfterUnsubscribingNothingMoreComes) {
