@@ -1,0 +1,36 @@
+// A config file; and its text as each single setting, as a flag or a variable gives it.
+#include "proto/error_codes.hpp"
+#include "proto/json.hpp"
+#include "server/settings.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace {
+
+using namespace sculpt;
+
+void read_file(std::string_view bytes) {
+  Config config;
+  try {
+    read_settings(parse_json(bytes), "/etc/sculptd", config);
+  } catch (const JsonError&) {
+    return;
+  } catch (const ProtocolError&) {
+    return;
+  } catch (const ConfigError&) {
+    return;
+  }
+  for (const Setting& setting : settings()) write_json(setting.show(config));
+}
+
+}  // namespace
+
+void read_hostile(std::string_view bytes) {
+  read_file(bytes);
+  for (const Setting& setting : settings()) {
+    Config config;
+    try {
+      read_setting(setting, std::string(bytes), config);
+    } catch (const ConfigError&) {
+    }
+  }
+}
