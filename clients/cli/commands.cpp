@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iostream>
 
 namespace sculpt {
 
@@ -21,6 +22,12 @@ const CLI::Validator address{
     ""};
 
 }  // namespace
+
+Client connect(const std::string& server) {
+  Client client(server, client_name);
+  client.when_lost([](const std::string& sentence) { std::cerr << "sculpt: " << sentence << std::endl; });
+  return client;
+}
 
 void add_common_options(CLI::App& command, Invocation& invocation) {
   command

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "clients/cpp/client.hpp"
+
 namespace sculpt {
 
 /// What the command line decided: where the server is and what to do.
@@ -15,6 +17,9 @@ struct Invocation {
 
 /// How this program names itself to servers, and in --version.
 inline constexpr const char* client_name = "sculpt 0.1.0";
+
+/// Says on stderr when the server is lost and looked for.
+Client connect(const std::string& server);
 
 /// --server and --version, which stand before or after the command's name.
 void add_common_options(CLI::App& command, Invocation& invocation);

@@ -16,7 +16,7 @@ struct Order {
 };
 
 int give_order(const std::string& server, const std::string& method, const Order& order) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json reply = client.call(method, {{"job", order.job}});
   std::cout << (order.json ? write_json(reply) : reply.at("state").get<std::string>()) << "\n";
   return exit_fine;
@@ -32,14 +32,14 @@ void add_order(CLI::App& app, Invocation& invocation, const std::string& verb, c
 }
 
 int pin_job(const std::string& server, const Order& order, bool pinned) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json reply = client.call("artifact.pin", {{"job", order.job}, {"pinned", pinned}});
   std::cout << (order.json ? write_json(reply) : pinned ? "pinned" : "not pinned") << "\n";
   return exit_fine;
 }
 
 int set_queue(const std::string& server, const std::string& wish, bool json) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json reply = client.call("queue." + wish, Json::object());
   std::cout << (json ? write_json(reply) : reply.at("paused").get<bool>() ? "paused" : "open") << "\n";
   return exit_fine;

@@ -14,6 +14,7 @@ bool is_final(const std::string& state) {
 }
 
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
+  client.when_lost([&progress](const std::string& sentence) { progress.say(sentence); });
   client.subscribe(job);
   bool warned = false;
   for (bool ended = false; !ended;) {
@@ -36,6 +37,7 @@ Json follow_job(Client& client, const std::string& job, ProgressLine& progress) 
     }
   }
   progress.clear();
+  client.when_lost({});
   return client.call("job.get", {{"job", job}});
 }
 

@@ -41,7 +41,7 @@ Json all_jobs(Client& client) {
 }
 
 int run_list(const std::string& server, bool json) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json jobs = all_jobs(client);
   if (json) {
     std::cout << write_json({{"jobs", jobs}}) << "\n";
@@ -67,7 +67,7 @@ void print_status(const Json& job) {
 }
 
 int run_status(const std::string& server, const JobArgument& options) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json job = client.call("job.get", {{"job", options.job}});
   if (options.json)
     std::cout << write_json(job) << "\n";

@@ -26,7 +26,7 @@ struct FetchOptions {
 };
 
 int run_report(const std::string& server, const ReportOptions& options) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json report = client.call("job.report", {{"job", options.job}});
   std::cout << (options.json ? write_json(report) + "\n" : report_table(report));
   return exit_fine;
@@ -44,7 +44,7 @@ bool is_whole(const Json& end) {
 }
 
 int run_fetch(const std::string& server, const FetchOptions& options) {
-  Client client(server, client_name);
+  Client client = connect(server);
   Json end = grows(options) ? client.call("job.get", {{"job", options.job}}) : wait_job(client, options.job);
   if (is_final(end.value("state", "")) && !is_whole(end)) return end_exit_code(end);
 

@@ -75,7 +75,7 @@ Json make_spec(Client& client, const JobOptions& options, const Inputs& inputs) 
 
 int run_submit(const std::string& server, const SubmitOptions& options) {
   const Inputs inputs = read_inputs(options.job);
-  Client client(server, client_name);
+  Client client = connect(server);
   Json params;
   if (!options.key.empty()) params["key"] = options.key;
   if (options.priority) params["priority"] = *options.priority;

@@ -22,7 +22,7 @@ struct TopOptions {
 };
 
 int print_snapshot(const std::string& server, bool json) {
-  Client client(server, client_name);
+  Client client = connect(server);
   OpenJobs jobs;
   const Json queue = read_queue(client, jobs);
   std::cout << (json ? write_json(queue) + "\n" : queue_text(queue, 0, 0));
@@ -32,10 +32,10 @@ int print_snapshot(const std::string& server, bool json) {
 /// A server that is started again is found again.
 class Queue {
  public:
-  explicit Queue(const std::string& server) : server_(server) { client_.emplace(server, client_name); }
+  explicit Queue(const std::string& server) : server_(server) { open(); }
 
   std::string text(Screen::Size size) try {
-    if (!client_) client_.emplace(server_, client_name);
+    if (!client_) open();
     // The last line stays free, so that the terminal does not scroll.
     return queue_text(read_queue(*client_, jobs_), size.columns, std::max(2, size.rows - 1));
   } catch (const ServerUnreachable& error) {
@@ -45,6 +45,9 @@ class Queue {
   }
 
  private:
+  // Without patience: what the screen shows is never old.
+  void open() { client_.emplace(server_, client_name, login_from_environment(), 0); }
+
   std::string server_;
   std::optional<Client> client_;
   OpenJobs jobs_;

@@ -89,7 +89,7 @@ int verify_file(const VerifyOptions& options) {
 }
 
 int verify_job(const std::string& server, const VerifyOptions& options) {
-  Client client(server, client_name);
+  Client client = connect(server);
   return print_verdict(options, client.call("job.verify", {{"job", options.subject}}));
 }
 

@@ -25,7 +25,7 @@ int run_watch(const std::string& server, const WatchOptions& options) {
               << options.job << "\n";
     std::_Exit(exit_failed);
   });
-  Client client(server, client_name);
+  Client client = connect(server);
   ProgressLine progress(options.json ? STDERR_FILENO : STDOUT_FILENO,
                         options.json ? PlainLines::none : PlainLines::on_change);
   const Json end = follow_job(client, options.job, progress);
@@ -34,7 +34,7 @@ int run_watch(const std::string& server, const WatchOptions& options) {
 }
 
 int run_wait(const std::string& server, const WatchOptions& options) {
-  Client client(server, client_name);
+  Client client = connect(server);
   const Json end = wait_job(client, options.job);
   if (options.json) std::cout << write_json(end) << "\n";
   return end_exit_code(end);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <ostream>
 #include <thread>
@@ -16,6 +17,8 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t upload_bytes = 1 << 20;
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds first_pause{100}, longest_pause{2000};  // between looks for a lost server
 constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an artifact that has not grown
 
 [[noreturn]] void raise(const Json& error) {
@@ -25,7 +28,23 @@ constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an a
                     error.value("message", std::string("the server gave an error without a message")));
 }
 
+// Asking twice comes to the same as asking once.
+bool may_repeat(const std::string& method, const Json& params) {
+  return method != "job.retry" && (method != "job.submit" || params.contains("key"));
+}
+
 }  // namespace
+
+double patience_from_environment() {
+  constexpr double usual_s = 60;
+  const char* text = std::getenv("SCULPT_PATIENCE_S");
+  if (text == nullptr || *text == '\0') return usual_s;
+  char* end = nullptr;
+  const double seconds = std::strtod(text, &end);
+  if (*end != '\0' || !(seconds >= 0))
+    throw std::runtime_error(std::string("SCULPT_PATIENCE_S must be a number of seconds, not '") + text + "'");
+  return seconds;
+}
 
 /// A request with its chunk, and where the chunk of its reply goes.
 struct Client::Exchange {
@@ -35,20 +54,67 @@ struct Client::Exchange {
   std::string* reply_chunk = nullptr;
 };
 
-Client::Client(const std::string& server, const std::string& name, const Login& login)
-    : connection_(std::make_unique<Connection>(server, login)) {
-  Json hello{{"protocol", {protocol_major, protocol_minor}}, {"client", name}};
-  if (!login.token.empty()) hello["token"] = login.token;
-  hello_ = call("hello", hello);
+Client::Client(std::string server, std::string name, Login login, double patience_s)
+    : server_(std::move(server)), name_(std::move(name)), login_(std::move(login)), patience_s_(patience_s) {
+  open();
+}
+
+void Client::open() {
+  connection_ = std::make_unique<Connection>(server_, login_);
+  const std::string method = "hello";
+  Json hello{{"protocol", {protocol_major, protocol_minor}}, {"client", name_}};
+  if (!login_.token.empty()) hello["token"] = login_.token;
+  hello_ = ask({method, hello, {}, nullptr});
+}
+
+// Ends with a new connection, on which all is followed that was, or throws what was `lost` with.
+void Client::find_again(const std::exception_ptr& lost) {
+  const auto end = Clock::now() + std::chrono::duration<double>(patience_s_);
+  if (patience_s_ > 0 && tell_lost_) tell_lost_("the connection to " + server_ + " broke: looking for the server");
+  const std::string epoch = hello_.value("epoch", std::string());
+  for (auto pause = first_pause; Clock::now() + pause < end; pause = std::min(2 * pause, longest_pause)) {
+    std::this_thread::sleep_for(pause);
+    try {
+      open();
+      if (hello_.value("epoch", std::string()) != epoch) {
+        throw ServerError("replay_gap", 6001, false, {},
+                          "the store of the server at " + server_ + " was replaced: the jobs of before are not there");
+      }
+      const std::string method = "events.subscribe";
+      for (const auto& [job, seq] : followed_) ask({method, {{"job", job}, {"after", seq}}, {}, nullptr});
+      return;
+    } catch (const ServerUnreachable&) {
+    } catch (const ServerError& error) {
+      if (error.code() != "stopping") throw;
+    }
+  }
+  std::rethrow_exception(lost);
 }
 
 Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
 
 Json Client::call(const std::string& method, const Json& params) {
   return exchange({method, params, {}, nullptr});
 }
 
 Json Client::exchange(const Exchange& exchange) {
+  while (true) {
+    std::exception_ptr lost;
+    try {
+      return ask(exchange);
+    } catch (const ServerUnreachable&) {
+      lost = std::current_exception();
+    } catch (const ServerError& error) {
+      if (error.code() != "stopping") throw;
+      lost = std::current_exception();
+    }
+    if (!may_repeat(exchange.method, exchange.params)) std::rethrow_exception(lost);
+    find_again(lost);
+  }
+}
+
+Json Client::ask(const Exchange& exchange) {
   const std::int64_t id = ++last_id_;
   std::string bytes = request_line(id, exchange.method, exchange.params) + "\n";
   if (exchange.chunk) bytes.append(*exchange.chunk).append("\n");
@@ -56,7 +122,7 @@ Json Client::exchange(const Exchange& exchange) {
   while (true) {
     Json message = *receive(std::nullopt, exchange.reply_chunk);
     if (message.contains("method")) {
-      events_.push_back(std::move(message["params"]));
+      keep(std::move(message["params"]));
     } else if (message.contains("error")) {
       raise(message["error"]);
     } else if (message.value("id", Json()) == id) {
@@ -142,20 +208,31 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
   }
 }
 
+void Client::keep(Json event) {
+  if (event.contains("seq")) followed_[event.at("job")] = event.at("seq");
+  events_.push_back(std::move(event));
+}
+
 void Client::subscribe(const std::string& job, std::uint64_t after) {
   call("events.subscribe", {{"job", job}, {"after", after}});
+  followed_[job] = after;
 }
 
 void Client::unsubscribe(const std::string& job) {
   call("events.unsubscribe", {{"job", job}});
+  followed_.erase(job);
   std::erase_if(events_, [&](const Json& event) { return event.value("job", std::string()) == job; });
 }
 
 std::optional<Json> Client::next_event(std::optional<double> timeout_s) {
   while (events_.empty()) {
-    std::optional<Json> message = receive(timeout_s, nullptr);
-    if (!message) return std::nullopt;
-    if (message->contains("method")) events_.push_back(std::move((*message)["params"]));
+    try {
+      std::optional<Json> message = receive(timeout_s, nullptr);
+      if (!message) return std::nullopt;
+      if (message->contains("method")) keep(std::move((*message)["params"]));
+    } catch (const ServerUnreachable&) {
+      find_again(std::current_exception());
+    }
   }
   Json event = std::move(events_.front());
   events_.pop_front();

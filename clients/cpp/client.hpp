@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -44,6 +46,10 @@ class ServerError : public std::runtime_error {
   std::string pointer_;
 };
 
+/// How long a client that has lost the server looks for it: SCULPT_PATIENCE_S, else a minute. Throws
+/// std::runtime_error for what is no number of seconds.
+double patience_from_environment();
+
 struct ArtifactRequest {
   std::string job;
   std::string artifact;      ///< trajectory, voxels, residue, report
@@ -52,13 +58,22 @@ struct ArtifactRequest {
   std::uint32_t chunk_bytes = 1 << 20;
 };
 
-/// Not shared between threads. Every method throws ServerUnreachable when the connection breaks and ServerError when
-/// the server refuses.
+/// Not shared between threads. When the connection breaks, or the server is about to stop, it is looked for until
+/// `patience_s` is over; then what was asked is asked again, and subscriptions go on behind the last event: none is
+/// lost and none comes twice. What must not be asked twice (job.submit without a key, job.retry) is not. Every method
+/// throws ServerUnreachable when that fails, and ServerError when the server refuses or its store was replaced
+/// (`replay_gap`).
 class Client {
  public:
-  /// Connects ("HOST:PORT", "[V6]:PORT", "tls:HOST:PORT", "unix:PATH") and says hello. `name` is for the server's log.
-  Client(const std::string& server, const std::string& name, const Login& login = login_from_environment());
+  /// Connects ("HOST:PORT", "[V6]:PORT", "tls:HOST:PORT", "unix:PATH") and says hello, without patience. `name` is for
+  /// the server's log.
+  Client(std::string server, std::string name, Login login = login_from_environment(),
+         double patience_s = patience_from_environment());
   ~Client();
+  Client(Client&&) noexcept;
+
+  /// `tell` gets a sentence each time that the server is lost.
+  void when_lost(std::function<void(const std::string&)> tell) { tell_lost_ = std::move(tell); }
 
   /// The reply to hello: server, epoch, features, limits.
   const Json& hello() const { return hello_; }
@@ -73,8 +88,7 @@ class Client {
 
   /// Writes the artifact from the offset to its end to `out` and returns the offset behind the last byte. Follows an
   /// artifact that still grows until it is final or the job ended without it; `waiting` (if given) is called when it
-  /// has caught up, and ends the reading by returning false. When the connection breaks, `request.offset` plus what was
-  /// written is the place to go on.
+  /// has caught up, and ends the reading by returning false.
   std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out,
                               const std::function<bool()>& waiting = {});
 
@@ -87,14 +101,24 @@ class Client {
 
  private:
   struct Exchange;
+  void open();
+  void find_again(const std::exception_ptr& lost);
+  /// Asks until there is an answer.
   Json exchange(const Exchange& exchange);
+  Json ask(const Exchange& exchange);
+  void keep(Json event);
   /// The next reply or event; nothing when none came in time.
   std::optional<Json> receive(std::optional<double> timeout_s, std::string* chunk);
   void put_chunk(const std::string& sha256, std::uint64_t size, std::uint64_t& offset, std::string_view chunk);
 
+  std::string server_, name_;
+  Login login_;
+  double patience_s_;
+  std::function<void(const std::string&)> tell_lost_;
   std::unique_ptr<Connection> connection_;
   Json hello_;
   std::deque<Json> events_;
+  std::map<std::string, std::uint64_t> followed_;  ///< job -> its last event that has come
   std::int64_t last_id_ = 0;
 };
 

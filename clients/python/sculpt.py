@@ -25,6 +25,7 @@ import re
 import socket
 import ssl
 import sys
+import time
 import xml.etree.ElementTree
 import zlib
 
@@ -42,24 +43,59 @@ class Failure(Exception):
         self.exit_code, self.code = exit_code, code
 
 
+class Lost(Failure):
+    """The server does not answer, or the connection broke."""
+
+    def __init__(self, sentence):
+        super().__init__(UNREACHABLE, "unreachable", sentence)
+
+
 class Client:
     """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED).
 
     `server` is HOST:PORT, tls:HOST:PORT or unix:PATH. Without `token` it is SCULPT_TOKEN, or stands in the file SCULPT_TOKEN_FILE;
     SCULPT_TLS_CA, SCULPT_TLS_CERT and SCULPT_TLS_KEY name the PEM files for TLS.
+
+    When the connection breaks, or the server is about to stop, it is looked for until `patience_s` (SCULPT_PATIENCE_S, else a minute)
+    is over; then what was asked is asked again, and subscriptions go on behind the last event: none is lost and none comes twice. What
+    must not be asked twice (job.submit without a key, job.retry) is not.
     """
 
-    def __init__(self, server="127.0.0.1:7878", name=VERSION, token=None):
-        self.server, self.next_id, self.events = server, 1, collections.deque()
-        token = read_token() if token is None else token
+    def __init__(self, server="127.0.0.1:7878", name=VERSION, token=None, patience_s=None):
+        self.server, self.name, self.token = server, name, read_token() if token is None else token
+        self.patience_s = read_patience() if patience_s is None else patience_s
+        self.next_id, self.events, self.followed = 1, collections.deque(), {}  # job -> its last event that has come
+        self._open()
+
+    def _open(self):
         try:
-            self.socket = connect(server)
+            self.socket = connect(self.server)
             self.socket.settimeout(None)
         except OSError as error:
-            raise Failure(UNREACHABLE, "unreachable",
-                          f"no server answers at {server} ({error}): start sculptd, or say --server HOST:PORT") from error
+            raise Lost(f"no server answers at {self.server} ({error}): start sculptd, or say --server HOST:PORT") from error
         self.stream = self.socket.makefile("rwb")
-        self.hello = self.call("hello", protocol=[1, 0], client=name, **({"token": token} if token else {}))
+        self.hello = self._ask("hello", None, {"protocol": [1, 0], "client": self.name, **({"token": self.token} if self.token else {})})
+
+    def _find_again(self, lost):
+        """Ends with a new connection, on which all is followed that was, or raises what was lost with."""
+        self.close()
+        end, pause_s, epoch = time.monotonic() + self.patience_s, 0.1, self.hello["epoch"]
+        if self.patience_s > 0:
+            print(f"sculpt: the connection to {self.server} broke: looking for the server", file=sys.stderr, flush=True)
+        while time.monotonic() + pause_s < end:
+            time.sleep(pause_s)
+            pause_s = min(2 * pause_s, 2)
+            try:
+                self._open()
+                if self.hello["epoch"] != epoch:
+                    raise Failure(REFUSED, "replay_gap", f"the store of the server at {self.server} was replaced: the jobs of before are not there")
+                for job, seq in self.followed.items():
+                    self._ask("events.subscribe", None, {"job": job, "after": seq})
+                return
+            except Failure as failure:
+                if not may_pass(failure):
+                    raise
+        raise lost
 
     def __enter__(self):
         return self
@@ -72,6 +108,22 @@ class Client:
 
     def call(self, method, chunk=None, **params):
         """The result of a request; of artifact.read the pair (result, bytes). Events that come meanwhile are kept."""
+        repeatable = method != "job.retry" and (method != "job.submit" or "key" in params)
+        while True:
+            try:
+                result = self._ask(method, chunk, params)
+                break
+            except Failure as failure:
+                if not repeatable or not may_pass(failure):
+                    raise
+                self._find_again(failure)
+        if method == "events.subscribe":
+            self.followed[params["job"]] = params.get("after", 0)
+        elif method == "events.unsubscribe":
+            self.followed.pop(params["job"], None)
+        return result
+
+    def _ask(self, method, chunk, params):
         request_id, self.next_id = self.next_id, self.next_id + 1
         line = json.dumps({"jsonrpc": "2.0", "id": request_id, "method": method, "params": params})
         try:
@@ -84,7 +136,7 @@ class Client:
             if message.get("id") == request_id:
                 break
             if message.get("method") == "event":
-                self.events.append(message["params"])
+                self._keep(message["params"])
             elif message.get("id") is None and "error" in message:
                 break
         if "error" in message:
@@ -96,10 +148,19 @@ class Client:
     def next_event(self):
         """The params of the next event of a subscription; waits for it."""
         while not self.events:
-            message = self._read_line()
+            try:
+                message = self._read_line()
+            except Lost as lost:
+                self._find_again(lost)
+                continue
             if message.get("method") == "event":
-                self.events.append(message["params"])
+                self._keep(message["params"])
         return self.events.popleft()
+
+    def _keep(self, event):
+        if "seq" in event:
+            self.followed[event["job"]] = event["seq"]
+        self.events.append(event)
 
     def upload(self, content):
         """Sends the bytes unless the server has them; gives their hash."""
@@ -164,11 +225,22 @@ class Client:
         return chunk[:-1]
 
     def _broken(self):
-        return Failure(UNREACHABLE, "unreachable",
-                       f"the connection to {self.server} broke; jobs go on when sculptd runs again: try again then")
+        return Lost(f"the connection to {self.server} broke; jobs go on when sculptd runs again: try again then")
 
 
 # The way to the server
+
+def may_pass(failure):
+    return isinstance(failure, Lost) or failure.code == "stopping"
+
+
+def read_patience():
+    text = os.environ.get("SCULPT_PATIENCE_S") or "60"
+    try:
+        return max(0.0, float(text))
+    except ValueError:
+        raise Failure(USAGE, "usage", f"SCULPT_PATIENCE_S must be a number of seconds, not '{text}'") from None
+
 
 def connect(server):
     """A connected socket; raises Failure (USAGE) for what is no address, and OSError."""

@@ -18,6 +18,8 @@ SCULPT = [os.environ["SCULPT"]]
 SCULPT_PY = [sys.executable, str(SOURCE / "clients/python/sculpt.py")]
 sys.path.insert(0, str(SOURCE / "clients/python"))
 
+os.environ.setdefault("SCULPT_PATIENCE_S", "0")  # of a client that has lost its server: none
+
 PATIENCE_S = 300  # a hang becomes a failure; nothing is measured by it
 
 

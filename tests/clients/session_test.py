@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 import shapes
-from harness import SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest, environment, shared_data
+from harness import PATIENCE_S, SCULPT, SCULPT_PY, SOURCE, ClientTest, Daemon, DaemonTest, environment, shared_data
 
 import sculpt
 
@@ -291,6 +291,32 @@ class TwoClients(ClientTest):
             self.assertEqual(process.returncode, 3, f"{process.args}\n{errors}")
             self.assertRegex(errors, r"^sculpt: unreachable: ")
         self.assertEqual(list(self.scratch.glob("t.ndjson*")), [])
+
+    def test_those_who_wait_find_the_daemon_that_comes_after(self):
+        daemon = Daemon(self.scratch / "data", "--workers", "1")
+        self.server = daemon.address
+        mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
+        job = self.fine("submit", mesh, "--resolution", 16, "--robot", "panda-turntable", "--search", "octree").strip()
+        patient = {**environment(self.server), "SCULPT_PATIENCE_S": str(PATIENCE_S)}
+        clients = {"cpp": SCULPT, "python": SCULPT_PY}
+        waiting = {(name, verb[0]): subprocess.Popen([*client, *verb], env=patient, cwd=self.scratch, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                   for name, client in clients.items() for verb in (["watch", job], ["wait", job], ["fetch", job, "-o", name])}
+        for name in clients:
+            while "running" not in waiting[name, "watch"].stdout.readline():
+                pass
+        daemon.kill()
+        with Daemon(self.scratch / "data", "--workers", "1", listen=self.server):
+            for process in waiting.values():
+                output, errors = process.communicate()
+                self.assertEqual(process.returncode, 0, f"{process.args}\n{output}\n{errors}")
+                if "watch" in process.args:
+                    states = [line.split()[0] for line in output.splitlines() if line.split()[0] in ("queued", "running", "succeeded")]
+                    self.assertEqual(states, ["queued", "running", "succeeded"], output)
+                    self.assertIn("looking for the server", output + errors)
+            artifacts = json.loads(self.fine("status", job, "--json"))
+            self.assertEqual(artifacts["state"], "succeeded")
+        self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "python").read_bytes())
+        self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "data/jobs" / job / "trajectory.ndjson").read_bytes())
 
     def test_interrupting_a_watch_leaves_the_job_running(self):
         with Daemon(self.scratch / "data", "--workers", "1") as daemon:

@@ -22,7 +22,7 @@ class LiveServer {
   FakePlanner fake;
 
   std::string address() const { return "127.0.0.1:" + std::to_string(server_->port()); }
-  Client connect() const { return Client(address(), "test"); }
+  Client connect() const { return Client(address(), "test", {}, 0); }
   const std::filesystem::path& data() const { return folder_.path(); }
   void stop();
   /// The same data folder under a new server.
