@@ -59,25 +59,31 @@ class Live(unittest.TestCase):
             Draft202012Validator.check_schema(part)
             self.assertEqual(part["$defs"][method + ".params"], SCHEMA["$defs"][method + ".params"])
 
-    def test_a_job_that_runs_too_long(self):
-        connection, brief = self.connect(), self.connect(max_line=256)
-        spec = {"mesh": self.upload(shapes.ball()), "robot": "panda-turntable", "resolution": 128}
-        job = ask(connection, "job.submit", spec=spec, max_runtime_s=1)["result"]["job"]
-        ask(brief, "events.subscribe", job=job)
+    def submit_long(self, connection, **params):
+        """A job that would take minutes."""
+        spec = {"mesh": self.upload(shapes.ball()), "robot": "panda-turntable", "resolution": 256}
+        return ask(connection, "job.submit", spec=spec, **params)["result"]["job"]
+
+    def test_a_job_that_is_followed_and_cancelled(self):
+        connection = self.connect()
+        job = self.submit_long(connection)
         ask(connection, "events.subscribe", job=job)
-        seen = set()
-        while "failed" not in seen:
-            event = json.loads(connection.read_line())["params"]
-            seen.add(event["data"]["to"] if event["type"] == "state" else event["type"])
-            if event["type"] == "progress":
-                self.assertIn("progress", ask(connection, "job.get", job=job)["result"])
-        self.assertLess({"progress", "live", "running"}, seen)
-        event = {}
-        while "more" not in event:
-            event = json.loads(brief.read_line())["params"]
-        self.assertEqual(ask(connection, "job.wait", job=job, timeout_s=0)["result"]["error"]["code"], "run_time_exceeded")
+        while json.loads(connection.read_line())["params"]["type"] != "progress":
+            pass
+        self.assertIn("progress", ask(connection, "job.get", job=job)["result"])
+        self.assertEqual(ask(connection, "job.cancel", job=job)["result"]["state"], "cancelling")
+        self.assertEqual(ask(connection, "job.wait", job=job, timeout_s=86400)["result"]["state"], "cancelled")
         ask(connection, "artifact.pin", job=job)
         self.assertTrue(ask(connection, "job.get", job=job)["result"]["pinned"])
+
+    def test_a_job_that_runs_too_long_told_in_short_lines(self):
+        connection = self.connect(max_line=256)
+        job = self.submit_long(connection, max_runtime_s=1)
+        failed = ask(connection, "job.wait", job=job, timeout_s=86400)["result"]
+        self.assertEqual(failed["error"]["code"], "run_time_exceeded")
+        ask(connection, "events.subscribe", job=job)
+        events = [json.loads(connection.read_line())["params"] for _ in ("queued", "running", "failed", "live")]
+        self.assertEqual([event.get("more", False) for event in events], [False, False, True, False])
 
     def test_a_plan_that_leaves_something(self):
         connection = self.connect()
