@@ -125,6 +125,13 @@ PinParams read_pin(const Json& params) {
   return pin;
 }
 
+std::string read_schema_method(const Json& params) {
+  Fields fields = params_of(params);
+  std::string method = fields.has("method") ? fields.text("method", max_text_bytes) : std::string();
+  fields.done();
+  return method;
+}
+
 void read_nothing(const Json& params) {
   params_of(params).done();
 }

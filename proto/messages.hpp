@@ -74,6 +74,9 @@ struct PinParams {
 };
 PinParams read_pin(const Json& params);
 
+/// server.schema: the method whose part is wanted; empty: the whole.
+std::string read_schema_method(const Json& params);
+
 /// A method without params.
 void read_nothing(const Json& params);
 

@@ -26,6 +26,7 @@ constexpr std::array table{
     Entry{"hello", on_hello, Scope::read},
     Entry{"ping", on_ping, Scope::read},
     Entry{"server.info", on_server_info, Scope::read},
+    Entry{"server.schema", on_server_schema, Scope::read},
     Entry{"blob.has", on_blob_has, Scope::submit},
     Entry{"blob.put", on_blob_put, Scope::submit},
     Entry{"job.submit", on_submit, Scope::submit},
@@ -51,11 +52,17 @@ const Entry& find_entry(const std::string& method) {
   const auto* found = std::ranges::find(table, method, &Entry::method);
   if (found != table.end()) return *found;
   std::string names;
-  for (const Entry& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.method);
+  for (const std::string_view name : method_names()) names += (names.empty() ? "" : ", ") + std::string(name);
   throw ProtocolError("unknown_method", "there is no method '" + method + "': there are " + names, "/method");
 }
 
 }  // namespace
+
+std::vector<std::string_view> method_names() {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : table) names.push_back(entry.method);
+  return names;
+}
 
 Json current_error() {
   try {

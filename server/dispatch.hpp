@@ -5,6 +5,8 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "proto/json.hpp"
 
@@ -27,6 +29,9 @@ struct Call {
 using Handler = void (*)(Services&, Call);
 
 void dispatch(Services& services, Call call, const std::string& method);
+
+/// All methods, in the order of PROTOCOL.md.
+std::vector<std::string_view> method_names();
 
 /// Call inside a catch block: the exception as the `error` object of a reply.
 Json current_error();

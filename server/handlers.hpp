@@ -9,6 +9,7 @@ namespace sculpt {
 void on_hello(Services& services, Call call);
 void on_ping(Services& services, Call call);
 void on_server_info(Services& services, Call call);
+void on_server_schema(Services& services, Call call);
 
 // blob_handlers.cpp
 void on_blob_has(Services& services, Call call);

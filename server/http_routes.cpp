@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "proto/schema.hpp"
 #include "server/byte_range.hpp"
 #include "server/health.hpp"
 #include "server/http_guard.hpp"
@@ -13,6 +14,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::string_view artifacts_path = "/v1/artifacts/";
+constexpr std::string_view schema_path = "/schema.json";
 constexpr std::size_t piece_bytes = 1 << 20;
 
 HttpReply ready_reply(const std::string& reason) {
@@ -159,9 +161,12 @@ Route find_route(Services& services, const Peer& peer, const HttpRequest& reques
               return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(services)};
             }};
   }
+  if (request.target == schema_path) {
+    return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(schema_text())}; }};
+  }
   if (request.target.starts_with(artifacts_path)) return artifact_route(services, request);
   throw ProtocolError("not_found",
-                      "there is nothing at this path: there are /livez, /readyz, /metrics, "
+                      "there is nothing at this path: there are /livez, /readyz, /metrics, /schema.json, "
                       "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
                           std::string(web_socket_path));
 }

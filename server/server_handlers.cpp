@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include "proto/schema.hpp"
 #include "server/handlers.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
@@ -73,6 +74,10 @@ void on_server_info(Services& services, Call call) {
                 {"cells", services.planner.cells()},
                 {"queue_paused", services.store.queue_paused()},
                 {"jobs", std::move(jobs)}});
+}
+
+void on_server_schema(Services&, Call call) {
+  answer(call, protocol_schema(read_schema_method(call.params)));
 }
 
 }  // namespace sculpt

@@ -70,9 +70,9 @@ def has_blanks(line):
     return re.search(r"\s", re.sub(r'"(\\.|[^"\\])*"', "", line.rstrip("\n"))) is not None
 
 
-def play(lines, first_number, address, names, document):
+def play(lines, first_number, address, names, document, connect=Connection):
     """Runs one session; raises AssertionError that names the line."""
-    connection = Connection(address)
+    connection = connect(address)
     try:
         announced = 0
         for number, line in enumerate(lines, first_number):

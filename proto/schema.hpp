@@ -1,0 +1,18 @@
+// proto/schema.json, the protocol as a JSON Schema, inside the program.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "proto/json.hpp"
+
+namespace sculpt {
+
+/// The file as it is.
+std::string_view schema_text();
+
+/// The document; with a method of it only METHOD.params, METHOD.result and the definitions that they refer to. Throws
+/// ProtocolError `params_invalid` if there is no such method.
+Json protocol_schema(const std::string& method = {});
+
+}  // namespace sculpt
