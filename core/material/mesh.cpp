@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 #include "core/material/gltf_guard.hpp"
 #include "core/material/vertex_join.hpp"
@@ -32,7 +33,8 @@ const Kind& find_kind(const std::string& extension) {
                    "mesh kind \"" + extension + "\" is not known: convert the mesh to stl, obj, ply, off, glb or gltf");
 }
 
-/// Reads the caller's bytes in place.
+/// Reads the caller's bytes in place. A reader that asks for more at the end again and again would do so for ever, as
+/// assimp's does on a .ply whose header has no end: it is stopped by an exception.
 class ViewStream final : public Assimp::IOStream {
  public:
   explicit ViewStream(std::string_view bytes) : bytes_(bytes) {}
@@ -41,6 +43,8 @@ class ViewStream final : public Assimp::IOStream {
     const size_t items = std::min(count, (bytes_.size() - at_) / size);
     std::memcpy(out, bytes_.data() + at_, items * size);
     at_ += items * size;
+    if (items == 0 && count > 0 && ++reads_of_nothing_ > most_reads_of_nothing)
+      throw std::runtime_error("it ends before it is complete");
     return items;
   }
   size_t Write(const void*, size_t, size_t) override { return 0; }
@@ -55,8 +59,10 @@ class ViewStream final : public Assimp::IOStream {
   void Flush() override {}
 
  private:
+  static constexpr int most_reads_of_nothing = 1000;
   std::string_view bytes_;
   size_t at_ = 0;
+  int reads_of_nothing_ = 0;
 };
 
 /// Holds the one file, so that a mesh from a client can never make the server open another (assimp's own memory reader

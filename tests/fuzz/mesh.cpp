@@ -8,7 +8,7 @@
 
 void read_hostile(std::string_view bytes) {
   if (bytes.empty()) return;
-  constexpr std::array kinds{"stl", "obj", "ply", "gltf", "glb"};
+  constexpr std::array kinds{"stl", "obj", "ply", "gltf", "glb", "off"};
   constexpr std::uint64_t memory_cap_bytes = 256u << 20;
   const char* kind = kinds[static_cast<std::uint8_t>(bytes.front()) % kinds.size()];
   try {

@@ -45,6 +45,15 @@ TEST(MeshRefusal, AFileThatIsCutShortIsUnreadable) {
   EXPECT_EQ(code(glb.substr(0, glb.size() - 40), "glb"), "mesh_unreadable");
 }
 
+// Made assimp's reader look for the end of the header for ever: found by fuzz_mesh.
+TEST(MeshRefusal, APlyWhoseHeaderHasNoEndIsUnreadable) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\n";
+  for (const char* rest : {"", "end_heder\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"})
+    EXPECT_EQ(code(header + rest, "ply"), "mesh_unreadable");
+}
+
 TEST(MeshRefusal, AMeshWithoutTrianglesIsEmpty) {
   EXPECT_EQ(code("v 0 0 0\nv 1 0 0\nl 1 2\n", "obj"), "mesh_empty");
   EXPECT_EQ(code("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "obj"), "mesh_empty");
