@@ -1,4 +1,4 @@
-// HTTP as a client sees it that does what no client should; the rest is tests/clients/door_test.py.
+// HTTP as a client sees it that does what no client should; the rest is tests/clients/http_test.py.
 #include <gtest/gtest.h>
 
 #include <chrono>
