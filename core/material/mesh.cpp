@@ -1,5 +1,6 @@
 #include "core/material/mesh.hpp"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -13,6 +14,7 @@
 #include <stdexcept>
 
 #include "core/material/gltf_guard.hpp"
+#include "core/material/ply_guard.hpp"
 #include "core/material/vertex_join.hpp"
 
 namespace sculpt {
@@ -93,9 +95,25 @@ void check_memory(std::uint64_t needed, std::uint64_t cap, const std::string& wh
                                        ": raise the memory cap, or reduce the mesh to fewer triangles");
 }
 
+bool reads(const Assimp::BaseImporter& reader, const std::string& extension) {
+  const std::string extensions = " " + std::string(reader.GetInfo()->mFileExtensions) + " ";
+  return extensions.find(" " + extension + " ") != std::string::npos;
+}
+
+/// Assimp tries the readers of some fifty formats on a file that its own does not want: none but its own are left.
+void keep_readers_of(const std::string& extension, Assimp::Importer& importer) {
+  for (std::size_t at = importer.GetImporterCount(); at-- > 0;) {
+    Assimp::BaseImporter* reader = importer.GetImporter(at);
+    if (reads(*reader, extension)) continue;
+    importer.UnregisterLoader(reader);
+    delete reader;
+  }
+}
+
 const aiScene& import_scene(Assimp::Importer& importer, std::string_view bytes, const std::string& extension) {
   const std::string name = "mesh." + extension;
   std::string missing;
+  keep_readers_of(extension, importer);
   importer.SetIOHandler(new OneFile(name, bytes, missing));  // the importer owns it
   const aiScene* scene = nullptr;
   std::string reason;
@@ -166,6 +184,7 @@ Mesh load_mesh(std::string_view bytes, const std::string& extension, std::uint64
   check_memory(predict_mesh_memory(bytes.size(), extension), memory_cap_bytes,
                "a ." + extension + " file of " + std::to_string(bytes.size()) + " bytes");
   check_gltf(bytes, extension);
+  check_ply(bytes, extension);
   Assimp::Importer importer;
   const aiScene& scene = import_scene(importer, bytes, extension);
   watch.step(Stage::load, bytes.size() / 2, bytes.size());
