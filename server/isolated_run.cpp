@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <iostream>
-#include <iterator>
 #include <mutex>
 #include <thread>
 
@@ -50,17 +49,6 @@ Progress read_progress(const Json& json) {
   return {static_cast<Stage>(json.at(0).get<int>()), json.at(1), json.at(2), json.at(3)};
 }
 
-Json describe(const JobRecord& job, const Isolation& isolation) {
-  return {{"daemon", ::getpid()},
-          {"job", job.id},
-          {"spec", job.spec},
-          {"cell_bundle", job.cell_bundle},
-          {"blobs", isolation.blobs.string()},
-          {"jobs", isolation.jobs.string()},
-          {"threads", isolation.defaults.threads},
-          {"memory_cap_bytes", isolation.defaults.memory_cap_bytes}};
-}
-
 // What a child has said.
 struct Conversation {
   std::string unread;
@@ -102,7 +90,7 @@ class Stopper {
 
 Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watch& watch) {
   ChildProcess child(isolation.worker, run_job_option);
-  child.send(write_json(describe(job, isolation)));
+  child.send(describe({job.spec, job.cell_bundle, job.id}, isolation));
   Conversation heard;
   Stopper stopper(watch.stop, isolation.cancel_grace);
   for (bool open = true; open;) {
@@ -179,22 +167,13 @@ RunJob make_isolated_run(Isolation isolation) {
 }
 
 int run_isolated_job(const Planner& planner) {
-  const std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-  const Json told = parse_json(text);
-  const std::filesystem::path jobs = told.at("jobs").get<std::string>();
-  hold_until_exit(jobs);
-  tie_to_parent(told.at("daemon").get<pid_t>());
-  JobRecord job;
-  job.id = told.at("job");
-  job.spec = told.at("spec");
-  job.cell_bundle = told.at("cell_bundle");
-  const Blobs blobs(told.at("blobs").get<std::string>(), 0);
-  const JobDefaults defaults{told.at("threads"), told.at("memory_cap_bytes")};
+  const DescribedJob described = take_description(std::cin);
+  const Blobs blobs(described.blobs, 0);
   Voice voice;
   const Watch watch{stop_on_signal(), [&voice](const Progress& progress) { voice.tell(progress); }};
   std::optional<Ending> ending;
   try {
-    ending = make_run_job(planner, blobs, jobs, defaults)(job, watch);
+    ending = make_run_job(planner, blobs, described.jobs, described.defaults)(described.job, watch);
   } catch (...) {
     ending = caught_ending();
   }

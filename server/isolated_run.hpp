@@ -2,23 +2,13 @@
 // --run-job and a description of the job; progress and ending come back as lines of JSON.
 #pragma once
 
-#include <chrono>
-#include <filesystem>
-
+#include "server/job_description.hpp"
 #include "server/planner.hpp"
 #include "server/scheduler.hpp"
-#include "server/translate.hpp"
 
 namespace sculpt {
 
 inline constexpr const char* run_job_option = "--run-job";
-
-struct Isolation {
-  std::filesystem::path worker;  ///< the program to start
-  std::filesystem::path blobs, jobs;
-  JobDefaults defaults;
-  std::chrono::milliseconds cancel_grace{10000};  ///< a child that was asked to stop is killed after so long
-};
 
 /// The daemon's side. Throws CrashError when the process dies before the job has ended, Cancelled when it was asked to
 /// stop.

@@ -12,6 +12,7 @@
 #include "server/config.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
+#include "server/isolated_check.hpp"
 #include "server/isolated_run.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
@@ -108,7 +109,9 @@ int fail(int code, const char* sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string_view(argv[1]) == run_job_option) return run_isolated_job(make_planner({}));
+  const std::string_view mode = argc == 2 ? argv[1] : "";
+  if (mode == run_job_option) return run_isolated_job(make_planner({}));
+  if (mode == check_job_option) return run_isolated_check(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.

@@ -97,13 +97,12 @@ struct Server::Impl {
         store(open_sqlite_store(folder.database(), store_rules(config))),
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
-        scheduler(
-            *store,
-            with_stage_times(
-                choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
-                           make_isolated_run({config.worker, blobs.folder(), folder.jobs(), job_defaults(config)})),
-                counters),
-            [this](const std::string& job) { services.changed(job); }),
+        isolation{config.worker, blobs.folder(), folder.jobs(), job_defaults(config)},
+        scheduler(*store,
+                  with_stage_times(choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
+                                              make_isolated_run(isolation)),
+                                   counters),
+                  [this](const std::string& job) { services.changed(job); }),
         streams(*store, scheduler),
         waits(io, *store),
         retention(*store, blobs, artifacts, folder.jobs()),
@@ -174,6 +173,8 @@ struct Server::Impl {
   net::io_context io{1};
   Blobs blobs;
   Artifacts artifacts;
+  Isolation isolation;
+  KnownFiles known_files;
   Counters counters;
   Scheduler scheduler;
   Streams streams;
@@ -182,7 +183,7 @@ struct Server::Impl {
   Access access{config};
   Connections connections;
   TaskQueue disk{Pace::prompt}, admission{Pace::prompt};
-  TaskQueue replays{Pace::background}, exports{Pace::background};
+  TaskQueue probes{Pace::background}, replays{Pace::background}, exports{Pace::background};
   Services services{io,
                     config,
                     planner,
@@ -198,8 +199,11 @@ struct Server::Impl {
                     connections,
                     disk,
                     admission,
+                    probes,
                     replays,
                     exports,
+                    isolation,
+                    known_files,
                     counters,
                     std::chrono::steady_clock::now()};
   Listener listener;
@@ -232,7 +236,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports}) queue->stop();
+  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->probes, &impl_->replays, &impl_->exports})
+    queue->stop();
 }
 
 void Server::stop() {

@@ -8,6 +8,7 @@
 #include "server/config.hpp"
 #include "server/connection.hpp"
 #include "server/counters.hpp"
+#include "server/isolated_check.hpp"
 #include "server/job_store.hpp"
 #include "server/net.hpp"
 #include "server/planner.hpp"
@@ -35,8 +36,11 @@ struct Services {
   Connections& connections;  // I/O thread only
   TaskQueue& disk;           ///< chunks in and out
   TaskQueue& admission;      ///< checks of submitted jobs
+  TaskQueue& probes;         ///< the same, of those with files that nobody has read yet
   TaskQueue& replays;        ///< job.verify
   TaskQueue& exports;        ///< csv and binary trajectories
+  const Isolation& isolation;
+  KnownFiles& known_files;
   Counters& counters;
   std::chrono::steady_clock::time_point started;
 

@@ -199,6 +199,7 @@ const std::vector<Setting>& settings() {
               "before the second try of a job that failed for a reason that may pass; doubled for the third"),
       bytes("reply_limit_bytes", &Config::reply_limit_bytes, at_reload,
             "unsent bytes of one connection; above it the connection is closed"),
+      seconds("check_s", &Config::check_time, at_reload, "a submitted mesh that is not read in so long is refused"),
       seconds("stall_s", &Config::stall, at_reload,
               "a connection that takes no bytes for so long while there are some is closed"),
       seconds("hello_s", &Config::hello_time, at_reload,

@@ -13,9 +13,10 @@ Answer submit_answer(const Submitted& submitted) {
           std::nullopt};
 }
 
-// Runs on the admission thread. A repeated submit is answered from the store: it must work even when its cell is gone
-// since.
-Answer admit(Services& services, const SubmitParams& submit, const std::string& owner, const std::stop_token& stop) {
+// Runs on the thread of admission or probes. A repeated submit is answered from the store: it must work even when its
+// cell is gone since.
+Answer admit(Services& services, const SubmitParams& submit, const std::string& owner,
+             std::chrono::milliseconds check_time, const std::stop_token& stop) {
   NewJob job{submit.key,
              {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s},
              write_json(to_json(submit.spec)),
@@ -26,7 +27,12 @@ Answer admit(Services& services, const SubmitParams& submit, const std::string& 
   if (job.cell_bundle.empty())
     job.cell_bundle = store_cell(services.planner.read_cell(submit.spec.robot), services.blobs);
   const Job planned = to_job(submit.spec, job.cell_bundle, services.blobs, services.defaults);
-  services.planner.check(planned, Watch{stop, {}});
+  if (services.known_files.has(submit.spec)) {
+    services.planner.check(planned, Watch{stop, {}});
+  } else {
+    check_in_child({job.spec, job.cell_bundle}, services.isolation, check_time, stop);
+    services.known_files.add(submit.spec);
+  }
   job.memory_bytes = services.planner.predict_memory(planned);
   const Submitted submitted = services.store.submit(job);
   crash_point(CrashPoint::submit_stored);
@@ -41,9 +47,11 @@ Answer admit(Services& services, const SubmitParams& submit, const std::string& 
 void on_submit(Services& services, Call call) {
   const auto submit = std::make_shared<const SubmitParams>(read_submit(call.params));
   const std::string owner = call.session->owner();
-  answer_from(services.admission, services, std::move(call), [&services, submit, owner](const std::stop_token& stop) {
-    return admit(services, *submit, owner, stop);
-  });
+  TaskQueue& queue = services.known_files.has(submit->spec) ? services.admission : services.probes;
+  answer_from(queue, services, std::move(call),
+              [&services, submit, owner, check_time = services.config.check_time](const std::stop_token& stop) {
+                return admit(services, *submit, owner, check_time, stop);
+              });
 }
 
 }  // namespace sculpt

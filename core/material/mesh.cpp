@@ -110,6 +110,17 @@ void keep_readers_of(const std::string& extension, Assimp::Importer& importer) {
   }
 }
 
+/// Assimp's own validation lets faces without corners through, and its triangulation ends the process for them.
+bool has_face_without_corners(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    if (std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                    [](const aiFace& face) { return face.mNumIndices == 0; }))
+      return true;
+  }
+  return false;
+}
+
 const aiScene& import_scene(Assimp::Importer& importer, std::string_view bytes, const std::string& extension) {
   const std::string name = "mesh." + extension;
   std::string missing;
@@ -118,11 +129,14 @@ const aiScene& import_scene(Assimp::Importer& importer, std::string_view bytes, 
   const aiScene* scene = nullptr;
   std::string reason;
   try {
-    scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+    scene = importer.ReadFile(name, aiProcess_ValidateDataStructure);
+    if (scene != nullptr && has_face_without_corners(*scene)) throw std::runtime_error("it has faces without corners");
+    if (scene != nullptr) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr) reason = importer.GetErrorString();
   } catch (const std::bad_alloc&) {
     throw InputError("memory_cap", "the mesh does not fit into memory: reduce it to fewer triangles");
   } catch (const std::exception& error) {
+    scene = nullptr;
     reason = error.what();
   }
   if (scene != nullptr && scene->mRootNode != nullptr) return *scene;

@@ -65,6 +65,8 @@ Planner FakePlanner::planner() {
     return CellFiles{name, "{}", {{"room.urdf", "<robot/>"}}};
   };
   planner.check = [](const Job& job, const Watch&) {
+    if (job.mesh.bytes == "crashes its reader") std::abort();
+    if (job.mesh.bytes == "has no end") std::this_thread::sleep_for(std::chrono::hours(24));
     if (job.mesh.bytes == "bad input") throw InputError("mesh_unreadable", "the file is no mesh");
   };
   planner.predict_memory = [](const Job& job) { return job.mesh.bytes.size(); };

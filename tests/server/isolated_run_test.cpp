@@ -104,7 +104,6 @@ TEST_F(IsolatedRunTest, AProgramThatIsNotThereIsSaidSo) {
 TEST(IsolatedJobs, ThoseThatCrashAreQuarantinedAndTheirNeighboursFinish) {
   LiveServer server([](Config& config) {
     config.isolate = true;
-    config.worker = FAKE_WORKER;
     config.retry_backoff = std::chrono::milliseconds(1);
   });
   Client client = server.connect();

@@ -9,6 +9,7 @@ LiveServer::LiveServer(const std::function<void(Config&)>& change) {
   config_.port = 0;
   config_.workers = 2;
   config_.data = folder_.path();
+  config_.worker = FAKE_WORKER;
   if (change) change(config_);
   start();
 }

@@ -26,32 +26,27 @@ struct Quiet {
   net::io_context io;
   Blobs blobs{data.blobs(), config.blob_limit_bytes};
   Artifacts artifacts{data.jobs(), *store, planner};
+  Isolation isolation;
+  KnownFiles known_files;
   Counters counters;
   Scheduler scheduler{*store, {}, {}};
   Streams streams{*store, scheduler};
   Waits waits{io, *store};
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, replays{Pace::prompt}, exports{Pace::prompt};
-  Services services{io,
-                    config,
-                    planner,
-                    {},
-                    2,
-                    *store,
-                    blobs,
-                    artifacts,
-                    scheduler,
-                    streams,
-                    waits,
-                    access,
-                    connections,
-                    disk,
-                    admission,
-                    replays,
-                    exports,
-                    counters,
-                    std::chrono::steady_clock::now()};
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, probes{Pace::prompt}, replays{Pace::prompt},
+      exports{Pace::prompt};
+  Services services{io,          config,
+                    planner,     {},
+                    2,           *store,
+                    blobs,       artifacts,
+                    scheduler,   streams,
+                    waits,       access,
+                    connections, disk,
+                    admission,   probes,
+                    replays,     exports,
+                    isolation,   known_files,
+                    counters,    std::chrono::steady_clock::now()};
 };
 
 bool has_line(const std::string& text, const std::string& line) {

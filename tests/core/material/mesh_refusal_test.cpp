@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "core/material/mesh.hpp"
 #include "tests/core/material/gltf_files.hpp"
@@ -52,6 +53,24 @@ TEST(MeshRefusal, APlyWhoseHeaderHasNoEndIsUnreadable) {
       "element face 1\nproperty list uchar int vertex_indices\n";
   for (const char* rest : {"", "end_heder\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"})
     EXPECT_EQ(code(header + rest, "ply"), "mesh_unreadable");
+}
+
+// Each made assimp end the process or read beyond the file: found by fuzz_mesh.
+TEST(MeshRefusal, APlyWithFewerFacesThanItSaysOrABrokenHeaderIsUnreadable) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const char* body : {"0 0 0\n1 0 0\n0 1 0\n\xd5"
+                           "3 0 1 2\n",
+                           "0 0 0\n1 0 0\n0 1 0\b3 0 1 2\n", "0  2\n"})
+    EXPECT_TRUE(code(header + body, "ply").starts_with("mesh_")) << body;
+  for (const auto& [what, with] : {std::pair("element face 2", "element face -2"),
+                                   {"float x", "flaot x"},
+                                   {"1.0", "1l"},
+                                   {"face 2", "face 4294967295"},
+                                   {"property list", "prop\x01"}})
+    EXPECT_EQ(code(replaced(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", what, with), "ply"), "mesh_unreadable");
+  EXPECT_EQ(code(header, "gltf"), "mesh_unreadable") << "no reader of another format may have it";
 }
 
 TEST(MeshRefusal, AMeshWithoutTrianglesIsEmpty) {
