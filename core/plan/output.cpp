@@ -52,10 +52,12 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
 void Output::start_writing(int threads) {
   file_.flush();
   check();
+  marked_ = text_.so_far();
   if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
 }
 
 void Output::add(std::vector<Keyframe> batch) {
+  if (batch.empty()) return;
   flush();
   for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
   hand_over(std::move(batch));
@@ -73,11 +75,15 @@ void Output::flush() {
   if (!waiting_.empty()) hand_over(std::exchange(waiting_, {}));
 }
 
-TrajectoryStart Output::sync() {
+void Output::mark() {
   flush();
+  hand_over({});  // a batch without keyframes is a mark
+}
+
+TrajectoryStart Output::sync() {
   if (beside_) beside_->wait();
   sync_file(path_);
-  return text_.so_far();
+  return marked_;
 }
 
 TrajectoryEnd Output::finish() {
@@ -98,6 +104,7 @@ void Output::hand_over(std::vector<Keyframe> batch) {
 }
 
 void Output::write(const std::vector<Keyframe>& batch) {
+  if (batch.empty()) marked_ = text_.so_far();
   for (const Keyframe& keyframe : batch) {
     text_.add(keyframe);
     if (binary_) binary_->add(keyframe);

@@ -31,7 +31,9 @@ class Output {
   void add(const Keyframe& keyframe);
   /// What was added so far will be in the file soon.
   void flush();
-  /// What was added so far, durable now.
+  /// A run could go on after what was added so far.
+  void mark();
+  /// What was added until the last mark, durable now.
   TrajectoryStart sync();
   TrajectoryEnd finish();
   /// Once finished.
@@ -52,6 +54,7 @@ class Output {
   TrajectoryWriter text_;  ///< makes the hash in either form
   std::optional<BinaryWriter> binary_;
   PathFigures figures_;
+  TrajectoryStart marked_;  ///< set where lines are written, read when that waits
   std::uint64_t removed_ = 0, remove_;
   const Watch& watch_;
   std::vector<Keyframe> waiting_;
