@@ -39,7 +39,7 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
   TrajectoryReader reader(in);
   for (std::uint64_t at = 0; at < start.keyframes; ++at) {
     const Keyframe keyframe = reader.next().value();
-    removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+    count(keyframe);
     write({keyframe});
     visit(keyframe);
   }
@@ -59,16 +59,21 @@ void Output::start_writing(int threads) {
 void Output::add(std::vector<Keyframe> batch) {
   if (batch.empty()) return;
   flush();
-  for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  for (const Keyframe& keyframe : batch) count(keyframe);
   hand_over(std::move(batch));
   watch_.step(Stage::plan, removed_, remove_);
 }
 
 void Output::add(const Keyframe& keyframe) {
-  removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  count(keyframe);
   waiting_.push_back(keyframe);
   if (waiting_.size() == most_waiting) flush();
   watch_.step(Stage::plan, removed_, remove_);
+}
+
+void Output::count(const Keyframe& keyframe) {
+  ++keyframes_;
+  removed_ += static_cast<std::uint64_t>(run_length(keyframe));
 }
 
 void Output::flush() {

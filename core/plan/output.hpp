@@ -31,6 +31,8 @@ class Output {
   void add(const Keyframe& keyframe);
   /// What was added so far will be in the file soon.
   void flush();
+  /// That many were added, and stay of an earlier run.
+  std::uint64_t keyframes() const { return keyframes_; }
   /// A run could go on after what was added so far.
   void mark();
   /// What was added until the last mark, durable now.
@@ -44,6 +46,7 @@ class Output {
   Output(const std::filesystem::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
          const Chain& chain, std::uint64_t remove, const Watch& watch);
   void start_writing(int threads);
+  void count(const Keyframe& keyframe);
   void hand_over(std::vector<Keyframe> batch);
   void write(const std::vector<Keyframe>& batch);
   void check() const;
@@ -55,7 +58,7 @@ class Output {
   std::optional<BinaryWriter> binary_;
   PathFigures figures_;
   TrajectoryStart marked_;  ///< set where lines are written, read when that waits
-  std::uint64_t removed_ = 0, remove_;
+  std::uint64_t keyframes_ = 0, removed_ = 0, remove_;
   const Watch& watch_;
   std::vector<Keyframe> waiting_;
   std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it

@@ -159,7 +159,8 @@ void replay(Report& report, const std::filesystem::path& trajectory, const Cell&
             RunLog& log, const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
   const auto note = [&](const ReplayedPieces& replayed) {
-    log.note_replayed(replayed);
+    log.now.replayed = replayed;
+    log.note_state();
     log.save_if_due();
   };
   const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads, log.now.replayed, note);
@@ -206,11 +207,10 @@ SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
                                }};
   SweepRest left = carve_by_sweeps(scene, voxels, may_fall, home, job.seed, job.threads, start, listener, watch);
   if (log.keeps()) {
-    log.output.mark();
     log.now.sweeping.reset();
-    log.now.swept = {log.output.sync().keyframes, left.out_of_tool_reach};
+    log.now.swept = {log.output.keyframes(), left.out_of_tool_reach};
     log.note();
-    log.save();
+    log.save_if_due();
   }
   return left;
 }
@@ -230,7 +230,7 @@ void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const Jo
                    watch);
   }
   log.note();
-  log.save();
+  log.save_if_due();
 }
 
 JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
@@ -284,7 +284,8 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
     count_path(report, output.figures(), result.grid.voxel_m, log.checks());
     if (!now.residue) {
       now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
-      kept.save(now);
+      log.note_state();
+      log.save_if_due();
     }
     result.residue = *now.residue;
     count_residue(report, result.residue);

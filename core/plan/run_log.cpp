@@ -12,13 +12,11 @@ void RunLog::note() {
   if (!keeps()) return;
   output.mark();
   now.checks = checks();
-  unsaved_ = true;
+  note_state();
 }
 
-void RunLog::note_replayed(const ReplayedPieces& replayed) {
-  if (!keeps()) return;
-  now.replayed = replayed;
-  unsaved_ = true;
+void RunLog::note_state() {
+  unsaved_ = keeps();
 }
 
 void RunLog::save() {

@@ -30,8 +30,8 @@ class RunLog {
 
   /// `now` is true after what was put out until here: a unit is over.
   void note();
-  /// The same of a unit that puts out nothing.
-  void note_replayed(const ReplayedPieces& replayed);
+  /// The same of a unit that puts out nothing; also once the output is finished.
+  void note_state();
   /// What was noted last, if it is not kept yet.
   void save();
   void save_if_due();

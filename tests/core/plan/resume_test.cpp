@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds always{0}, at_stage_ends{3600};
+using Interval = std::chrono::duration<double>;
+constexpr Interval always{0}, now_and_then{0.02}, at_stops_only{3600};
 
 /// What a run leaves: its bytes, and its report but for what the machine decides.
 struct Outcome {
@@ -47,11 +48,11 @@ class JobFolder {
   fs::path slot(int number) const { return folder_ / ("checkpoint-" + std::to_string(number)); }
   const fs::path& folder() const { return folder_; }
 
-  Outcome run(const Watch& watch = {}, std::chrono::seconds interval = always) const {
+  Outcome run(const Watch& watch = {}, Interval interval = always) const {
     return outcome(resume_job(job_, trajectory(), {folder_, interval}, watch), trajectory());
   }
   /// In a process that gets SIGKILL the `last`-th time that it told how far it was. False if it ended before that.
-  bool run_killed(std::uint64_t last, std::chrono::seconds interval = always) const {
+  bool run_killed(std::uint64_t last, Interval interval = always) const {
     const pid_t child = fork();
     if (child == 0) {
       Watch watch;
@@ -74,7 +75,7 @@ class JobFolder {
       if (told++ == last) stop.request_stop();
     };
     try {
-      run(watch, at_stage_ends);
+      run(watch, at_stops_only);
       return false;
     } catch (const Cancelled&) {
       return true;
@@ -134,7 +135,7 @@ TEST_P(Resume, KilledAnywhereItEndsWithTheSameBytes) {
     const std::uint64_t last = Random(seed).next() % told.size();
     SCOPED_TRACE("seed " + std::to_string(seed) + ", killed at step " + std::to_string(last));
     const JobFolder folder(job);
-    if (folder.run_killed(last, seed % 4 == 3 ? at_stage_ends : always)) ++kills;
+    if (folder.run_killed(last, seed % 4 == 3 ? now_and_then : always)) ++kills;
     EXPECT_EQ(folder.run(), expected);
     EXPECT_EQ(folder.run(), expected) << "from the last checkpoint of all";
   }
@@ -229,7 +230,7 @@ TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
                   told.push_back(progress);
                   if (progress.stage == Stage::verify) stop.request_stop();
                 }};
-    EXPECT_THROW(folder.run(watch, at_stage_ends), Cancelled);
+    EXPECT_THROW(folder.run(watch, at_stops_only), Cancelled);
   }
   const std::vector<std::uint64_t> steps = planned(told);
   ASSERT_GT(steps.back(), 3 * batch) << "too few batches to see anything";
@@ -249,7 +250,7 @@ TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
                   again.push_back(progress);
                   if (progress.stage == Stage::verify) stop.request_stop();
                 }};
-    EXPECT_THROW(folder.run(watch, at_stage_ends), Cancelled);
+    EXPECT_THROW(folder.run(watch, at_stops_only), Cancelled);
     const std::vector<std::uint64_t> left = planned(again);
     EXPECT_TRUE(
         std::ranges::equal(left, std::vector(steps.end() - static_cast<std::ptrdiff_t>(left.size()), steps.end())))
@@ -276,6 +277,19 @@ TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
   EXPECT_EQ(std::ranges::count(again, Stage::plan, &Progress::stage), 1) << "the one that says what there is to do";
   EXPECT_LT(std::ranges::count(again, Stage::verify, &Progress::stage),
             std::ranges::count(told, Stage::verify, &Progress::stage) / 2);
+}
+
+TEST(ResumedRun, GoesOnWithAReplayWhereItWasStopped) {
+  Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
+  job.search = "voxel";
+  std::vector<Progress> told;
+  const Outcome expected = uninterrupted(job, &told);
+  const JobFolder folder(job);
+  ASSERT_TRUE(folder.run_stopped(told.size() - 3));
+  const auto checkpoint = folder.checkpoint();
+  ASSERT_TRUE(checkpoint && checkpoint->residue);
+  EXPECT_GE(checkpoint->replayed.pieces, 2u);
+  EXPECT_EQ(folder.run(), expected);
 }
 
 /// Killed in the middle of planning, with two checkpoints.
