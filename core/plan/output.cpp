@@ -12,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_waiting = 1024;
+constexpr std::uint64_t bytes_between_starts = 8 << 20;
 
 }  // namespace
 
@@ -53,6 +54,7 @@ void Output::start_writing(int threads) {
   file_.flush();
   check();
   marked_ = text_.so_far();
+  started_bytes_ = marked_.bytes;
   if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
 }
 
@@ -109,7 +111,7 @@ void Output::hand_over(std::vector<Keyframe> batch) {
 }
 
 void Output::write(const std::vector<Keyframe>& batch) {
-  if (batch.empty()) marked_ = text_.so_far();
+  if (batch.empty()) take_mark();
   for (const Keyframe& keyframe : batch) {
     text_.add(keyframe);
     if (binary_) binary_->add(keyframe);
@@ -117,6 +119,13 @@ void Output::write(const std::vector<Keyframe>& batch) {
   }
   file_.flush();
   check();
+}
+
+void Output::take_mark() {
+  marked_ = text_.so_far();
+  if (marked_.bytes - started_bytes_ < bytes_between_starts) return;
+  start_sync(path_);
+  started_bytes_ = marked_.bytes;
 }
 
 void Output::check() const {

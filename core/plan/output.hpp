@@ -49,6 +49,7 @@ class Output {
   void count(const Keyframe& keyframe);
   void hand_over(std::vector<Keyframe> batch);
   void write(const std::vector<Keyframe>& batch);
+  void take_mark();
   void check() const;
 
   std::filesystem::path path_;
@@ -57,7 +58,8 @@ class Output {
   TrajectoryWriter text_;  ///< makes the hash in either form
   std::optional<BinaryWriter> binary_;
   PathFigures figures_;
-  TrajectoryStart marked_;  ///< set where lines are written, read when that waits
+  TrajectoryStart marked_;           ///< set where lines are written, read when that waits
+  std::uint64_t started_bytes_ = 0;  ///< that the disk was told of
   std::uint64_t keyframes_ = 0, removed_ = 0, remove_;
   const Watch& watch_;
   std::vector<Keyframe> waiting_;
