@@ -30,6 +30,13 @@ void sync_file(const fs::path& path) {
   if (!done) refuse(path, std::string(" (") + std::strerror(error) + ")");
 }
 
+void start_sync(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
+  ::close(file);
+}
+
 void replace_file(const fs::path& file, std::string_view bytes) {
   const fs::path draft = file.string() + ".draft";
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);

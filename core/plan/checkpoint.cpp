@@ -45,16 +45,86 @@ TrajectoryStart start_of(const Json& json) {
           json.at("sha256").get<std::string>()};
 }
 
+Json to_json(const std::vector<Voxel>& voxels) {
+  Json json = Json::array();
+  for (const Voxel v : voxels) json.push_back(to_json(v));
+  return json;
+}
+
+std::vector<Voxel> voxels_of(const Json& json) {
+  std::vector<Voxel> voxels;
+  for (const Json& v : json) voxels.push_back(voxel_of(v));
+  return voxels;
+}
+
+Json to_json(const std::vector<Columns::Run>& runs) {
+  Json json = Json::array();
+  for (const Columns::Run& run : runs) json.push_back({run.first, run.last, run.b, run.c});
+  return json;
+}
+
+std::vector<Columns::Run> runs_of(const Json& json) {
+  std::vector<Columns::Run> runs;
+  for (const Json& run : json)
+    runs.push_back({run.at(0).get<int>(), run.at(1).get<int>(), run.at(2).get<int>(), run.at(3).get<int>()});
+  return runs;
+}
+
+Json to_json(const StraightMark& pass) {
+  return {{"layer", pass.layer},
+          {"layers_at_once", pass.layers_at_once},
+          {"given_up", to_json(pass.given_up)},
+          {"held_here", to_json(pass.held_here)},
+          {"cut_since", pass.cut_since},
+          {"cut", pass.so_far.cut},
+          {"spared", pass.so_far.spared}};
+}
+
+StraightMark pass_of(const Json& json) {
+  return {json.at("layer").get<int>(),      json.at("layers_at_once").get<std::size_t>(),
+          runs_of(json.at("given_up")),     runs_of(json.at("held_here")),
+          json.at("cut_since").get<bool>(), {json.at("cut").get<bool>(), json.at("spared").get<bool>()}};
+}
+
+Json to_json(const SweepMemory& sweeping) {
+  const Vec3& at = sweeping.arm.at;
+  Json json{{"used_up", sweeping.used_up},
+            {"spared", sweeping.spared},
+            {"tilted_fields", sweeping.tilted_fields},
+            {"tilted", sweeping.tilted},
+            {"cut_tilted", sweeping.cut_tilted},
+            {"transits", sweeping.arm.transits},
+            {"at", {at.x(), at.y(), at.z()}},
+            {"way_home", to_json(sweeping.arm.way_home)}};
+  if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
+  if (sweeping.direction) json["direction"] = *sweeping.direction;
+  if (sweeping.pass) json["pass"] = to_json(*sweeping.pass);
+  return json;
+}
+
+SweepMemory sweeping_of(const Json& json) {
+  SweepMemory sweeping;
+  sweeping.used_up = json.at("used_up").get<std::vector<char>>();
+  sweeping.spared = json.at("spared").get<std::vector<char>>();
+  sweeping.tilted_fields = json.at("tilted_fields").get<std::vector<std::size_t>>();
+  sweeping.tilted = json.at("tilted").get<bool>();
+  sweeping.cut_tilted = json.at("cut_tilted").get<bool>();
+  sweeping.arm.transits = json.at("transits").get<std::uint64_t>();
+  for (int axis = 0; axis < 3; ++axis)
+    sweeping.arm.at[axis] = json.at("at").at(static_cast<std::size_t>(axis)).get<double>();
+  sweeping.arm.way_home = path_of(json.at("way_home"));
+  if (json.contains("out_of_reach")) sweeping.out_of_reach = voxels_of(json.at("out_of_reach"));
+  if (json.contains("direction")) sweeping.direction = json.at("direction").get<std::size_t>();
+  if (json.contains("pass")) sweeping.pass = pass_of(json.at("pass"));
+  return sweeping;
+}
+
 Json to_json(const SweptMark& swept) {
-  Json voxels = Json::array();
-  for (const Voxel v : swept.out_of_tool_reach) voxels.push_back(to_json(v));
-  return {{"keyframes", swept.keyframes}, {"out_of_tool_reach", std::move(voxels)}};
+  return {{"keyframes", swept.keyframes}, {"out_of_tool_reach", to_json(swept.out_of_tool_reach)}};
 }
 
 SweptMark swept_of(const Json& json) {
-  SweptMark swept{json.at("keyframes").get<std::uint64_t>(), {}};
-  for (const Json& v : json.at("out_of_tool_reach")) swept.out_of_tool_reach.push_back(voxel_of(v));
-  return swept;
+  return {json.at("keyframes").get<std::uint64_t>(), voxels_of(json.at("out_of_tool_reach"))};
 }
 
 Json to_json(const std::vector<BlockTrial>& trials) {
@@ -134,10 +204,12 @@ Checkpoint checkpoint_of(const Json& json) {
   Checkpoint checkpoint{start_of(json.at("file")),
                         json.at("checks").get<std::uint64_t>(),
                         {},
+                        {},
                         trials_of(json.at("trials")),
                         arm_of(json.at("arm")),
                         {},
                         replayed_of(json.at("replayed"))};
+  if (json.contains("sweeping")) checkpoint.sweeping = sweeping_of(json.at("sweeping"));
   if (json.contains("swept")) checkpoint.swept = swept_of(json.at("swept"));
   if (json.contains("residue")) checkpoint.residue = residue_of(json.at("residue"));
   return checkpoint;
@@ -153,6 +225,7 @@ std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key
             {"trials", to_json(checkpoint.trials)},
             {"arm", to_json(checkpoint.arm)},
             {"replayed", to_json(checkpoint.replayed)}};
+  if (checkpoint.sweeping) json["sweeping"] = to_json(*checkpoint.sweeping);
   if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);
   if (checkpoint.residue) json["residue"] = to_json(*checkpoint.residue);
   const std::string body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';

@@ -9,6 +9,7 @@
 #include "core/motion/arm.hpp"
 #include "core/motion/residue.hpp"
 #include "core/search/block_order.hpp"
+#include "core/sweep/sweep_memory.hpp"
 #include "core/trajectory/trajectory.hpp"
 #include "core/verify/verify.hpp"
 
@@ -23,8 +24,9 @@ struct SweptMark {
 /// Together with the first lines of the trajectory file it says all that a run needs to go on.
 struct Checkpoint {
   TrajectoryStart file;
-  std::uint64_t checks = 0;  ///< configurations tested
-  std::optional<SweptMark> swept;
+  std::uint64_t checks = 0;                     ///< configurations tested
+  std::optional<SweepMemory> sweeping;          ///< until the sweep is over
+  std::optional<SweptMark> swept;               ///< from then on
   std::vector<BlockTrial> trials;               ///< of the outer search, in order: what came of them
   ArmMemory arm;                                ///< after the last trial
   std::optional<std::vector<Residue>> residue;  ///< once the plan is finished

@@ -12,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_waiting = 1024;
+constexpr std::uint64_t bytes_between_starts = 8 << 20;
 
 }  // namespace
 
@@ -39,7 +40,7 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
   TrajectoryReader reader(in);
   for (std::uint64_t at = 0; at < start.keyframes; ++at) {
     const Keyframe keyframe = reader.next().value();
-    removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+    count(keyframe);
     write({keyframe});
     visit(keyframe);
   }
@@ -52,32 +53,44 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
 void Output::start_writing(int threads) {
   file_.flush();
   check();
+  marked_ = text_.so_far();
+  started_bytes_ = marked_.bytes;
   if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
 }
 
 void Output::add(std::vector<Keyframe> batch) {
+  if (batch.empty()) return;
   flush();
-  for (const Keyframe& keyframe : batch) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  for (const Keyframe& keyframe : batch) count(keyframe);
   hand_over(std::move(batch));
   watch_.step(Stage::plan, removed_, remove_);
 }
 
 void Output::add(const Keyframe& keyframe) {
-  removed_ += static_cast<std::uint64_t>(run_length(keyframe));
+  count(keyframe);
   waiting_.push_back(keyframe);
   if (waiting_.size() == most_waiting) flush();
   watch_.step(Stage::plan, removed_, remove_);
+}
+
+void Output::count(const Keyframe& keyframe) {
+  ++keyframes_;
+  removed_ += static_cast<std::uint64_t>(run_length(keyframe));
 }
 
 void Output::flush() {
   if (!waiting_.empty()) hand_over(std::exchange(waiting_, {}));
 }
 
-TrajectoryStart Output::sync() {
+void Output::mark() {
   flush();
+  hand_over({});  // a batch without keyframes is a mark
+}
+
+TrajectoryStart Output::sync() {
   if (beside_) beside_->wait();
   sync_file(path_);
-  return text_.so_far();
+  return marked_;
 }
 
 TrajectoryEnd Output::finish() {
@@ -98,6 +111,7 @@ void Output::hand_over(std::vector<Keyframe> batch) {
 }
 
 void Output::write(const std::vector<Keyframe>& batch) {
+  if (batch.empty()) take_mark();
   for (const Keyframe& keyframe : batch) {
     text_.add(keyframe);
     if (binary_) binary_->add(keyframe);
@@ -105,6 +119,13 @@ void Output::write(const std::vector<Keyframe>& batch) {
   }
   file_.flush();
   check();
+}
+
+void Output::take_mark() {
+  marked_ = text_.so_far();
+  if (marked_.bytes - started_bytes_ < bytes_between_starts) return;
+  start_sync(path_);
+  started_bytes_ = marked_.bytes;
 }
 
 void Output::check() const {

@@ -31,7 +31,11 @@ class Output {
   void add(const Keyframe& keyframe);
   /// What was added so far will be in the file soon.
   void flush();
-  /// What was added so far, durable now.
+  /// That many were added, and stay of an earlier run.
+  std::uint64_t keyframes() const { return keyframes_; }
+  /// A run could go on after what was added so far.
+  void mark();
+  /// What was added until the last mark, durable now.
   TrajectoryStart sync();
   TrajectoryEnd finish();
   /// Once finished.
@@ -42,8 +46,10 @@ class Output {
   Output(const std::filesystem::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
          const Chain& chain, std::uint64_t remove, const Watch& watch);
   void start_writing(int threads);
+  void count(const Keyframe& keyframe);
   void hand_over(std::vector<Keyframe> batch);
   void write(const std::vector<Keyframe>& batch);
+  void take_mark();
   void check() const;
 
   std::filesystem::path path_;
@@ -52,7 +58,9 @@ class Output {
   TrajectoryWriter text_;  ///< makes the hash in either form
   std::optional<BinaryWriter> binary_;
   PathFigures figures_;
-  std::uint64_t removed_ = 0, remove_;
+  TrajectoryStart marked_;           ///< set where lines are written, read when that waits
+  std::uint64_t started_bytes_ = 0;  ///< that the disk was told of
+  std::uint64_t keyframes_ = 0, removed_ = 0, remove_;
   const Watch& watch_;
   std::vector<Keyframe> waiting_;
   std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it

@@ -12,7 +12,7 @@
 #include "core/motion/gantry.hpp"
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/job_key.hpp"
-#include "core/plan/output.hpp"
+#include "core/plan/run_log.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/sweep/sweep.hpp"
@@ -38,60 +38,45 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// A run as far as it must survive the process.
-struct Log {
-  CheckpointFolder& kept;
-  Checkpoint& now;
-  Output& output;
-  const Scene& scene;
-  /// By the run that this one goes on with, less what both did.
-  std::uint64_t earlier_checks = now.file.bytes > 0 ? now.checks - scene.checks() : 0;
-
-  std::uint64_t checks() const { return earlier_checks + scene.checks(); }
-  void save() {
-    if (!kept.keeps()) return;
-    now.file = output.sync();
-    now.checks = checks();
-    kept.save(now);
-  }
-  void save_if_due() {
-    if (kept.due()) save();
-  }
-};
-
 void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
-                       const Configuration& home, const std::string& search, Log& log, const Watch& watch) {
+                       const Configuration& home, const std::string& search, RunLog& log, const Watch& watch) {
   const auto emit = [&](const Keyframe& keyframe) {
     log.output.add(keyframe);
-    log.save_if_due();
+    if (!log.due()) return;
+    log.note();
+    log.save();
   };
   Gantry gantry(scene, home, translating_entry(octree.n), emit, log.now.file.keyframes);
   const auto follow = [&](const VoxelRun& run) { gantry.follow(run); };
-  if (search == "voxel")
-    carve_voxelwise(voxels, follow, watch);
-  else
-    carve_translating(voxels, octree, graph, follow, watch);
-  gantry.go_home();
+  try {
+    if (search == "voxel")
+      carve_voxelwise(voxels, follow, watch);
+    else
+      carve_translating(voxels, octree, graph, follow, watch);
+    gantry.go_home();
+  } catch (const Cancelled&) {
+    log.note();  // each keyframe is a unit
+    throw;
+  }
 }
 
 /// `done`: the keyframes of an arm that was here before.
 void carve_with_arm(Scene& scene, const VoxelSet& may_fall, const Octree& octree, const BlockGraph& graph,
-                    const Configuration& home, std::uint64_t seed, const std::vector<Keyframe>& done, Log& log,
+                    const Configuration& home, std::uint64_t seed, const std::vector<Keyframe>& done, RunLog& log,
                     const Watch& watch) {
   Arm arm(scene, may_fall, home, seed, watch.stop, [&](const Keyframe& keyframe) { log.output.add(keyframe); });
   const Voxel start = arm.at();
   std::vector<BlockTrial>& trials = log.now.trials;
-  arm.resume(done, std::exchange(log.now.arm, {}));
+  arm.resume(done, log.now.arm);
   const auto try_block = [&, known = trials.size(), tried = std::size_t{0}](int block, int effort) mutable {
     if (tried < known) return trials[tried++];
     const BlockTrial trial = carve_block(arm, octree.leaves[static_cast<std::size_t>(block)], effort);
     if (watch.stop.stop_requested()) throw Cancelled{};  // it may have been given up early
     if (trial.removed > 0) log.output.flush();
     trials.push_back(trial);
-    if (log.kept.due()) {
-      log.now.arm = arm.memory();
-      log.save();
-    }
+    if (log.keeps()) log.now.arm = arm.memory();
+    log.note();
+    log.save_if_due();
     return trial;
   };
   order_blocks(octree, graph, start, most_effort, try_block, watch);
@@ -171,23 +156,24 @@ void count_residue(Report& report, const std::vector<Residue>& residue) {
 }
 
 void replay(Report& report, const std::filesystem::path& trajectory, const Cell& cell, const VoxelGrid& voxels,
-            Checkpoint& now, CheckpointFolder& kept, const Watch& watch) {
+            RunLog& log, const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
   const auto note = [&](const ReplayedPieces& replayed) {
-    if (!kept.due()) return;
-    now.replayed = replayed;
-    kept.save(now);
+    log.now.replayed = replayed;
+    log.note_state();
+    log.save_if_due();
   };
-  const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads, now.replayed, note);
+  const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads, log.now.replayed, note);
   report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
   report.voxels.freed = verdict.freed;
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
 }
 
-/// What stood when the arm began, and what the arm did since.
+/// What stood after sweeping, or after as much of it as was done, where it stopped, and what the arm did since.
 struct Carved {
   VoxelSet standing;
+  Configuration q;
   std::vector<Keyframe> by_arm;
 };
 
@@ -196,25 +182,55 @@ Output open_output(const std::filesystem::path& trajectory, TrajectoryForm form,
   const std::uint64_t remove = report.voxels.remove;
   if (at.file.bytes == 0) return {trajectory, form, header, chain, remove, report.threads, watch};
   const bool is_needed = !chain.translating() && !at.residue;
-  const auto visit = [&, swept = at.swept ? at.swept->keyframes : 0](const Keyframe& keyframe) mutable {
+  const std::uint64_t by_sweep = at.sweeping ? at.file.keyframes : at.swept ? at.swept->keyframes : 0;
+  const auto visit = [&, swept = by_sweep](const Keyframe& keyframe) mutable {
     if (!is_needed) return;
     if (swept == 0) return carved.by_arm.push_back(keyframe);
     --swept;
+    carved.q = keyframe.q;
     if (keyframe.cut) carved.standing.erase(keyframe.first, keyframe.last);
   };
   return {trajectory, at.file, header, chain, remove, report.threads, watch, visit};
 }
 
 SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall, const Job& job,
-                const Configuration& home, const VoxelSet& standing, Log& log, const Watch& watch) {
-  if (log.now.swept) return {standing, log.now.swept->out_of_tool_reach};
-  const auto emit = [&](std::vector<Keyframe> keyframes) { log.output.add(std::move(keyframes)); };
-  SweepRest left = carve_by_sweeps(scene, voxels, may_fall, home, job.seed, job.threads, emit, watch);
-  if (log.kept.keeps()) {
-    log.now.swept = {log.output.sync().keyframes, left.out_of_tool_reach};
-    log.save();
+                const Configuration& home, const Carved& carved, RunLog& log, const Watch& watch) {
+  if (log.now.swept) return {carved.standing, log.now.swept->out_of_tool_reach};
+  std::optional<SweepStart> start;
+  if (log.now.sweeping) start = {*log.now.sweeping, carved.standing, carved.q};
+  const SweepListener listener{[&](std::vector<Keyframe> keyframes) { log.output.add(std::move(keyframes)); },
+                               [&] { log.go_on(); },
+                               [&](const SweepMemory& memory) {
+                                 if (log.keeps()) log.now.sweeping = memory;
+                                 log.note();
+                                 log.save_if_due();
+                               }};
+  SweepRest left = carve_by_sweeps(scene, voxels, may_fall, home, job.seed, job.threads, start, listener, watch);
+  if (log.keeps()) {
+    log.now.sweeping.reset();
+    log.now.swept = {log.output.keyframes(), left.out_of_tool_reach};
+    log.note();
+    log.save_if_due();
   }
   return left;
+}
+
+void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const Job& job, const TrajectoryHeader& header,
+           const VoxelSet& may_fall, const Carved& carved, RunLog& log, const Watch& watch) {
+  if (scene.chain().translating()) {
+    carve_with_gantry(scene, voxels, octree, build_block_graph(octree, watch), header.home, header.search, log, watch);
+  } else if (header.search == "sweep") {
+    const SweepRest left = sweep(scene, voxels, may_fall, job, header.home, carved, log, watch);
+    scene.leave(left.standing);
+    const Octree rest = build_octree(left_to_cut(left, voxels.keep), watch);
+    carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, carved.by_arm, log,
+                   watch);
+  } else {
+    carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, carved.by_arm, log,
+                   watch);
+  }
+  log.note();
+  log.save_if_due();
 }
 
 JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
@@ -257,40 +273,31 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
                                          ": choose a home clear of the full stock, the room and itself");
   const VoxelSet may_fall = find_unheld(result.voxels);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});
-  Carved carved{result.voxels.stock, {}};
+  Carved carved{result.voxels.stock, header.home, {}};
   Output output = open_output(trajectory, form, header, chain, report, now, carved, watch);
-  Log log{kept, now, output, scene};
-  if (!now.residue) {
-    if (chain.translating()) {
-      carve_with_gantry(scene, result.voxels, octree, build_block_graph(octree, watch), header.home, report.search, log,
-                        watch);
-    } else if (report.search == "sweep") {
-      const SweepRest left = sweep(scene, result.voxels, may_fall, job, header.home, carved.standing, log, watch);
-      scene.leave(left.standing);
-      const Octree rest = build_octree(left_to_cut(left, result.voxels.keep), watch);
-      carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, carved.by_arm, log,
-                     watch);
-    } else {
-      carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, carved.by_arm,
-                     log, watch);
+  RunLog log(kept, now, output, scene);
+  try {
+    if (!now.residue) carve(scene, result.voxels, octree, job, header, may_fall, carved, log, watch);
+    report.quality.ompl_calls = now.arm.ompl_calls;
+    report.quality.ompl_solved = now.arm.ompl_solved;
+    report.plan_sha256 = output.finish().sha256;
+    count_path(report, output.figures(), result.grid.voxel_m, log.checks());
+    if (!now.residue) {
+      now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
+      log.note_state();
+      log.save_if_due();
     }
-    log.save();
-  }
-  report.quality.ompl_calls = now.arm.ompl_calls;
-  report.quality.ompl_solved = now.arm.ompl_solved;
-  report.plan_sha256 = output.finish().sha256;
-  count_path(report, output.figures(), result.grid.voxel_m, log.checks());
-  if (!now.residue) {
-    now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
-    kept.save(now);
-  }
-  result.residue = *now.residue;
-  count_residue(report, result.residue);
-  report.seconds.plan = planning.seconds();
+    result.residue = *now.residue;
+    count_residue(report, result.residue);
+    report.seconds.plan = planning.seconds();
 
-  Stopwatch verifying;
-  replay(report, trajectory, cell, result.voxels, now, kept, watch);
-  report.seconds.verify = verifying.seconds();
+    Stopwatch verifying;
+    replay(report, trajectory, cell, result.voxels, log, watch);
+    report.seconds.verify = verifying.seconds();
+  } catch (const Cancelled&) {
+    log.save_at_stop();
+    throw;
+  }
   report.seconds.total = total.seconds();
   report.peak_memory_bytes = peak_memory_bytes();
   return result;

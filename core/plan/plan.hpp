@@ -107,7 +107,8 @@ enum class TrajectoryForm { text, binary };  // .ndjson, .sct
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
                   TrajectoryForm form = TrajectoryForm::text);
 
-/// Where a run keeps checkpoints, how often at most. At the ends of stages it does so whatever the time.
+/// Where a run keeps checkpoints, and how old the last one is when the next is due, after the unit then in work. At a
+/// stop it keeps what units had finished, whatever the time.
 struct CheckpointPlace {
   std::filesystem::path folder;
   std::chrono::duration<double> interval = std::chrono::seconds(5);

@@ -23,13 +23,15 @@ int sign(int x) {
 
 }  // namespace
 
-Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach)
+Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach,
+                 std::vector<Run> given_up)
     : view_(view),
       reach_(reach),
       standing_(view, standing),
       keep_(view, keep),
       covered_(0, 0, 0),
-      covered_from_(view.n) {}
+      covered_from_(view.n),
+      given_up_(std::move(given_up)) {}
 
 std::uint64_t Columns::count_cuttable() const {
   std::uint64_t count = 0;
@@ -71,8 +73,8 @@ void Columns::restore(const Stroke& stroke, bool give_up) {
   if (give_up) given_up_.push_back(run);
 }
 
-void Columns::try_again(const Stroke& stroke) {
-  std::erase(given_up_, run_of(stroke));
+void Columns::try_again(const Run& run) {
+  std::erase(given_up_, run);
 }
 
 /// What is cut in a layer uncovers cells below it, so those layers are covered anew after each.

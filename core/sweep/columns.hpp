@@ -13,8 +13,15 @@ namespace sculpt {
 /// stand above the ball. Not shared between threads.
 class Columns {
  public:
-  /// `reach` must outlive the object.
-  Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach);
+  /// Cells first..last of row b of layer c.
+  struct Run {
+    int first, last, b, c;
+    bool operator==(const Run&) const = default;
+  };
+
+  /// `reach` must outlive the object. `given_up`: what is not tried, of what stands.
+  Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach,
+          std::vector<Run> given_up = {});
 
   /// Cells that could be cut if every one that lies free now or later is.
   std::uint64_t count_cuttable() const;
@@ -29,17 +36,15 @@ class Columns {
   /// Takes back a stroke of `cut_layer`, the last ones first. What it cut is not tried again if `give_up`.
   void restore(const Stroke& stroke, bool give_up);
   /// What was given up is tried again.
-  void try_again(const Stroke& stroke);
+  void try_again(const Run& run);
+
+  /// What a stroke cuts.
+  Run run_of(const Stroke& stroke) const;
+  /// With it and what stands, others are as these are.
+  const std::vector<Run>& given_up() const { return given_up_; }
 
  private:
-  /// Cells first..last of row b of layer c.
-  struct Run {
-    int first, last, b, c;
-    bool operator==(const Run&) const = default;
-  };
-
   Voxel cell(Voxel voxel) const;
-  Run run_of(const Stroke& stroke) const;
   void cover_down_to(int c);
   std::vector<std::vector<Run>> find_runs(int c) const;
   bool in_layer_free(int a0, int b0, int a1, int b1, int c) const;

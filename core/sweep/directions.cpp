@@ -1,5 +1,6 @@
 #include "core/sweep/directions.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/base/parallel.hpp"
@@ -45,6 +46,18 @@ void Directions::find_straight_fields() {
 const PostureField& Directions::field(std::size_t direction) {
   find(direction);
   return *fields_[direction];
+}
+
+std::vector<std::size_t> Directions::tilted_found() const {
+  std::vector<std::size_t> found;
+  for (std::size_t direction = straight_; direction < fields_.size(); ++direction)
+    if (fields_[direction]) found.push_back(direction);
+  return found;
+}
+
+std::size_t Directions::number_of(const PostureField& field) const {
+  const auto is_it = [&](const std::unique_ptr<PostureField>& other) { return other.get() == &field; };
+  return static_cast<std::size_t>(std::ranges::find_if(fields_, is_it) - fields_.begin());
 }
 
 /// The first of each four sides that are quarter turns of each other is searched for. It is turned into the others', if

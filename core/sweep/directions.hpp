@@ -27,6 +27,10 @@ class Directions {
   const ToolView& view(std::size_t direction) const { return views_[direction]; }
   /// Throws Cancelled.
   const PostureField& field(std::size_t direction);
+  /// The tilted directions whose fields were found.
+  std::vector<std::size_t> tilted_found() const;
+  /// Which of them has this field, one that was found.
+  std::size_t number_of(const PostureField& field) const;
   /// Where the field of a straight direction is usable.
   const ReachRows& reach(std::size_t direction) const { return *reach_[direction]; }
   /// May the ball's centre be at this cell, for links and limits? True where the field is not known.

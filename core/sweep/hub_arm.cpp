@@ -8,6 +8,12 @@
 
 namespace sculpt {
 
+void HubArm::resume(HubArmMemory memory, const Configuration& q, const PostureField* field) {
+  memory_ = std::move(memory);
+  q_ = q;
+  field_ = field;
+}
+
 bool HubArm::enter(const PostureField& field) {
   const Vec3 hub_at = hub_cell(scene_.grid().n);
   const auto hub = field.at(hub_at);
@@ -17,10 +23,10 @@ bool HubArm::enter(const PostureField& field) {
   const std::vector<Configuration> path = find_transit(*hub);
   if (path.empty()) return false;
   move(path);
-  way_home_.assign(path.rbegin() + 1, path.rend());
-  way_home_.insert(way_home_.end(), back->begin(), back->end());
+  memory_.way_home.assign(path.rbegin() + 1, path.rend());
+  memory_.way_home.insert(memory_.way_home.end(), back->begin(), back->end());
   field_ = &field;
-  at_ = hub_at;
+  memory_.at = hub_at;
   return true;
 }
 
@@ -32,7 +38,7 @@ std::size_t HubArm::commit(Followed followed, const std::vector<Stroke>& strokes
   for (const Keyframe& keyframe : followed.keyframes)
     if (keyframe.cut) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
   if (!followed.keyframes.empty()) q_ = followed.keyframes.back().q;
-  if (followed.strokes > 0) at_ = strokes[followed.strokes - 1].to;
+  if (followed.strokes > 0) memory_.at = strokes[followed.strokes - 1].to;
   emit(std::move(followed.keyframes));
   return followed.strokes;
 }
@@ -47,7 +53,7 @@ void HubArm::go_home() {
 
 /// From where it stands; empty if none was found.
 std::vector<Configuration> HubArm::find_transit(const Configuration& to) {
-  Transit found = plan_transit(scene_, q_, to, mix(seed_, ++transits_), watch_.stop);
+  Transit found = plan_transit(scene_, q_, to, mix(seed_, ++memory_.transits), watch_.stop);
   if (watch_.stop.stop_requested()) throw Cancelled{};
   return std::move(found.path);
 }
@@ -57,11 +63,11 @@ std::vector<Configuration> HubArm::find_transit(const Configuration& to) {
 std::optional<std::vector<Configuration>> HubArm::way_home() const {
   if (field_ == nullptr) return std::vector<Configuration>{};
   const Vec3 hub = hub_cell(scene_.grid().n);
-  const Followed over = try_strokes(at_, {{hub, 0, 0, {}, {}}});
-  if (at_ != hub && over.strokes == 0) return std::nullopt;
+  const Followed over = try_strokes(memory_.at, {{hub, 0, 0, {}, {}}});
+  if (memory_.at != hub && over.strokes == 0) return std::nullopt;
   std::vector<Configuration> way;
   for (const Keyframe& keyframe : over.keyframes) way.push_back(keyframe.q);
-  way.insert(way.end(), way_home_.begin(), way_home_.end());
+  way.insert(way.end(), memory_.way_home.begin(), memory_.way_home.end());
   return way;
 }
 

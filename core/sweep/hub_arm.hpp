@@ -10,6 +10,13 @@
 
 namespace sculpt {
 
+/// What an arm knows besides the keyframes that it emitted and the direction it is in.
+struct HubArmMemory {
+  std::uint64_t transits = 0;           ///< asked for
+  Vec3 at = Vec3::Zero();               ///< the ball, in cells of the view of the direction
+  std::vector<Configuration> way_home;  ///< from the hub of the direction
+};
+
 /// Begins at home and remembers its way back there. Every edge it emits is certified. Not shared between threads.
 class HubArm {
  public:
@@ -19,18 +26,22 @@ class HubArm {
   HubArm(const Scene& scene, const Configuration& home, std::uint64_t seed, const Emit& emit, const Watch& watch)
       : scene_(scene), home_(home), seed_(seed), emit_(emit), watch_(watch), q_(home) {}
 
+  /// Goes on where another one was: at `q`, in `field` if not at home.
+  void resume(HubArmMemory memory, const Configuration& q, const PostureField* field);
+  const HubArmMemory& memory() const { return memory_; }
+
   /// Goes over to the hub of a direction. False, and nothing done, if there is no way. Throws Cancelled.
   bool enter(const PostureField& field);
   /// Of the direction in use; none at home.
   const PostureField* field() const { return field_; }
   /// The ball, in cells of the view of that direction.
-  const Vec3& at() const { return at_; }
+  const Vec3& at() const { return memory_.at; }
 
   /// What it does from `from` on, along the direction in use. Any thread.
   Followed try_strokes(const Vec3& from, const std::vector<Stroke>& strokes) const;
   /// Emits what was followed, from where the arm is, and says how many strokes that is.
   std::size_t commit(Followed followed, const std::vector<Stroke>& strokes);
-  /// Voxels in all.
+  /// Voxels, since it was made.
   std::uint64_t removed() const { return removed_; }
 
   /// Throws InputError `no_transit` where not even the way it came is open, Cancelled.
@@ -44,13 +55,12 @@ class HubArm {
 
   const Scene& scene_;
   Configuration home_;
-  std::uint64_t seed_, transits_ = 0, removed_ = 0;
+  std::uint64_t seed_, removed_ = 0;
   const Emit& emit_;
   const Watch& watch_;
   Configuration q_;
-  Vec3 at_ = Vec3::Zero();
   const PostureField* field_ = nullptr;
-  std::vector<Configuration> way_home_;  ///< from the hub of the direction in use
+  HubArmMemory memory_;
 };
 
 }  // namespace sculpt

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "core/base/parallel.hpp"
-#include "core/sweep/columns.hpp"
 
 namespace sculpt {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 constexpr std::size_t most_layers_at_once = 16;
 
 struct Layer {
-  int c, next;  ///< the layer, and the one to go on with: itself, if a cut was given up
+  int c;
   Vec3 from;
   std::vector<Stroke> strokes;
   Followed followed;
@@ -24,58 +23,78 @@ struct Batch {
   Vec3 end;  ///< where the ball is then
 };
 
+StraightMark begin(const ToolView& view) {
+  StraightMark mark;
+  mark.layer = view.n - 1;
+  mark.layers_at_once = most_layers_at_once;
+  return mark;
+}
+
 class StraightPass {
  public:
-  StraightPass(Carving& carving, const ToolView& view, const ReachRows& reach)
+  StraightPass(Carving& carving, const ToolView& view, const ReachRows& reach, StraightMark from)
       : support_(carving.support),
         arm_(carving.arm),
         threads_(carving.threads),
-        top_(view.n - 1),
         stray_(stray_of(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
-        columns_(view, carving.support.standing(), carving.keep, reach) {}
+        columns_(view, carving.support.standing(), carving.keep, reach, std::move(from.given_up)),
+        now_(std::move(from)) {}
 
-  PassEnd run() {
+  PassEnd run(const NoteStraight& note) {
     const std::uint64_t before = arm_.removed();
-    std::size_t at_once = most_layers_at_once;
-    Batch batch = plan(top_, arm_.at(), at_once);
+    const bool cut_before = now_.so_far.cut;
+    Batch batch = plan(arm_.at());
     while (!batch.layers.empty()) {
       // As if nothing failed, what comes next is planned beside.
-      at_once = std::min(2 * at_once, most_layers_at_once);
+      now_.layers_at_once = std::min(2 * now_.layers_at_once, most_layers_at_once);
+      StraightMark next = mark();
       Batch ahead;
       for_each_index(threads_, 1 + batch.layers.size(), [&](std::size_t task) {
         if (task == 0) {
-          ahead = plan(batch.layers.back().next, batch.end, at_once);
+          ahead = plan(batch.end);
         } else {
           Layer& layer = batch.layers[task - 1];
           layer.followed = arm_.try_strokes(layer.from, layer.strokes);
         }
       });
-      if (const auto failed = commit(batch, ahead)) {
+      const auto failed = commit(batch, ahead);
+      now_.so_far.cut = next.so_far.cut = cut_before || arm_.removed() > before;
+      if (failed) {
         // Where one cut fails others do, and each time the rest was planned in vain.
-        at_once = 1;
+        now_.layers_at_once = 1;
+        now_.layer = *failed;
         end_layer();
-        ahead = plan(*failed, arm_.at(), at_once);
+        next = mark();
+        ahead = plan(arm_.at());
       }
+      note(next);
       batch = std::move(ahead);
     }
     rise();
-    return {arm_.removed() > before, spared_};
+    return now_.so_far;
   }
 
  private:
-  /// What is to be done in the next layers from `c` down with the ball at `start`, as if nothing failed. Their number
-  /// is the same at any number of threads.
-  Batch plan(int c, const Vec3& start, std::size_t at_once) {
+  /// As of when nothing is planned that is not done.
+  StraightMark mark() const {
+    StraightMark mark = now_;
+    mark.given_up = columns_.given_up();
+    return mark;
+  }
+
+  /// What is to be done in the next layers, downwards, with the ball at `start`, as if nothing failed. Their number is
+  /// the same at any number of threads.
+  Batch plan(const Vec3& start) {
     Batch batch{{}, start};
     auto& [layers, end] = batch;
-    while (c >= 0 && layers.size() < at_once) {
+    while (now_.layer >= 0 && layers.size() < now_.layers_at_once) {
+      const int c = now_.layer;
       const Vec3 from = end;
       std::vector<Stroke> strokes = columns_.cut_layer(c, end, stray_);
       const std::optional<Stroke> freeing = remove_held(from, strokes);
       if (freeing) end = strokes.empty() ? from : strokes.back().to;
-      const bool done = is_done(strokes, freeing);
-      layers.push_back({c, done ? c - 1 : c, from, std::move(strokes), {}});
-      c = layers.back().next;
+      if (is_done(strokes, freeing)) --now_.layer;
+      layers.push_back({c, from, std::move(strokes), {}});
     }
     return batch;
   }
@@ -104,26 +123,26 @@ class StraightPass {
   /// After one more try of a layer. What was given up in it is tried again when more was cut since: a piece that hangs
   /// on one side can be cut from its free end.
   bool is_done(const std::vector<Stroke>& strokes, const std::optional<Stroke>& freeing) {
-    cut_since_ |= !held_here_.empty() &&
-                  std::any_of(strokes.begin(), strokes.end(), [](const Stroke& stroke) { return stroke.cuts(); });
+    now_.cut_since |= !now_.held_here.empty() &&
+                      std::any_of(strokes.begin(), strokes.end(), [](const Stroke& stroke) { return stroke.cuts(); });
     if (freeing) {
-      held_here_.push_back(*freeing);
+      now_.held_here.push_back(columns_.run_of(*freeing));
       return false;
     }
-    if (!cut_since_) {
+    if (!now_.cut_since) {
       end_layer();
       return true;
     }
-    for (const Stroke& held : held_here_) columns_.try_again(held);
-    held_here_.clear();
-    cut_since_ = false;
+    for (const Columns::Run& held : now_.held_here) columns_.try_again(held);
+    now_.held_here.clear();
+    now_.cut_since = false;
     return false;
   }
 
   void end_layer() {
-    spared_ |= !held_here_.empty();
-    held_here_.clear();
-    cut_since_ = false;
+    now_.so_far.spared |= !now_.held_here.empty();
+    now_.held_here.clear();
+    now_.cut_since = false;
   }
 
   /// Emits what could be followed. Where something failed it takes back what comes after, `ahead` as well, and says
@@ -162,19 +181,18 @@ class StraightPass {
 
   Support& support_;
   HubArm& arm_;
-  int threads_, top_;
+  int threads_;
   double stray_;
   Columns columns_;
-  std::vector<Stroke> held_here_;  ///< given up in the layer at hand: each held a piece of material
-  bool cut_since_ = false;         ///< something was cut in that layer since
-  bool spared_ = false;
+  StraightMark now_;  ///< as of what is planned; what was given up, `columns_` knows
 };
 
 }  // namespace
 
-PassEnd cut_straight(Carving& carving, const PostureField& field, const ReachRows& reach) {
-  if (!carving.arm.enter(field)) return {};
-  return StraightPass(carving, field.view(), reach).run();
+PassEnd cut_straight(Carving& carving, const PostureField& field, const ReachRows& reach,
+                     const std::optional<StraightMark>& from, const NoteStraight& note) {
+  if (!from && !carving.arm.enter(field)) return {};
+  return StraightPass(carving, field.view(), reach, from.value_or(begin(field.view()))).run(note);
 }
 
 }  // namespace sculpt

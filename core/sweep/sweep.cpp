@@ -1,7 +1,7 @@
 #include "core/sweep/sweep.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 #include "core/base/parallel.hpp"
 #include "core/motion/tool_axes.hpp"
@@ -20,32 +20,75 @@ constexpr std::uint64_t fewest_tilted = 4;
 /// Chooses the direction of the next pass, until none cuts anything.
 class Sweep {
  public:
-  Sweep(Carving& carving, Directions& directions)
-      : carving_(carving),
-        directions_(directions),
-        used_up_(directions.size()),
-        spared_(directions.size()),
-        counts_(directions.size()) {}
+  Sweep(Carving& carving, Directions& directions, const std::function<void(const SweepMemory&)>& note)
+      : carving_(carving), directions_(directions), note_(note), counts_(directions.size()) {
+    now_.used_up.resize(directions.size());
+    now_.spared.resize(directions.size());
+  }
+
+  void resume(const SweepStart& start) {
+    now_ = start.memory;
+    for (const std::size_t direction : now_.tilted_fields) directions_.field(direction);
+    carving_.arm.resume(now_.arm, start.q, now_.direction ? &directions_.field(*now_.direction) : nullptr);
+  }
 
   SweepRest run() {
-    do {
-      std::fill_n(used_up_.begin(), directions_.straight(), 0);
-      while (const auto direction = best_straight())
-        end_pass(*direction, cut_straight(carving_, directions_.field(*direction), directions_.reach(*direction)));
-    } while (carve_tilted());
+    if (now_.pass) cut_along(*now_.direction, std::exchange(now_.pass, {}));
+    while (cut_next()) {
+    }
     carving_.arm.go_home();
-    return {carving_.support.standing(), std::move(*out_of_reach_)};
+    return {carving_.support.standing(), std::move(*now_.out_of_reach)};
   }
 
  private:
   const VoxelSet& standing() const { return carving_.support.standing(); }
 
+  /// Straight directions as long as they cut something, then tilted ones for what no straight one came to, and so on.
+  /// False if nothing was cut along any since that was last begun.
+  bool cut_next() {
+    if (!now_.tilted) {
+      if (const auto direction = best_straight()) {
+        cut_along(*direction, {});
+        return true;
+      }
+      now_.tilted = true;
+      now_.cut_tilted = false;
+      if (!now_.out_of_reach) find_out_of_reach();
+    }
+    const std::vector<Voxel> wanted = find_wanted();
+    if (const auto direction = best_tilted(wanted)) {
+      const PassEnd end = cut_tilted(carving_, directions_.field(*direction), wanted);
+      now_.cut_tilted |= end.cut;
+      end_pass(*direction, end);
+      return true;
+    }
+    now_.tilted = false;
+    std::fill_n(now_.used_up.begin(), directions_.straight(), 0);
+    return now_.cut_tilted;
+  }
+
+  void cut_along(std::size_t straight, const std::optional<StraightMark>& from) {
+    end_pass(straight, cut_straight(carving_, directions_.field(straight), directions_.reach(straight), from,
+                                    [this](const StraightMark& mark) { note(mark); }));
+  }
+
   void end_pass(std::size_t direction, const PassEnd& end) {
-    used_up_[direction] = !end.cut;
-    spared_[direction] = end.spared;
-    if (!end.cut) return;
+    now_.used_up[direction] = !end.cut;
+    now_.spared[direction] = end.spared;
     // What was spared lest a piece come free may now be cut.
-    for (std::size_t other = 0; other < used_up_.size(); ++other) used_up_[other] = used_up_[other] && !spared_[other];
+    for (std::size_t other = 0; end.cut && other < now_.used_up.size(); ++other)
+      now_.used_up[other] = now_.used_up[other] && !now_.spared[other];
+    note({});
+  }
+
+  void note(const std::optional<StraightMark>& pass) {
+    now_.tilted_fields = directions_.tilted_found();
+    now_.arm = carving_.arm.memory();
+    now_.direction.reset();
+    if (const PostureField* field = carving_.arm.field()) now_.direction = directions_.number_of(*field);
+    now_.pass = pass;
+    note_(now_);
+    now_.pass.reset();
   }
 
   std::optional<std::size_t> best_straight() {
@@ -55,39 +98,34 @@ class Sweep {
     });
   }
 
-  /// Along tilted directions what no straight one came to. False if nothing was cut.
-  bool carve_tilted() {
-    if (!out_of_reach_) find_wanted();
-    bool cut = false;
-    while (const auto direction = best_tilted()) {
-      const PassEnd end = cut_tilted(carving_, directions_.field(*direction), wanted_);
-      end_pass(*direction, end);
-      cut |= end.cut;
-    }
-    return cut;
-  }
-
-  void find_wanted() {
+  void find_out_of_reach() {
     VoxelSet rest = standing();
     rest -= carving_.keep;
-    for_each_voxel(rest, [&](Voxel v) { wanted_.push_back(v); });
+    std::vector<Voxel> wanted;
+    for_each_voxel(rest, [&](Voxel v) { wanted.push_back(v); });
     const Scene& scene = carving_.scene;
     const double length = scene.tool().stickout_m / scene.grid().voxel_m;
-    out_of_reach_ = find_out_of_tool_reach(standing(), wanted_, tool_steps(), length, carving_.watch);
-    for (const Voxel v : *out_of_reach_) rest.erase(v);
-    std::erase_if(wanted_, [&](Voxel v) { return !rest.contains(v); });
+    now_.out_of_reach = find_out_of_tool_reach(standing(), wanted, tool_steps(), length, carving_.watch);
   }
 
-  std::optional<std::size_t> best_tilted() {
-    std::erase_if(wanted_, [&](Voxel v) { return !standing().contains(v); });
-    if (wanted_.size() < fewest_tilted) return std::nullopt;
+  /// Of what straight directions left, what tilted ones might cut.
+  std::vector<Voxel> find_wanted() const {
+    VoxelSet rest = standing();
+    rest -= carving_.keep;
+    for (const Voxel v : *now_.out_of_reach) rest.erase(v);
+    std::vector<Voxel> wanted;
+    for_each_voxel(rest, [&](Voxel v) { wanted.push_back(v); });
+    return wanted;
+  }
+
+  std::optional<std::size_t> best_tilted(const std::vector<Voxel>& wanted) {
+    if (wanted.size() < fewest_tilted) return std::nullopt;
     return best(directions_.straight(), directions_.size(), fewest_tilted,
-                [this](std::size_t direction) { return count_tilted(direction); });
+                [&](std::size_t direction) { return count_tilted(direction, wanted); });
   }
 
-  std::uint64_t count_tilted(std::size_t direction) const {
+  std::uint64_t count_tilted(std::size_t direction, std::vector<Voxel> wanted) const {
     const ToolView& view = directions_.view(direction);
-    std::vector<Voxel> wanted = wanted_;
     std::erase_if(wanted, [&](Voxel v) {
       const Voxel cell = view.cell(v);
       return !directions_.may_reach(direction, Vec3(cell.i, cell.j, cell.k));
@@ -102,7 +140,7 @@ class Sweep {
   template <typename Count>
   std::optional<std::size_t> best(std::size_t first, std::size_t end, std::uint64_t fewest, const Count& count) {
     for_each_index(carving_.threads, end - first,
-                   [&](std::size_t at) { counts_[first + at] = used_up_[first + at] ? 0 : count(first + at); });
+                   [&](std::size_t at) { counts_[first + at] = now_.used_up[first + at] ? 0 : count(first + at); });
     const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first);
     const auto most = std::max_element(begin, counts_.begin() + static_cast<std::ptrdiff_t>(end));
     if (*most < fewest) return std::nullopt;
@@ -111,28 +149,38 @@ class Sweep {
 
   Carving& carving_;
   Directions& directions_;
-  std::vector<char> used_up_;          ///< per direction: the last pass along it cut nothing
-  std::vector<char> spared_;           ///< in the last pass along it something was left lest a piece come free
-  std::vector<std::uint64_t> counts_;  ///< what could be cut along it when that was last asked
-  std::vector<Voxel> wanted_;          ///< of what straight directions left, what tilted ones might cut
-  std::optional<std::vector<Voxel>> out_of_reach_;  ///< what no direction can, once that was asked
+  const std::function<void(const SweepMemory&)>& note_;
+  SweepMemory now_;
+  std::vector<std::uint64_t> counts_;  ///< what could be cut along each direction when that was last asked
 };
+
+/// What a support knows depends on what stood first and what stands now, not on the order in between.
+void remove_cut(Support& support, const VoxelSet& standing) {
+  VoxelSet cut = support.standing();
+  cut -= standing;
+  for_each_voxel(cut, [&](Voxel v) { support.remove(v); });
+}
 
 }  // namespace
 
 SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
                           const Configuration& home, std::uint64_t seed, int threads,
-                          const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch) {
+                          const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch) {
   Directions directions(scene, home, seed, threads, watch);
   std::optional<Support> support;
   for_each_index(threads, 2, [&](std::size_t task) {
-    if (task == 0)
+    if (task == 0) {
       directions.find_straight_fields();
-    else
+    } else {
       support.emplace(voxels.stock, may_fall);
+      if (start) remove_cut(*support, start->standing);
+    }
   });
-  Carving carving{scene, voxels.keep, threads, watch, std::move(*support), {scene, home, seed, emit, watch}};
-  return Sweep(carving, directions).run();
+  Carving carving{scene, voxels.keep, threads, watch, std::move(*support), {scene, home, seed, listener.emit, watch}};
+  Sweep sweep(carving, directions, listener.note);
+  if (start) sweep.resume(*start);
+  listener.ready();
+  return sweep.run();
 }
 
 }  // namespace sculpt

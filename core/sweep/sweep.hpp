@@ -8,6 +8,7 @@
 #include "core/base/watch.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/sweep/sweep_memory.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
@@ -19,12 +20,26 @@ struct SweepRest {
       out_of_tool_reach;  ///< of it, what is to be removed but never can be, as find_out_of_tool_reach has it
 };
 
-/// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home.
-/// `scene` holds the full stock and is not changed: what is free against all of it is free for ever. Every edge that
-/// `emit` gets, a batch at a time on the calling thread, is certified. `may_fall`: what cannot be held. Deterministic,
-/// also in `threads`. Throws Cancelled.
+/// Where a sweep goes on.
+struct SweepStart {
+  SweepMemory memory;
+  VoxelSet standing;  ///< after all keyframes until then
+  Configuration q;    ///< of the last one; home if there is none
+};
+
+/// Who hears of a sweep, on the calling thread.
+struct SweepListener {
+  std::function<void(std::vector<Keyframe>)> emit;  ///< keyframes, a batch at a time
+  std::function<void()> ready = [] {};              ///< the fields are found that are known at the start
+  std::function<void(const SweepMemory&)> note = [](const SweepMemory&) {};  ///< another could go on here
+};
+
+/// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home; or goes
+/// on with that at `start`, with the same keyframes that would have followed. `scene` holds the full stock and is not
+/// changed: what is free against all of it is free for ever. Every edge that is emitted is certified. `may_fall`: what
+/// cannot be held. Deterministic, also in `threads`. Throws Cancelled.
 SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
                           const Configuration& home, std::uint64_t seed, int threads,
-                          const std::function<void(std::vector<Keyframe>)>& emit, const Watch& watch);
+                          const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch);
 
 }  // namespace sculpt

@@ -35,6 +35,17 @@ TEST_F(DurableFile, IsReplacedAsAWholeAndNothingElseIsLeft) {
   }
 }
 
+TEST_F(DurableFile, IsAsItWasAfterTheDiskBeganWithIt) {
+  const fs::path file = folder_ / "file";
+  std::ofstream(file) << "bytes";
+  start_sync(file);
+  sync_file(file);
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "bytes");
+  start_sync(folder_ / "nowhere");
+  EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
 TEST_F(DurableFile, ThatCannotBeWrittenIsNamed) {
   const fs::path nowhere = folder_ / "nowhere" / "file";
   for (const auto& write : {std::function<void()>([&] { replace_file(nowhere, "bytes"); }),

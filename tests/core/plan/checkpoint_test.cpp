@@ -16,10 +16,19 @@ Configuration configuration(double first, double second) {
 }
 
 /// No field as it is by default.
+SweepMemory full_sweep_memory() {
+  SweepMemory sweeping{{0, 1, 0}, {1, 1, 0}, {2, 5}, true, true, {{{7, 8, 9}}}, {}, 2, {}};
+  sweeping.arm = {11, {0.1, 1.0 / 3, 65}, {configuration(0.3, -1e-7)}};
+  sweeping.pass = StraightMark{5, 8, {{1, 2, 3, 4}}, {{5, 6, 7, 8}, {0, 0, 1, 1}}, true, {true, true}};
+  return sweeping;
+}
+
+/// No field as it is by default.
 Checkpoint full_checkpoint() {
   Checkpoint checkpoint;
   checkpoint.file = {7, 900, std::string(64, 'a')};
   checkpoint.checks = std::uint64_t{1} << 63;
+  checkpoint.sweeping = full_sweep_memory();
   checkpoint.swept = SweptMark{3, {{1, 2, 3}, {4, 5, 6}}};
   checkpoint.trials = {{5, 3, {0, 1, 2}}, {0, 8, {0, 1, 2}}};
   checkpoint.arm = {4, false, 2, {configuration(0.1, -2.1234567)}, {{3, {configuration(1, 2)}}}, 9, 8, 7};
@@ -40,6 +49,9 @@ TEST(Checkpoint, IsReadBackAsItWasWritten) {
   const Checkpoint read = read_checkpoint(text, "key")->checkpoint;
   EXPECT_EQ(read.file, full_checkpoint().file);
   EXPECT_EQ(read.swept->out_of_tool_reach, full_checkpoint().swept->out_of_tool_reach);
+  EXPECT_EQ(read.sweeping->arm.at, full_sweep_memory().arm.at);
+  EXPECT_EQ(read.sweeping->arm.way_home, full_sweep_memory().arm.way_home);
+  EXPECT_EQ(read.sweeping->pass->held_here, full_sweep_memory().pass->held_here);
   EXPECT_EQ(read.arm.hubs, full_checkpoint().arm.hubs);
   EXPECT_EQ(read.arm.way_out, full_checkpoint().arm.way_out);
   EXPECT_EQ(read.residue->back().reason, Reason::loose_piece);

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds always{0}, at_stage_ends{3600};
+using Interval = std::chrono::duration<double>;
+constexpr Interval always{0}, now_and_then{0.02}, at_stops_only{3600};
 
 /// What a run leaves: its bytes, and its report but for what the machine decides.
 struct Outcome {
@@ -47,11 +48,11 @@ class JobFolder {
   fs::path slot(int number) const { return folder_ / ("checkpoint-" + std::to_string(number)); }
   const fs::path& folder() const { return folder_; }
 
-  Outcome run(const Watch& watch = {}, std::chrono::seconds interval = always) const {
+  Outcome run(const Watch& watch = {}, Interval interval = always) const {
     return outcome(resume_job(job_, trajectory(), {folder_, interval}, watch), trajectory());
   }
   /// In a process that gets SIGKILL the `last`-th time that it told how far it was. False if it ended before that.
-  bool run_killed(std::uint64_t last, std::chrono::seconds interval = always) const {
+  bool run_killed(std::uint64_t last, Interval interval = always) const {
     const pid_t child = fork();
     if (child == 0) {
       Watch watch;
@@ -64,6 +65,32 @@ class JobFolder {
     int status = 0;
     EXPECT_EQ(waitpid(child, &status, 0), child);
     return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  }
+  /// Asked to stop the `last`-th time that it told how far it was. False if it ended all the same.
+  bool run_stopped(std::uint64_t last) const {
+    std::stop_source stop;
+    Watch watch;
+    watch.stop = stop.get_token();
+    watch.tell = [&, told = std::uint64_t{0}](const Progress&) mutable {
+      if (told++ == last) stop.request_stop();
+    };
+    try {
+      run(watch, at_stops_only);
+      return false;
+    } catch (const Cancelled&) {
+      return true;
+    }
+  }
+  /// Voxels that the last checkpoint keeps for good.
+  std::uint64_t kept() const {
+    const auto found = checkpoint();
+    if (!found) return 0;
+    std::ifstream in(trajectory(), std::ios::binary);
+    TrajectoryReader reader(in);
+    std::uint64_t removed = 0;
+    for (std::uint64_t at = 0; at < found->file.keyframes; ++at)
+      removed += static_cast<std::uint64_t>(run_length(reader.next().value()));
+    return removed;
   }
   std::optional<Checkpoint> checkpoint() const {
     return CheckpointFolder(folder_, trajectory(), job_key(job_), always).find_newest();
@@ -86,6 +113,7 @@ struct Kind {
   const char* cell;
   const char* search;
   int resolution;
+  std::int64_t unit;  ///< voxels cut between two places that a run can go on from, at most
 };
 
 class Resume : public testing::TestWithParam<Kind> {
@@ -107,7 +135,7 @@ TEST_P(Resume, KilledAnywhereItEndsWithTheSameBytes) {
     const std::uint64_t last = Random(seed).next() % told.size();
     SCOPED_TRACE("seed " + std::to_string(seed) + ", killed at step " + std::to_string(last));
     const JobFolder folder(job);
-    if (folder.run_killed(last, seed % 4 == 3 ? at_stage_ends : always)) ++kills;
+    if (folder.run_killed(last, seed % 4 == 3 ? now_and_then : always)) ++kills;
     EXPECT_EQ(folder.run(), expected);
     EXPECT_EQ(folder.run(), expected) << "from the last checkpoint of all";
   }
@@ -129,11 +157,31 @@ TEST_P(Resume, KilledAgainAndAgainItEndsWithTheSameBytes) {
   }
 }
 
+TEST_P(Resume, AStopKeepsWhateverUnitsHadFinished) {
+  int stops = 0;
+  for (std::uint64_t seed = 30; seed < 38; ++seed) {
+    const Job job = this->job(seed);
+    std::vector<Progress> told;
+    const Outcome expected = uninterrupted(job, &told);
+    const auto from = std::ranges::find(told, Stage::plan, &Progress::stage);
+    const auto to = std::ranges::find(from, told.end(), Stage::verify, &Progress::stage);
+    const auto last = from + static_cast<std::ptrdiff_t>(Random(seed).next() % static_cast<std::uint64_t>(to - from));
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", stopped at step " + std::to_string(last - told.begin()));
+    const JobFolder folder(job);
+    ASSERT_TRUE(folder.run_stopped(static_cast<std::uint64_t>(last - told.begin())));
+    EXPECT_LE(static_cast<std::int64_t>(last->done) - static_cast<std::int64_t>(folder.kept()), GetParam().unit);
+    stops += folder.kept() > 0;
+    EXPECT_EQ(folder.run(), expected);
+  }
+  EXPECT_GT(stops, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Resume,
-                         testing::Values(Kind{"OctreeArm", "panda-turntable", "octree", 8},
-                                         Kind{"SweepArm", "panda-turntable", "sweep", 8},
-                                         Kind{"OctreeGantry", "gantry", "octree", 16},
-                                         Kind{"VoxelGantry", "gantry", "voxel", 16}),
+                         testing::Values(Kind{"OctreeArm", "panda-turntable", "octree", 8, 4 * 4 * 4},
+                                         Kind{"SweepArm", "panda-turntable", "sweep", 8, 8 * 8 * 8},
+                                         Kind{"LargerSweepArm", "panda-turntable", "sweep", 32, 16 * 32 * 32},
+                                         Kind{"OctreeGantry", "gantry", "octree", 16, 16},
+                                         Kind{"VoxelGantry", "gantry", "voxel", 16, 16}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 Job arm_job() {
@@ -163,6 +211,54 @@ TEST(ResumedRun, DoesAgainNoMoreThanTheTrialItWasKilledIn) {
   }
 }
 
+/// The steps of planning proper: not the one that says what there is to do.
+std::vector<std::uint64_t> planned(const std::vector<Progress>& told) {
+  std::vector<std::uint64_t> done;
+  for (const Progress& progress : told)
+    if (progress.stage == Stage::plan && progress.done > 0) done.push_back(progress.done);
+  return done;
+}
+
+TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
+  Job job = make_job(shipped_cell("panda-turntable"), random_target(64, 5), 5);
+  constexpr std::uint64_t batch = 16 * 64 * 64;
+  std::vector<Progress> told;
+  {
+    const JobFolder folder(job);
+    std::stop_source stop;
+    Watch watch{stop.get_token(), [&](const Progress& progress) {
+                  told.push_back(progress);
+                  if (progress.stage == Stage::verify) stop.request_stop();
+                }};
+    EXPECT_THROW(folder.run(watch, at_stops_only), Cancelled);
+  }
+  const std::vector<std::uint64_t> steps = planned(told);
+  ASSERT_GT(steps.back(), 3 * batch) << "too few batches to see anything";
+  const auto first = std::ranges::find_if(
+      told, [](const Progress& progress) { return progress.stage == Stage::plan && progress.done > 0; });
+  for (int tenth = 2; tenth < 10; ++tenth) {
+    SCOPED_TRACE("killed after " + std::to_string(tenth) + " tenths of the planning");
+    const JobFolder folder(job);
+    const auto at = steps.size() * static_cast<std::size_t>(tenth) / 10;
+    ASSERT_TRUE(folder.run_killed(static_cast<std::uint64_t>(first - told.begin()) + at));
+    const std::uint64_t kept = folder.kept();
+    EXPECT_GE(kept + batch, steps[at]);
+
+    std::vector<Progress> again;
+    std::stop_source stop;
+    Watch watch{stop.get_token(), [&](const Progress& progress) {
+                  again.push_back(progress);
+                  if (progress.stage == Stage::verify) stop.request_stop();
+                }};
+    EXPECT_THROW(folder.run(watch, at_stops_only), Cancelled);
+    const std::vector<std::uint64_t> left = planned(again);
+    EXPECT_TRUE(
+        std::ranges::equal(left, std::vector(steps.end() - static_cast<std::ptrdiff_t>(left.size()), steps.end())))
+        << "the steps that were left, and no others";
+    EXPECT_GE(left.front(), kept);
+  }
+}
+
 TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
   Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
   job.search = "voxel";
@@ -181,6 +277,19 @@ TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
   EXPECT_EQ(std::ranges::count(again, Stage::plan, &Progress::stage), 1) << "the one that says what there is to do";
   EXPECT_LT(std::ranges::count(again, Stage::verify, &Progress::stage),
             std::ranges::count(told, Stage::verify, &Progress::stage) / 2);
+}
+
+TEST(ResumedRun, GoesOnWithAReplayWhereItWasStopped) {
+  Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
+  job.search = "voxel";
+  std::vector<Progress> told;
+  const Outcome expected = uninterrupted(job, &told);
+  const JobFolder folder(job);
+  ASSERT_TRUE(folder.run_stopped(told.size() - 3));
+  const auto checkpoint = folder.checkpoint();
+  ASSERT_TRUE(checkpoint && checkpoint->residue);
+  EXPECT_GE(checkpoint->replayed.pieces, 2u);
+  EXPECT_EQ(folder.run(), expected);
 }
 
 /// Killed in the middle of planning, with two checkpoints.

@@ -8,6 +8,7 @@
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"
+#include "tests/core/plan/sweep_targets.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 
 namespace sculpt {
@@ -17,18 +18,6 @@ Job sweep_job(const CellFiles& cell, const VoxelSet& target, std::uint64_t seed 
   Job job = make_job(cell, target, seed);
   job.search = "sweep";
   return job;
-}
-
-/// Full of holes: voxels that no tool comes to, and closed chambers.
-VoxelSet riddled_target(int n, std::uint64_t seed) {
-  Random random(seed);
-  VoxelSet target(n);
-  const double share = random.between(0.2, 0.7);
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        if (random.unit() < share) target.insert({i, j, k});
-  return target;
 }
 
 TEST(Sweep, LeavesWhatOctreeLeavesForTheSameReasons) {
@@ -157,29 +146,6 @@ TEST(Sweep, AThinShankBesideAClampReplaysClean) {
   }
 }
 
-/// A box with walls of one voxel, open along one of its edges as far as a third of the two walls there: what lies
-/// behind them needs a tool that leans out through the gap.
-VoxelSet split_box(int n, std::uint64_t seed) {
-  const int low = n / 8, high = n - 1 - n / 8, gap = n / 4;
-  const auto depth = [&](Voxel v, int wall) {
-    const int depths[]{high - v.k, high - v.i, v.i - low, high - v.j, v.j - low, v.k};
-    return depths[wall];
-  };
-  const std::pair<int, int> edges[]{{0, 1}, {1, 3}, {0, 4}, {2, 4}, {0, 2}, {3, 2}};
-  const auto [first, second] = edges[seed % 6];
-  VoxelSet target(n);
-  for_each_voxel(VoxelSet(n, true), [&](Voxel v) {
-    int least = n;
-    for (int wall = 0; wall < 6; ++wall)
-      if (wall != first && wall != second) least = std::min(least, depth(v, wall));
-    const int a = depth(v, first), b = depth(v, second);
-    if (least < 0 || a < 0 || b < 0) return;
-    const bool open = a < gap && b < gap && least > 0;
-    if (!open && std::min({least, a, b}) == 0) target.insert(v);
-  });
-  return target;
-}
-
 TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
   const Cell cell = parse_cell(shipped_cell("panda-turntable"));
   std::vector<Voxel> straight = tool_steps();
@@ -190,8 +156,8 @@ TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
     const Scene scene(cell, cell.grid(16), voxels.stock);
     const Chain& chain = scene.chain();
     const Configuration home = rounded(cell.home(chain), chain.lower(), chain.upper());
-    const SweepRest rest =
-        carve_by_sweeps(scene, voxels, find_unheld(voxels), home, seed, 2, [](const std::vector<Keyframe>&) {}, {});
+    const SweepRest rest = carve_by_sweeps(scene, voxels, find_unheld(voxels), home, seed, 2, {},
+                                           {[](const std::vector<Keyframe>&) {}}, {});
     std::vector<Voxel> wanted;
     std::size_t standing = 0;
     for_each_voxel(voxels.stock, [&](Voxel v) {
