@@ -16,8 +16,8 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t upload_bytes = 1 << 20;
 using Clock = std::chrono::steady_clock;
+constexpr std::size_t upload_bytes = 1 << 20;
 constexpr std::chrono::milliseconds first_pause{100}, longest_pause{2000};  // between looks for a lost server
 constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an artifact that has not grown
 
@@ -58,6 +58,8 @@ Client::Client(std::string server, std::string name, Login login, double patienc
     : server_(std::move(server)), name_(std::move(name)), login_(std::move(login)), patience_s_(patience_s) {
   open();
 }
+Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
 
 void Client::open() {
   connection_ = std::make_unique<Connection>(server_, login_);
@@ -90,9 +92,6 @@ void Client::find_again(const std::exception_ptr& lost) {
   }
   std::rethrow_exception(lost);
 }
-
-Client::~Client() = default;
-Client::Client(Client&&) noexcept = default;
 
 Json Client::call(const std::string& method, const Json& params) {
   return exchange({method, params, {}, nullptr});

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kills the daemon at chance moments of one long job after another: each ends with the bytes of one that nobody disturbed."""
+"""Kills the daemon (now and then stops it in order) at chance moments of one long job after another: each ends with the bytes of one that nobody disturbed."""
 
 import argparse
 import random
@@ -20,12 +20,12 @@ class Life:
             self.job = client.submit(spec, key=key)["job"]
         self.started = time.monotonic()
 
-    def run_until_killed(self, after_s):
-        """Whether the job was killed; else it had ended."""
+    def run_until_killed(self, after_s, end):
+        """Whether the job was disturbed by `end`, a method of the daemon; else it had ended."""
         with sculpt.Client(self.daemon.address) as client:
             ended = client.call("job.wait", job=self.job, timeout_s=after_s)["state"] == "succeeded"
         if not ended:
-            self.daemon.kill()
+            end(self.daemon)
         return not ended
 
     def end(self):
@@ -38,14 +38,14 @@ class Life:
 
 
 def torture(data, mesh, spec, kills, chance):
-    """Seconds of the undisturbed job, and of each disturbed one with the number of its kills."""
+    """Seconds of the undisturbed job, and of each disturbed one with how often it was."""
     wanted, whole_s = Life(data, mesh, spec, "undisturbed").end()
     jobs, left = [], kills
     while left > 0:
         seconds, count, key = 0.0, 0, f"job {len(jobs)}"
         while True:
             life = Life(data, mesh, spec, key)
-            killed = left > 0 and life.run_until_killed(chance.uniform(0, whole_s))
+            killed = left > 0 and life.run_until_killed(chance.uniform(0, whole_s), chance.choice([kit.Daemon.kill, kit.Daemon.kill, kit.Daemon.stop]))
             if not killed:
                 break
             seconds, count, left = seconds + time.monotonic() - life.started, count + 1, left - 1
