@@ -261,7 +261,7 @@ class Model:
 
     def subscribe(self, connection):
         job, after = self.some_job(), self.random.randint(0, 4)
-        words = ["not_found"] if job not in self.states else ["fine"] if after <= 1 else ["fine", "params_invalid"]  # behind its last event
+        words = ["not_found"] if job not in self.states else ["fine"] if after <= 1 else ["fine", "replay_gap"]  # behind its last event
         result = self.expect(self.call(connection, "events.subscribe", job=job, after=after), *words)
         connection.seen.pop(job, None)  # what comes now belongs to the new subscription
         if result:
