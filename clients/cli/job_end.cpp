@@ -8,11 +8,6 @@
 
 namespace sculpt {
 
-bool is_final(const std::string& state) {
-  return state == "succeeded" || state == "failed" || state == "quarantined" || state == "expired" ||
-         state == "cancelled";
-}
-
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
   client.when_lost([&progress](const std::string& sentence) { progress.say(sentence); });
   client.subscribe(job);

@@ -8,8 +8,6 @@
 
 namespace sculpt {
 
-bool is_final(const std::string& state);
-
 /// Tells `progress` of every change until the job ends; gives the job as job.get does.
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress);
 

@@ -35,6 +35,11 @@ bool may_repeat(const std::string& method, const Json& params) {
 
 }  // namespace
 
+bool is_final(const std::string& state) {
+  return state == "succeeded" || state == "failed" || state == "quarantined" || state == "expired" ||
+         state == "cancelled";
+}
+
 double patience_from_environment() {
   constexpr double usual_s = 60;
   const char* text = std::getenv("SCULPT_PATIENCE_S");
@@ -208,7 +213,11 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
 }
 
 void Client::keep(Json event) {
-  if (event.contains("seq")) followed_[event.at("job")] = event.at("seq");
+  if (event.contains("seq")) {
+    const std::string job = event.at("job");
+    followed_[job] = event.at("seq");
+    if (is_final(event.at("data").at("to"))) followed_.erase(job);  // nothing more comes, and it may be gone by then
+  }
   events_.push_back(std::move(event));
 }
 

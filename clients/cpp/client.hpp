@@ -46,6 +46,9 @@ class ServerError : public std::runtime_error {
   std::string pointer_;
 };
 
+/// Whether a job in this state has ended.
+bool is_final(const std::string& state);
+
 /// How long a client that has lost the server looks for it: SCULPT_PATIENCE_S, else a minute. Throws
 /// std::runtime_error for what is no number of seconds.
 double patience_from_environment();
@@ -118,7 +121,7 @@ class Client {
   std::unique_ptr<Connection> connection_;
   Json hello_;
   std::deque<Json> events_;
-  std::map<std::string, std::uint64_t> followed_;  ///< job -> its last event that has come
+  std::map<std::string, std::uint64_t> followed_;  ///< job that has not ended -> its last event that has come
   std::int64_t last_id_ = 0;
 };
 

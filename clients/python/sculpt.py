@@ -64,7 +64,7 @@ class Client:
     def __init__(self, server="127.0.0.1:7878", name=VERSION, token=None, patience_s=None):
         self.server, self.name, self.token = server, name, read_token() if token is None else token
         self.patience_s = read_patience() if patience_s is None else patience_s
-        self.next_id, self.events, self.followed = 1, collections.deque(), {}  # job -> its last event that has come
+        self.next_id, self.events, self.followed = 1, collections.deque(), {}  # job that has not ended -> its last event that has come
         self._open()
 
     def _open(self):
@@ -160,6 +160,8 @@ class Client:
     def _keep(self, event):
         if "seq" in event:
             self.followed[event["job"]] = event["seq"]
+            if event["data"]["to"] in FINAL:
+                del self.followed[event["job"]]  # nothing more comes, and it may be gone by then
         self.events.append(event)
 
     def upload(self, content):

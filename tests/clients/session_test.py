@@ -3,6 +3,7 @@
 import hashlib
 import json
 import subprocess
+import time
 import unittest
 
 import shapes
@@ -317,6 +318,20 @@ class TwoClients(ClientTest):
             self.assertEqual(artifacts["state"], "succeeded")
         self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "python").read_bytes())
         self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "data/jobs" / job / "trajectory.ndjson").read_bytes())
+
+    def test_a_job_that_has_ended_is_not_followed_into_the_next_connection(self):
+        with Daemon(self.scratch / "data") as daemon, sculpt.Client(daemon.address, patience_s=PATIENCE_S) as client:
+            mesh = client.upload_file(shapes.write_stl(self.scratch / "steps.stl", shapes.steps()))
+            job = client.submit({"mesh": mesh, "robot": "gantry", "resolution": 8})["job"]
+            client.call("events.subscribe", job=job)
+            while client.next_event().get("data", {}).get("to") != "succeeded":
+                self.assertIn(job, client.followed)
+            self.assertEqual(client.followed, {})
+            daemon.kill()
+            with Daemon(self.scratch / "data", "--keep-bytes", "0", listen=daemon.address):
+                while (self.scratch / "data/jobs" / job).exists():
+                    time.sleep(0.02)
+                self.assertEqual(client.call("job.list")["jobs"], [])
 
     def test_interrupting_a_watch_leaves_the_job_running(self):
         with Daemon(self.scratch / "data", "--workers", "1") as daemon:
