@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,6 +34,10 @@ class ChildProcess {
   pid_t process_ = -1;
   int socket_ = -1;
 };
+
+/// For the child: the way to its parent. Standard output itself becomes standard error, so that a library that prints
+/// spoils no line.
+std::FILE* take_output();
 
 /// For the child, before it changes anything: from now on the kernel kills this process when the thread that made it
 /// ends, and prefers it when memory runs out. Ends the process if `parent` is not its parent any more.

@@ -1,7 +1,5 @@
 #include "server/isolated_check.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -68,9 +66,7 @@ void check_in_child(const StoredSpec& stored, const Isolation& isolation, std::c
 }
 
 int run_isolated_check(const Planner& planner) {
-  // A library that prints spoils nothing: its standard output becomes standard error.
-  std::FILE* out = ::fdopen(::dup(STDOUT_FILENO), "w");
-  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  std::FILE* out = take_output();
   const DescribedJob described = take_description(std::cin);
   Json said = Json::object();
   try {

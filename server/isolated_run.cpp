@@ -1,7 +1,6 @@
 #include "server/isolated_run.hpp"
 
 #include <signal.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <iostream>
@@ -107,10 +106,10 @@ Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watc
   throw CrashError("the process that planned it ended with " + (end.empty() ? "exit code 0 and no result" : end));
 }
 
-// The child's way to its parent. Standard output itself becomes standard error: a library that prints spoils no line.
+// The child's words to its parent.
 class Voice {
  public:
-  Voice() : out_(::fdopen(::dup(STDOUT_FILENO), "w")) { ::dup2(STDERR_FILENO, STDOUT_FILENO); }
+  Voice() : out_(take_output()) {}
   ~Voice() { std::fclose(out_); }
   Voice(const Voice&) = delete;
   Voice& operator=(const Voice&) = delete;
