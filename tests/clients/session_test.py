@@ -294,7 +294,7 @@ class TwoClients(ClientTest):
         self.assertEqual(list(self.scratch.glob("t.ndjson*")), [])
 
     def test_those_who_wait_find_the_daemon_that_comes_after(self):
-        daemon = Daemon(self.scratch / "data", "--workers", "1")
+        daemon = Daemon(self.scratch / "data", "--workers", "1", "--log", "debug")
         self.server = daemon.address
         mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball())
         job = self.fine("submit", mesh, "--resolution", 16, "--robot", "panda-turntable", "--search", "octree").strip()
@@ -305,6 +305,8 @@ class TwoClients(ClientTest):
         for name in clients:
             while "running" not in waiting[name, "watch"].stdout.readline():
                 pass
+        while daemon.log().count(" client=") < 1 + len(waiting):  # of submit and of those: all have said hello
+            time.sleep(0.02)
         daemon.kill()
         with Daemon(self.scratch / "data", "--workers", "1", listen=self.server):
             for process in waiting.values():
