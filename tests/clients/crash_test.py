@@ -26,6 +26,10 @@ class Crash(ClientTest):
     def submit(self, *options, robot="gantry", resolution=8):
         return self.fine("submit", self.mesh, "--resolution", resolution, "--robot", robot, *options).strip()
 
+    def submit_long(self, *options):
+        """Seconds of work, so that it still runs when it is seen to."""
+        return self.submit("--search", "octree", *options, robot="panda-turntable", resolution=32)
+
     def sha256(self, job):
         return json.loads(self.fine("report", job, "--json"))["plan_sha256"]
 
@@ -40,9 +44,8 @@ class Crash(ClientTest):
         self.server = daemon.address
         finished = self.submit("--wait")
         before = self.fine("report", finished, "--json"), self.fine("fetch", finished, "-o", "-")
-        reference = self.submit("--wait", robot="panda-turntable", resolution=16)
-        expected = self.sha256(reference)
-        running = self.submit(robot="panda-turntable", resolution=16)
+        expected = self.sha256(self.submit_long("--wait"))
+        running = self.submit_long()
         queued = [self.submit("--key", f"order {n}") for n in range(3)]
         self.wait_until_running(running)
         daemon.kill()
@@ -74,7 +77,7 @@ class Crash(ClientTest):
     def test_a_stop_while_a_job_runs_is_orderly_and_the_job_runs_again(self):
         daemon = Daemon(self.data, "--workers", "1")
         self.server = daemon.address
-        job = self.submit(robot="panda-turntable", resolution=16)
+        job = self.submit_long()
         self.wait_until_running(job)
         self.assertEqual(daemon.stop(), 0)
         with Daemon(self.data, "--workers", "1") as daemon:
@@ -82,11 +85,10 @@ class Crash(ClientTest):
             self.fine("wait", job)
             self.assertEqual(daemon.stop(), 0)
 
-
     def test_checkpoints_stay_as_long_as_a_job_may_go_on(self):
         daemon = Daemon(self.data, "--workers", "1")
         self.server = daemon.address
-        job, never = self.submit(robot="panda-turntable", resolution=16), self.submit(robot="panda-turntable", resolution=16)
+        job, never = self.submit_long(), self.submit_long()
         self.wait_until_running(job)
         self.assertEqual(daemon.stop(), 0)
         self.assertTrue((self.data / "jobs" / job).exists(), "an interrupted job keeps its files")
@@ -123,6 +125,8 @@ class Crash(ClientTest):
                 self.server = daemon.address
                 self.fine("wait", job)
                 self.assertEqual(self.sha256(job), sha256, f"{search} of {cell}, seed {seed}")
+
+
 class Poison(ClientTest):
     """A job that ran when its daemon was killed runs in a process of its own from then on."""
 
