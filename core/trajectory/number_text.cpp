@@ -1,5 +1,6 @@
 #include "core/trajectory/number_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -26,10 +27,26 @@ char* write_pair(char* out, std::uint64_t value) {
   return out + 2;
 }
 
-// Where the shortest form has an exponent: 1e-07, 2e-04, 1e+05.
+// Where the shortest form has one: 1e-07, 2e-04.
 bool needs_exponent(std::uint64_t whole, std::uint64_t part) {
-  if (whole >= 100'000) return true;
   return whole == 0 && part != 0 && part < 10'000 && (part < 1000 || part % 1000 == 0);
+}
+
+// Of `part` quanta: its digits, the first before the point, without zeros at the end.
+char* write_with_exponent(char* out, std::uint64_t part) {
+  int exponent = -7;
+  for (; part % 10 == 0; part /= 10) ++exponent;
+  std::array<char, 20> digits;
+  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), part).ptr;
+  *out++ = digits[0];
+  if (end > digits.data() + 1) *out++ = '.';
+  out = std::copy<const char*>(digits.data() + 1, end, out);
+  exponent += static_cast<int>(end - digits.data()) - 1;
+  *out++ = 'e';
+  *out++ = '-';
+  *out++ = '0';
+  *out++ = static_cast<char>('0' - exponent);
+  return out;
 }
 
 }  // namespace
@@ -38,11 +55,12 @@ char* write_number(char* out, double value) {
   const auto quanta = to_quanta(value);
   const auto size = static_cast<std::uint64_t>(quanta ? std::abs(*quanta) : 0);
   const std::uint64_t whole = size / one, part = size % one;
-  if (!quanta || needs_exponent(whole, part)) {
+  if (!quanta || whole >= 100'000) {
     if (!std::isfinite(value)) throw std::invalid_argument("a trajectory value is not finite");
     return std::to_chars(out, out + longest_number, value).ptr;
   }
   if (*quanta < 0) *out++ = '-';
+  if (needs_exponent(whole, part)) return write_with_exponent(out, part);
   if (whole < 10)
     *out++ = static_cast<char>('0' + whole);
   else
