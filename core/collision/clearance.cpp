@@ -124,20 +124,24 @@ double least_distance(const Body& a, const Frame& pose_a, const Body& b, const F
 std::optional<std::vector<Separation>> separations(const Body& a, const Frame& pose_a, const Body& b,
                                                    const Frame& pose_b, double enough_m) {
   std::vector<Separation> found;
+  const Capsule hull_a = placed(pose_a, a.hull), hull_b = placed(pose_b, b.hull);
+  if (between(hull_a, hull_b) >= enough_m) return found;
   for (const Piece& of_a : a.pieces) {
     const Capsule hull = placed(pose_a, of_a.hull);
+    if (between(hull, hull_b) >= enough_m) continue;
     for (const Piece& of_b : b.pieces) {
       const Capsule other = placed(pose_b, of_b.hull);
       Vec3 way = separation(hull.core, other.core);
       double gap = way.norm() - hull.radius_m - other.radius_m;
-      if (gap < enough_m && of_b.shape.kind != ShapeKind::sphere) {
+      if (gap >= enough_m) continue;
+      if (of_b.shape.kind != ShapeKind::sphere) {
         const Vec3 from_box = separation_from_piece_box(of_b, pose_b, hull);
         if (from_box.norm() - hull.radius_m > gap) {
           way = from_box;
           gap = from_box.norm() - hull.radius_m;
         }
       }
-      if (gap >= enough_m) continue;
+      if (gap >= enough_m || distance_to_piece_box(of_a, pose_a, other) >= enough_m) continue;
       if (gap <= 0 || found.size() == most_separations) return std::nullopt;
       found.push_back({hull, way.normalized(), gap});
     }

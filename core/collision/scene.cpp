@@ -38,6 +38,11 @@ Scene::Impl::Mover Scene::Impl::make_mover(int body, int from_link) const {
           turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
 }
 
+Configuration Scene::Impl::grid_speed_from(int link) const {
+  const Vec3 first = grid.origin_m, last = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
+  return motion_bound(chain, link, chain.stock_link(), first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm());
+}
+
 void Scene::Impl::add_pairs(const Cell& cell) {
   const std::vector<int> group = rigid_groups(cell.robot);
   const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
@@ -53,12 +58,12 @@ void Scene::Impl::add_pairs(const Cell& cell) {
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
     const Body& first = bodies[static_cast<std::size_t>(a)];
     if (!first.tool && group_of(first) != stock_group)
-      pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}});
+      pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}, grid_speed_from(first.link)});
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
       const Body& second = bodies[static_cast<std::size_t>(b)];
       if (!apart(first, second)) continue;
       const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
-      Pair pair{a, b, margin, {make_mover(a, second.link), make_mover(b, first.link)}};
+      Pair pair{a, b, margin, {make_mover(a, second.link), make_mover(b, first.link)}, {}};
       if (pair.movers[0].drives.empty()) continue;
       pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
       pairs.push_back(std::move(pair));

@@ -59,7 +59,8 @@ double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double e
   return apart;
 }
 
-/// The body that moves less, as it approaches the other, with all the room that there is.
+/// The body that moves less, as it approaches the other. The room lacks the distance, and what a bound on the second
+/// derivative takes off.
 Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame>& at,
                                        const Configuration& half) const {
   const Mover& mover = pair.mover(half);
@@ -73,36 +74,39 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
           twist.col(drive.coordinate).head<3>() + Vec3(twist.col(drive.coordinate).tail<3>()).cross(point);
     return motion;
   };
-  Bubble::Approach approach{motion_of(pose * body.hull.core.a), motion_of(pose * body.hull.core.b),
-                            twist.bottomRows<3>(), body.hull.radius_m, 0};
-  const DerivativeBounds bounds = derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half));
-  double rest = bounds.second_m / 2;
-  // At the centre the second derivative is known; a mimic joint may stand anywhere, so then only a bound is.
-  if (!has_mimic) rest = std::min(rest, second_order(approach, mover.drives, half) / 2 + bounds.third_m / 6);
-  approach.room_m = -rest;
-  return approach;
+  return {motion_of(pose * body.hull.core.a), motion_of(pose * body.hull.core.b), twist.bottomRows<3>(),
+          body.hull.radius_m, -derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half)).second_m / 2};
 }
 
-/// Where planes lie between all of the two: how the body that moves less comes nearer to them, if it may come too near
-/// within +-half at all. `approach`: of that body, its room without the distance. Nothing if there is no such plane, or
-/// no room.
-std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const Pair& pair, const std::vector<Frame>& at,
-                                                                  const Configuration& half, double enough,
-                                                                  const Bubble::Approach& approach) const {
+/// Takes off less: at the centre the second derivative is known. A mimic joint may stand anywhere, so then only the
+/// bound is.
+void Scene::Impl::sharpen(Bubble::Approach& approach, const Pair& pair, const Configuration& half) const {
+  if (has_mimic) return;
+  const Mover& mover = pair.mover(half);
+  const double third = derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half)).third_m;
+  approach.room_m = std::max(approach.room_m, -second_order(approach, mover.drives, half) / 2 - third / 6);
+}
+
+/// Planes between the body that moves less and all of the other, of pieces that may come too near within +-half at all.
+std::optional<std::vector<Separation>> Scene::Impl::planes(const Pair& pair, const std::vector<Frame>& at,
+                                                           const Configuration& half, double enough) const {
   const int which = pair.mover(half).body;
   const Body& body = bodies[static_cast<std::size_t>(which)];
   const Frame& pose = at[static_cast<std::size_t>(body.link)];
-  std::optional<std::vector<Separation>> planes;
-  if (pair.second < 0) {
-    planes = separations_from_grid(body, pose, grid, enough + pair.margin_m);
-  } else {
-    const Body& other = bodies[static_cast<std::size_t>(which == pair.first ? pair.second : pair.first)];
-    planes = separations(body, pose, other, at[static_cast<std::size_t>(other.link)], enough + pair.margin_m);
-  }
-  if (!planes) return std::nullopt;
-  const Vec3 hull_a = pose * body.hull.core.a;
+  if (pair.second < 0) return separations_from_grid(body, pose, grid, enough + pair.margin_m);
+  const Body& other = bodies[static_cast<std::size_t>(which == pair.first ? pair.second : pair.first)];
+  return separations(body, pose, other, at[static_cast<std::size_t>(other.link)], enough + pair.margin_m);
+}
+
+/// How the body comes nearer to those of the planes that it may come too near to. Nothing if it has no room at one.
+std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const std::vector<Separation>& planes,
+                                                                  const Bubble::Approach& approach, const Pair& pair,
+                                                                  const std::vector<Frame>& at,
+                                                                  const Configuration& half) const {
+  const Body& body = bodies[static_cast<std::size_t>(pair.mover(half).body)];
+  const Vec3 hull_a = at[static_cast<std::size_t>(body.link)] * body.hull.core.a;
   std::vector<Bubble::Advance> advances;
-  for (const Separation& plane : *planes) {
+  for (const Separation& plane : planes) {
     const double room = plane.gap_m - pair.margin_m + approach.room_m;
     if (room <= 0) return std::nullopt;
     const auto advance_of = [&](const Vec3& point) -> Configuration {
@@ -160,11 +164,21 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
   enum class Answer { touch_nowhere, kept_apart, too_near };
   const auto look_at = [&](const Impl::Pair& pair) {
     const double enough = pair.motion(half) + 1e-9;
-    if (impl_->plain_gap(pair, at, enough) >= enough) return Answer::touch_nowhere;
+    const auto planes = impl_->planes(pair, at, half, enough);
+    if (planes && planes->empty()) return Answer::touch_nowhere;
     Bubble::Approach approach = impl_->approach(pair, at, half);
-    if (const auto planes = impl_->advances(pair, at, half, enough, approach)) {
-      advances.insert(advances.end(), planes->begin(), planes->end());
-      return planes->empty() ? Answer::touch_nowhere : Answer::kept_apart;
+    const auto advances_to = [&](const std::vector<Separation>& all) {
+      return impl_->advances(all, approach, pair, at, half);
+    };
+    if (planes) {
+      if (const auto rough = advances_to(*planes); rough && rough->empty()) return Answer::touch_nowhere;
+    }
+    impl_->sharpen(approach, pair, half);
+    if (planes) {
+      if (const auto sharp = advances_to(*planes)) {
+        advances.insert(advances.end(), sharp->begin(), sharp->end());
+        return sharp->empty() ? Answer::touch_nowhere : Answer::kept_apart;
+      }
     }
     const double apart = impl_->gap(pair, at, enough);
     if (apart >= enough) return Answer::touch_nowhere;

@@ -1,9 +1,11 @@
 // What a Scene is made of. Internal to collision/.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 
 #include "core/collision/body.hpp"
+#include "core/collision/clearance.hpp"
 #include "core/collision/motion_bound.hpp"
 #include "core/collision/scene.hpp"
 #include "core/collision/tool_sweep.hpp"
@@ -22,6 +24,7 @@ struct Scene::Impl {
     int first, second;  ///< bodies; second = -1: the material
     double margin_m;  ///< kept between the two; intervals on which they move less than half of it are not split further
     std::vector<Mover> movers;    ///< first seen from second, and second from first: either alone bounds their approach
+    Configuration grid_speed;     ///< motion_bound of all of the grid, seen from the body; of two bodies none
     bool tool_and_fixed = false;  ///< the tool and what stands still in the stock's frame
     bool never_touch = false;     ///< moved against each other by one joint only, and free all along its range
 
@@ -30,7 +33,10 @@ struct Scene::Impl {
       return movers.size() == 1 || movers[0].speed.dot(joint_steps) <= movers[1].speed.dot(joint_steps) ? movers[0]
                                                                                                         : movers[1];
     }
-    double motion(const Configuration& joint_steps) const { return mover(joint_steps).speed.dot(joint_steps); }
+    double motion(const Configuration& joint_steps) const {
+      const double least = mover(joint_steps).speed.dot(joint_steps);
+      return second < 0 ? std::min(least, grid_speed.dot(joint_steps)) : least;
+    }
     /// How many joints move the two against each other.
     Eigen::Index joints() const { return (movers[0].speed.array() > 0).count(); }
   };
@@ -52,9 +58,12 @@ struct Scene::Impl {
   double plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
   double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
   Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half) const;
-  std::optional<std::vector<Bubble::Advance>> advances(const Pair& pair, const std::vector<Frame>& at,
-                                                       const Configuration& half, double enough,
-                                                       const Bubble::Approach& approach) const;
+  void sharpen(Bubble::Approach& approach, const Pair& pair, const Configuration& half) const;
+  std::optional<std::vector<Separation>> planes(const Pair& pair, const std::vector<Frame>& at,
+                                                const Configuration& half, double enough) const;
+  std::optional<std::vector<Bubble::Advance>> advances(const std::vector<Separation>& planes,
+                                                       const Bubble::Approach& approach, const Pair& pair,
+                                                       const std::vector<Frame>& at, const Configuration& half) const;
   bool is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const;
 
   Chain chain;
@@ -73,6 +82,7 @@ struct Scene::Impl {
  private:
   /// A body seen from a link.
   Mover make_mover(int body, int from_link) const;
+  Configuration grid_speed_from(int link) const;
   void add_pairs(const Cell& cell);
   void find_never_touching();
 };
