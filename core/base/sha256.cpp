@@ -27,22 +27,28 @@ struct Sha256::Impl {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
 };
 
-Sha256::Sha256() : impl_(std::make_unique<Impl>()) {
+Sha256::Sha256() = default;
+Sha256::~Sha256() = default;
+
+void Sha256::begin() {
+  if (impl_) return;
+  impl_ = std::make_unique<Impl>();
   if (impl_->context == nullptr || EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) != 1)
     throw std::bad_alloc();
 }
 
-Sha256::~Sha256() = default;
-
 void Sha256::add(std::string_view bytes) {
+  begin();
   EVP_DigestUpdate(impl_->context, bytes.data(), bytes.size());
 }
 
 std::string Sha256::hex() {
+  begin();
   return final_hex(impl_->context);
 }
 
-std::string Sha256::hex_so_far() const {
+std::string Sha256::hex_so_far() {
+  begin();
   const Impl copy;
   if (copy.context == nullptr || EVP_MD_CTX_copy_ex(copy.context, impl_->context) != 1) throw std::bad_alloc();
   return final_hex(copy.context);

@@ -7,7 +7,8 @@
 
 namespace sculpt {
 
-/// A running SHA-256. Not shared between threads.
+/// A running SHA-256. Not shared between threads. The first of a process takes a millisecond, in which OpenSSL starts:
+/// on the thread that first adds something.
 class Sha256 {
  public:
   Sha256();
@@ -16,9 +17,11 @@ class Sha256 {
   /// 64 lower-case hex digits of everything added so far; the object may not be used afterwards.
   std::string hex();
   /// The same, and more may be added.
-  std::string hex_so_far() const;
+  std::string hex_so_far();
 
  private:
+  void begin();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

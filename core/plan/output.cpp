@@ -45,6 +45,8 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
     visit(keyframe);
   }
   if (text_.so_far() != start) throw std::logic_error("a trajectory file is not what its checkpoint says");
+  marked_ = start;
+  started_bytes_ = start.bytes;
   fs::resize_file(path, start.bytes);
   lines_.rdbuf(file_.rdbuf());
   start_writing(threads);
@@ -53,8 +55,6 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
 void Output::start_writing(int threads) {
   file_.flush();
   check();
-  marked_ = text_.so_far();
-  started_bytes_ = marked_.bytes;
   if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
 }
 
