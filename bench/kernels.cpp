@@ -191,8 +191,8 @@ void transit_from_home_to_above_the_stock(benchmark::State& state) {
 BENCHMARK(transit_from_home_to_above_the_stock)->Unit(benchmark::kMicrosecond);
 
 ReachRows reach_of(const PostureField& field) {
-  return {field.view().n, [&](const Vec3& cell) { return field.usable(cell); },
-          [&](const Vec3& cell) { return field.part(cell); }};
+  return {field.view().n, [&](const Vec3& cell) { return field.part(cell); },
+          [&](Voxel part) { return field.usable_part(part); }};
 }
 
 void sweep_along_a_direction(benchmark::State& state) {

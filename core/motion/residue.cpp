@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
 #include "core/collision/clearance.hpp"
@@ -97,7 +96,7 @@ const char* name(Reason reason) {
 }
 
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                                     std::uint64_t seed, int threads, const Watch& watch) {
+                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
   const Support support(scene.material().solid(), may_fall);
   const std::vector<Body> holder = find_holder(scene.chain());
@@ -112,7 +111,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
     }
   }
   constexpr std::size_t at_once = 64;
-  for_each_index(threads, (residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
+  helpers.for_each_index((residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
     for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
       if (watch.stop.stop_requested()) throw Cancelled{};
       auto& [voxel, reason] = residue[at];

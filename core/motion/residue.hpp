@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/helpers.hpp"
 #include "core/base/watch.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
@@ -25,6 +26,6 @@ struct Residue {
 /// one within limits; one without contact. What meets all of them was left because its removal would free a loose
 /// piece, or else for want of a transit. `may_fall`: what cannot be held. Throws Cancelled.
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                                     std::uint64_t seed, int threads, const Watch& watch);
+                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch);
 
 }  // namespace sculpt

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include "core/base/helpers.hpp"
 #include "core/material/loose_pieces.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
@@ -193,8 +194,8 @@ Output open_output(const std::filesystem::path& trajectory, TrajectoryForm form,
   return {trajectory, at.file, header, chain, remove, report.threads, watch, visit};
 }
 
-SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall, const Job& job,
-                const Configuration& home, const Carved& carved, RunLog& log, const Watch& watch) {
+SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall, const TrajectoryHeader& header,
+                const Helpers& helpers, const Carved& carved, RunLog& log, const Watch& watch) {
   if (log.now.swept) return {carved.standing, log.now.swept->out_of_tool_reach};
   std::optional<SweepStart> start;
   if (log.now.sweeping) start = {*log.now.sweeping, carved.standing, carved.q};
@@ -205,7 +206,7 @@ SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
                                  log.note();
                                  log.save_if_due();
                                }};
-  SweepRest left = carve_by_sweeps(scene, voxels, may_fall, home, job.seed, job.threads, start, listener, watch);
+  SweepRest left = carve_by_sweeps(scene, voxels, may_fall, header.home, header.seed, helpers, start, listener, watch);
   if (log.keeps()) {
     log.now.sweeping.reset();
     log.now.swept = {log.output.keyframes(), left.out_of_tool_reach};
@@ -215,19 +216,19 @@ SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
   return left;
 }
 
-void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const Job& job, const TrajectoryHeader& header,
-           const VoxelSet& may_fall, const Carved& carved, RunLog& log, const Watch& watch) {
+void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const TrajectoryHeader& header,
+           const VoxelSet& may_fall, const Helpers& helpers, const Carved& carved, RunLog& log, const Watch& watch) {
   if (scene.chain().translating()) {
     carve_with_gantry(scene, voxels, octree, build_block_graph(octree, watch), header.home, header.search, log, watch);
   } else if (header.search == "sweep") {
-    const SweepRest left = sweep(scene, voxels, may_fall, job, header.home, carved, log, watch);
+    const SweepRest left = sweep(scene, voxels, may_fall, header, helpers, carved, log, watch);
     scene.leave(left.standing);
     const Octree rest = build_octree(left_to_cut(left, voxels.keep), watch);
-    carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, job.seed, carved.by_arm, log,
+    carve_with_arm(scene, may_fall, rest, build_block_graph(rest, watch), header.home, header.seed, carved.by_arm, log,
                    watch);
   } else {
-    carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, job.seed, carved.by_arm, log,
-                   watch);
+    carve_with_arm(scene, may_fall, octree, build_block_graph(octree, watch), header.home, header.seed, carved.by_arm,
+                   log, watch);
   }
   log.note();
   log.save_if_due();
@@ -236,6 +237,7 @@ void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const Jo
 JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
                CheckpointFolder kept) {
   const Stopwatch total;
+  const Helpers helpers(job.threads);
   Watch watch = told;
   JobResult result;
   Report& report = result.report;
@@ -277,13 +279,13 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
   Output output = open_output(trajectory, form, header, chain, report, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
-    if (!now.residue) carve(scene, result.voxels, octree, job, header, may_fall, carved, log, watch);
+    if (!now.residue) carve(scene, result.voxels, octree, header, may_fall, helpers, carved, log, watch);
     report.quality.ompl_calls = now.arm.ompl_calls;
     report.quality.ompl_solved = now.arm.ompl_solved;
     report.plan_sha256 = output.finish().sha256;
     count_path(report, output.figures(), result.grid.voxel_m, log.checks());
     if (!now.residue) {
-      now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, job.threads, watch);
+      now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, helpers, watch);
       log.note_state();
       log.save_if_due();
     }

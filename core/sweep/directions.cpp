@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/base/parallel.hpp"
+#include "core/base/helpers.hpp"
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
 #include "core/sweep/find_field.hpp"
@@ -15,12 +15,12 @@ constexpr std::size_t first_side = 1;  // of the views; four each of a kind foll
 
 }  // namespace
 
-Directions::Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, int threads,
+Directions::Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, const Helpers& helpers,
                        const Watch& watch)
     : scene_(scene),
       home_(home),
       seed_(seed),
-      threads_(threads),
+      helpers_(helpers),
       watch_(watch),
       turn_(find_stock_turn(scene.chain(), scene.grid())) {
   const int n = scene.grid().n;
@@ -33,13 +33,13 @@ Directions::Directions(const Scene& scene, const Configuration& home, std::uint6
 
 void Directions::find_straight_fields() {
   const std::size_t apart = turn_ ? first_side + 1 : straight_;
-  for_each_index(threads_, apart, [&](std::size_t direction) { find(direction); });
+  helpers_.for_each_index(apart, [&](std::size_t direction) { find(direction); });
   for (std::size_t direction = apart; direction < straight_; ++direction) find(direction);
-  for_each_index(threads_, straight_, [&](std::size_t direction) {
+  helpers_.for_each_index(straight_, [&](std::size_t direction) {
     const PostureField& field = *fields_[direction];
     reach_[direction].emplace(
-        scene_.grid().n, [&](const Vec3& cell) { return field.usable(cell); },
-        [&](const Vec3& cell) { return field.part(cell); });
+        scene_.grid().n, [&](const Vec3& cell) { return field.part(cell); },
+        [&](Voxel part) { return field.usable_part(part); });
   });
 }
 
@@ -77,7 +77,7 @@ std::unique_ptr<PostureField> Directions::search(std::size_t direction) const {
   std::vector<Configuration> known;
   const IkGoal hub{views_[0].ball_m(scene_.grid(), hub_cell(scene_.grid().n)), views_[0].axis()};
   if (const auto above = solve_ik(scene_.chain(), hub, home_); above && direction > 0) known.push_back(*above);
-  return find_field(scene_, views_[direction], home_, known, mix(seed_, direction), threads_, watch_);
+  return find_field(scene_, views_[direction], home_, known, mix(seed_, direction), helpers_, watch_);
 }
 
 /// Nothing if the joint does not turn so far.

@@ -16,11 +16,15 @@ namespace sculpt {
 /// shared between threads.
 class Directions {
  public:
-  /// `scene` and `watch` must outlive the object.
-  Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, int threads, const Watch& watch);
+  /// `scene`, `helpers` and `watch` must outlive the object.
+  Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, const Helpers& helpers,
+             const Watch& watch);
 
   /// The fields of all straight directions. To be called first. Throws Cancelled.
   void find_straight_fields();
+
+  /// The coordinate that turns the stock under the arm, if there is one.
+  std::optional<int> stock_turn() const { return turn_ ? std::optional(turn_->coordinate) : std::nullopt; }
 
   std::size_t straight() const { return straight_; }
   std::size_t size() const { return views_.size(); }
@@ -46,7 +50,7 @@ class Directions {
   const Scene& scene_;
   Configuration home_;
   std::uint64_t seed_;
-  int threads_;
+  const Helpers& helpers_;
   const Watch& watch_;
   std::optional<StockTurn> turn_;
   std::vector<ToolView> views_;

@@ -52,8 +52,8 @@ int count_free_probes(const Scene& scene, const ToolView& view, const Configurat
 /// Grows fields from one start after the other and keeps the best.
 class FieldSearch {
  public:
-  FieldSearch(const Scene& scene, const ToolView& view, int threads, const Watch& watch)
-      : scene_(scene), view_(view), threads_(threads), watch_(watch) {}
+  FieldSearch(const Scene& scene, const ToolView& view, const Helpers& helpers, const Watch& watch)
+      : scene_(scene), view_(view), helpers_(helpers), watch_(watch) {}
 
   std::unique_ptr<PostureField> run(const std::vector<Configuration>& guesses) {
     const double middle = (view_.n - 1) / 2.0;
@@ -84,7 +84,7 @@ class FieldSearch {
   }
 
   void grow(const Configuration& start) {
-    auto field = std::make_unique<PostureField>(scene_, view_, start, threads_, watch_);
+    auto field = std::make_unique<PostureField>(scene_, view_, start, helpers_, watch_);
     if (!best_ || field->usable_cells() > best_->usable_cells()) best_ = std::move(field);
     ++grown_;
   }
@@ -95,7 +95,7 @@ class FieldSearch {
 
   const Scene& scene_;
   const ToolView& view_;
-  int threads_;
+  const Helpers& helpers_;
   const Watch& watch_;
   std::vector<Start> starts_;
   std::unique_ptr<PostureField> best_;
@@ -105,11 +105,11 @@ class FieldSearch {
 }  // namespace
 
 std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
-                                         const std::vector<Configuration>& known, std::uint64_t seed, int threads,
-                                         const Watch& watch) {
-  auto best = FieldSearch(scene, view, threads, watch).run(find_guesses(scene.chain(), home, known, seed));
-  if (!best) best = std::make_unique<PostureField>(scene, view, home, threads, watch);
-  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, threads, watch);
+                                         const std::vector<Configuration>& known, std::uint64_t seed,
+                                         const Helpers& helpers, const Watch& watch) {
+  auto best = FieldSearch(scene, view, helpers, watch).run(find_guesses(scene.chain(), home, known, seed));
+  if (!best) best = std::make_unique<PostureField>(scene, view, home, helpers, watch);
+  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, helpers, watch);
   return best;
 }
 

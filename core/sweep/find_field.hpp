@@ -11,7 +11,7 @@ namespace sculpt {
 /// directions with one joint turned by quarters (a turntable makes one side of the stock of another), random ones drawn
 /// from `seed`. It may cover nothing. Any thread.
 std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
-                                         const std::vector<Configuration>& known, std::uint64_t seed, int threads,
-                                         const Watch& watch);
+                                         const std::vector<Configuration>& known, std::uint64_t seed,
+                                         const Helpers& helpers, const Watch& watch);
 
 }  // namespace sculpt

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/collision/margins.hpp"
@@ -112,7 +111,6 @@ class Follower {
   Follower(const PostureField& field, const Tool& tool, const Grid& grid)
       : field_(field),
         chain_(field.chain()),
-        lanes_(chain_, field.view().axis()),
         voxel_m_(grid.voxel_m),
         stray_(stray_of(tool, grid.voxel_m)),
         speed_(motion_bound(chain_, chain_.stock_link(), chain_.tool_link(), tool.stickout_m)),
@@ -145,14 +143,13 @@ class Follower {
   bool stand_at(const Vec3& cell) {
     if (!field_.usable(cell)) return false;
     put(0, cell);
-    lanes_.solve(ahead_);
+    field_.lanes().solve(ahead_);
     here_ = stop_of(0, cell);
     return ahead_.solved(0);
   }
 
   void put(std::size_t lane, const Vec3& cell) {
-    const auto guess = field_.guess(cell);
-    ahead_.set(static_cast<int>(lane), field_.ball_m(cell), guess ? *guess : nowhere_);
+    ahead_.set(static_cast<int>(lane), field_.ball_m(cell), field_.guess(cell));
   }
 
   Stop stop_of(std::size_t lane, const Vec3& cell) const {
@@ -169,7 +166,7 @@ class Follower {
       put(pieces_.size(), piece.end);
       pieces_.push_back(piece);
     }
-    lanes_.solve(ahead_);
+    field_.lanes().solve(ahead_);
     bound_bends();
   }
 
@@ -213,7 +210,7 @@ class Follower {
         travel_[lane] += speed_[c] * step;
       }
     }
-    lanes_.bend(edges_);
+    field_.lanes().bend(edges_);
   }
 
   /// Goes to the end of the next piece if the edge there is certified. A function with second derivative at most b
@@ -253,12 +250,10 @@ class Follower {
 
   const PostureField& field_;
   const Chain& chain_;
-  PostureLanes lanes_;
   double voxel_m_;
   Stray stray_;
   Configuration speed_;       ///< m per unit of each joint, for the whole tool
   Configuration turn_rates_;  ///< rad per unit of each joint
-  Configuration nowhere_ = Configuration::Constant(chain_.dof(), std::numeric_limits<double>::quiet_NaN());
 
   Stop here_;
   double longest_next_ = longest_edge;             ///< after a refusal

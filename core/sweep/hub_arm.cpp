@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/transit.hpp"
+#include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {
 
@@ -15,23 +16,48 @@ void HubArm::resume(HubArmMemory memory, const Configuration& q, const PostureFi
 }
 
 bool HubArm::enter(const PostureField& field) {
-  const Vec3 hub_at = hub_cell(scene_.grid().n);
-  const auto hub = field.at(hub_at);
-  if (!hub) return false;
-  const auto back = way_home();
-  if (!back) return false;
-  const std::vector<Configuration> path = find_transit(*hub);
-  if (path.empty()) return false;
-  move(path);
-  memory_.way_home.assign(path.rbegin() + 1, path.rend());
-  memory_.way_home.insert(memory_.way_home.end(), back->begin(), back->end());
-  field_ = &field;
-  memory_.at = hub_at;
-  return true;
+  std::optional<Entry> entry = find_entry(field);
+  if (entry) enter(std::move(*entry));
+  return entry.has_value();
 }
 
-Followed HubArm::try_strokes(const Vec3& from, const std::vector<Stroke>& strokes) const {
-  return follow(*field_, scene_.tool(), scene_.grid(), from, strokes);
+std::optional<HubArm::Entry> HubArm::find_entry(const PostureField& field) const {
+  const auto hub = field.at(hub_cell(scene_.grid().n));
+  if (!hub) return std::nullopt;
+  auto back = way_home();
+  if (!back) return std::nullopt;
+  Entry entry{&field, find_way(*back, *hub), std::move(*back)};
+  if (entry.path.empty()) return std::nullopt;
+  return entry;
+}
+
+void HubArm::enter(Entry entry) {
+  move(entry.path);
+  memory_.way_home.assign(entry.path.rbegin() + 1, entry.path.rend());
+  memory_.way_home.insert(memory_.way_home.end(), entry.back.begin(), entry.back.end());
+  ++memory_.transits;
+  field_ = entry.field;
+  memory_.at = hub_cell(scene_.grid().n);
+}
+
+/// From where it stands; empty if none was found. Where no edge leads there it draws back to a place on its way home,
+/// has the stock turned there and comes forward again, or searches.
+std::vector<Configuration> HubArm::find_way(const std::vector<Configuration>& back, const Configuration& to) const {
+  const auto is_free = [this](const Configuration& from, const Configuration& there) {
+    return scene_.certify(from, there) == Contact::none;
+  };
+  if (is_free(q_, to)) return {q_, to};
+  for (auto place = back.begin(); turn_ && place != back.end(); ++place) {
+    Configuration before = *place, after = *place;
+    before[*turn_] = q_[*turn_];
+    after[*turn_] = to[*turn_];
+    if (is_free(before, after) && is_free(q_, before) && is_free(after, to)) return {q_, before, after, to};
+  }
+  return find_transit(to);
+}
+
+Followed HubArm::try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const {
+  return follow(field, scene_.tool(), scene_.grid(), from, strokes);
 }
 
 std::size_t HubArm::commit(Followed followed, const std::vector<Stroke>& strokes) {
@@ -52,8 +78,8 @@ void HubArm::go_home() {
 }
 
 /// From where it stands; empty if none was found.
-std::vector<Configuration> HubArm::find_transit(const Configuration& to) {
-  Transit found = plan_transit(scene_, q_, to, mix(seed_, ++memory_.transits), watch_.stop);
+std::vector<Configuration> HubArm::find_transit(const Configuration& to) const {
+  Transit found = plan_transit(scene_, q_, to, mix(seed_, memory_.transits + 1), watch_.stop);
   if (watch_.stop.stop_requested()) throw Cancelled{};
   return std::move(found.path);
 }
@@ -63,7 +89,7 @@ std::vector<Configuration> HubArm::find_transit(const Configuration& to) {
 std::optional<std::vector<Configuration>> HubArm::way_home() const {
   if (field_ == nullptr) return std::vector<Configuration>{};
   const Vec3 hub = hub_cell(scene_.grid().n);
-  const Followed over = try_strokes(memory_.at, {{hub, 0, 0, {}, {}}});
+  const Followed over = try_strokes(*field_, memory_.at, {{hub, 0, 0, {}, {}}});
   if (memory_.at != hub && over.strokes == 0) return std::nullopt;
   std::vector<Configuration> way;
   for (const Keyframe& keyframe : over.keyframes) way.push_back(keyframe.q);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/base/watch.hpp"
@@ -12,7 +13,7 @@ namespace sculpt {
 
 /// What an arm knows besides the keyframes that it emitted and the direction it is in.
 struct HubArmMemory {
-  std::uint64_t transits = 0;           ///< asked for
+  std::uint64_t transits = 0;           ///< to a hub
   Vec3 at = Vec3::Zero();               ///< the ball, in cells of the view of the direction
   std::vector<Configuration> way_home;  ///< from the hub of the direction
 };
@@ -22,23 +23,33 @@ class HubArm {
  public:
   using Emit = std::function<void(std::vector<Keyframe>)>;
 
-  /// `scene`, `emit` and `watch` must outlive the object.
-  HubArm(const Scene& scene, const Configuration& home, std::uint64_t seed, const Emit& emit, const Watch& watch)
-      : scene_(scene), home_(home), seed_(seed), emit_(emit), watch_(watch), q_(home) {}
+  /// `turn`: the coordinate that turns the stock, if there is one. `scene`, `emit` and `watch` must outlive the object.
+  HubArm(const Scene& scene, const Configuration& home, std::optional<int> turn, std::uint64_t seed, const Emit& emit,
+         const Watch& watch)
+      : scene_(scene), home_(home), turn_(turn), seed_(seed), emit_(emit), watch_(watch), q_(home) {}
 
   /// Goes on where another one was: at `q`, in `field` if not at home.
   void resume(HubArmMemory memory, const Configuration& q, const PostureField* field);
   const HubArmMemory& memory() const { return memory_; }
 
-  /// Goes over to the hub of a direction. False, and nothing done, if there is no way. Throws Cancelled.
+  /// How to go over to the hub of a direction.
+  struct Entry {
+    const PostureField* field;
+    std::vector<Configuration> path;  ///< from where the arm is
+    std::vector<Configuration> back;  ///< from there home
+  };
+  /// Nothing if there is no way. Any thread, while the arm stays where it is. Throws Cancelled.
+  std::optional<Entry> find_entry(const PostureField& field) const;
+  void enter(Entry entry);
+  /// Both. False, and nothing done, if there is no way.
   bool enter(const PostureField& field);
   /// Of the direction in use; none at home.
   const PostureField* field() const { return field_; }
   /// The ball, in cells of the view of that direction.
   const Vec3& at() const { return memory_.at; }
 
-  /// What it does from `from` on, along the direction in use. Any thread.
-  Followed try_strokes(const Vec3& from, const std::vector<Stroke>& strokes) const;
+  /// What it would do in a direction from `from` on. Any thread.
+  Followed try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const;
   /// Emits what was followed, from where the arm is, and says how many strokes that is.
   std::size_t commit(Followed followed, const std::vector<Stroke>& strokes);
   /// Voxels, since it was made.
@@ -48,13 +59,15 @@ class HubArm {
   void go_home();
 
  private:
-  std::vector<Configuration> find_transit(const Configuration& to);
+  std::vector<Configuration> find_way(const std::vector<Configuration>& back, const Configuration& to) const;
+  std::vector<Configuration> find_transit(const Configuration& to) const;
   std::optional<std::vector<Configuration>> way_home() const;
   void move(const std::vector<Configuration>& way);
   void emit(std::vector<Keyframe> keyframes) const;
 
   const Scene& scene_;
   Configuration home_;
+  std::optional<int> turn_;
   std::uint64_t seed_, removed_ = 0;
   const Emit& emit_;
   const Watch& watch_;

@@ -1,6 +1,7 @@
 // What the passes of a sweep work on, and how one ended.
 #pragma once
 
+#include "core/base/helpers.hpp"
 #include "core/material/support.hpp"
 #include "core/sweep/hub_arm.hpp"
 
@@ -9,7 +10,7 @@ namespace sculpt {
 struct Carving {
   const Scene& scene;
   const VoxelSet& keep;
-  int threads;
+  const Helpers& helpers;
   const Watch& watch;
   Support support;  ///< of what stands when all that is planned is cut
   HubArm arm;

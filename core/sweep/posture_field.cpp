@@ -1,11 +1,12 @@
 #include "core/sweep/posture_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <utility>
 
-#include "core/base/parallel.hpp"
+#include "core/base/helpers.hpp"
 #include "core/cell/ik.hpp"
 #include "core/collision/margins.hpp"
 #include "core/sweep/posture.hpp"
@@ -16,25 +17,30 @@ namespace {
 
 /// Nodes beside each other may not differ by more in any joint (rad or m): else they are on two branches.
 constexpr double longest_joint_step = 0.35;
-constexpr int node_steps = 3;  // from one node to the next
+constexpr double most_bend = 0.02;  // rad or m: by which a node may be off the middle of two that are beside it
+constexpr int node_steps = 3;       // from one node to the next
+constexpr int between_steps = 2;    // from what is interpolated between them
 constexpr double close_m = 1e-6;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
 /// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
 constexpr double tool_room_voxels = 0.5 - tool_margin_voxels;
 constexpr double headroom_cells = 2;  // beyond the grid, on the sides that the axis leans to: where the tool comes in
 constexpr int largest = 8;            // cubes of the fine lattice that are tried first
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-PostureField::PostureField(const Scene& scene, const ToolView& view, const Configuration& start, int threads,
+PostureField::PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Helpers& helpers,
                            const Watch& watch)
     : chain_(scene.chain()),
       grid_(scene.grid()),
       view_(view),
+      lanes_(chain_, view.axis()),
       start_(start),
       low_(Vec3::Constant(-0.5)),
       span_(Vec3::Constant(view.n) + headroom_cells * Vec3(view.lean.i, view.lean.j, view.lean.k)),
-      nodes_(static_cast<std::size_t>(nodes) * nodes * nodes),
+      parts_per_cell_(fine * span_.cwiseInverse()),
+      nodes_(Eigen::MatrixXd::Constant(chain_.dof(), nodes * nodes * nodes, nowhere)),
       covered_(all_cells(), -1) {
   grow(start, watch);
   around_ = find_surroundings(scene);
@@ -42,23 +48,23 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Confi
   for (int k = 0; k < fine; k += largest)
     for (int j = 0; j < fine; j += largest)
       for (int i = 0; i < fine; i += largest) cubes.push_back({{i, j, k}, largest, around_});
-  cover(scene, cubes, parts, threads, watch);
+  cover(scene, cubes, parts, helpers, watch);
   find_roomy(scene);
 }
 
 PostureField::PostureField(const PostureField& other, const ToolView& view, const Configuration& turn)
     : PostureField(other) {
   view_ = view;
+  lanes_ = PostureLanes(chain_, view.axis());
   start_ += turn;
-  for (Configuration& node : nodes_)
-    if (node.size() > 0) node += turn;
+  nodes_.colwise() += turn;
   for (Bubble& bubble : bubbles_) bubble.shift(turn);
   around_.box = around_.box.shifted(turn);
   holes_.clear();
 }
 
-void PostureField::refine(const Scene& scene, int threads, const Watch& watch) {
-  cover(scene, std::exchange(holes_, {}), 1, threads, watch);
+void PostureField::refine(const Scene& scene, const Helpers& helpers, const Watch& watch) {
+  cover(scene, std::exchange(holes_, {}), 1, helpers, watch);
 }
 
 Vec3 PostureField::corner_cell(Voxel corner) const {
@@ -72,7 +78,7 @@ Vec3 PostureField::last_cell() const {
 
 /// The cell of the fine lattice that a place is in.
 Voxel PostureField::corner_below(const Vec3& cell) const {
-  const Vec3 at = (cell - low_).cwiseQuotient(span_) * fine;
+  const Vec3 at = (cell - low_).cwiseProduct(parts_per_cell_);
   const auto whole = [](double x) { return std::clamp(static_cast<int>(x), 0, fine - 1); };
   return {whole(at.x()), whole(at.y()), whole(at.z())};
 }
@@ -81,18 +87,23 @@ std::size_t PostureField::fine_cell(const Vec3& cell) const {
   return index_of(corner_below(cell));
 }
 
-/// From the middle of the top outwards, each node from a neighbour that has one.
+/// Every other node from the one before, from the middle of the top outwards; those between them by interpolation,
+/// which is as good as exact; what is missing then from neighbours.
 void PostureField::grow(const Configuration& start, const Watch& watch) {
-  struct Visit {
-    Voxel node;
-    Configuration guess;
-  };
-  const Voxel first{cells / 2, cells / 2, cells};
-  std::deque<Visit> queue{{first, start}};
-  const Grid lattice{nodes, 1, Vec3::Zero()};
-  const PostureLanes lanes(chain_, view_.axis());
+  spread({{first_node, start}}, 2, watch);
+  fill_between();
+  std::deque<Visit> beside;
+  for_each_node([&](Voxel node) {
+    if (!has_node(node)) return;
+    for (const Voxel step : face_steps)
+      if (is_node(node + step) && !has_node(node + step)) beside.push_back({node + step, node_at(node)});
+  });
+  spread(std::move(beside), 1, watch);
+}
+
+/// Each node from one that is `stride` away and has a configuration.
+void PostureField::spread(std::deque<Visit> queue, int stride, const Watch& watch) {
   const Pull to_the_middle{(chain_.lower() + chain_.upper()) / 2, 0.05};
-  const auto node_at = [this](Voxel at) -> Configuration& { return nodes_[node_index(at.i, at.j, at.k)]; };
   while (!queue.empty()) {
     if (watch.stop.stop_requested()) throw Cancelled{};
     std::vector<Visit> visits, again;
@@ -100,7 +111,7 @@ void PostureField::grow(const Configuration& start, const Watch& watch) {
     while (!queue.empty() && visits.size() < lane_count) {
       Visit visit = std::move(queue.front());
       queue.pop_front();
-      if (node_at(visit.node).size() > 0) continue;
+      if (has_node(visit.node)) continue;
       if (std::any_of(visits.begin(), visits.end(), [&](const Visit& v) { return v.node == visit.node; })) {
         again.push_back(std::move(visit));
         continue;
@@ -109,7 +120,7 @@ void PostureField::grow(const Configuration& start, const Watch& watch) {
       visits.push_back(std::move(visit));
     }
     queue.insert(queue.end(), again.begin(), again.end());
-    lanes.solve(batch, node_steps, &to_the_middle);
+    lanes_.solve(batch, node_steps, &to_the_middle);
     for (std::size_t at = 0; at < visits.size(); ++at) {
       const auto& [node, guess] = visits[at];
       const int lane = static_cast<int>(at);
@@ -119,12 +130,42 @@ void PostureField::grow(const Configuration& start, const Watch& watch) {
       } else {  // it keeps off joint limits
         q = solve_ik(chain_, {ball_m(corner_cell(node * parts)), view_.axis()}, guess);
       }
-      if (!q || (node != first && (*q - guess).cwiseAbs().maxCoeff() > longest_joint_step)) continue;
+      if (!q || (node != first_node && (*q - guess).cwiseAbs().maxCoeff() > stride * longest_joint_step)) continue;
       node_at(node) = *q;
-      for (Voxel step : face_steps)
-        if (lattice.contains(node + step)) queue.push_back({node + step, *q});
+      for (const Voxel step : face_steps)
+        if (is_node(node + step * stride)) queue.push_back({node + step * stride, *q});
     }
   }
+}
+
+/// The nodes between those, along x, then y, then z.
+void PostureField::fill_between() {
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_node([&](Voxel node) {
+      const int last_odd = node.k % 2 ? 2 : node.j % 2 ? 1 : node.i % 2 ? 0 : -1;
+      if (axis != last_odd) return;
+      if (const auto q = find_between(node, {axis == 0, axis == 1, axis == 2})) node_at(node) = *q;
+    });
+}
+
+/// From the nodes beside it and those beyond them, by Lagrange's polynomial through the four, three at the rim. Nothing
+/// where that differs much from the straight line between the two beside it.
+std::optional<Configuration> PostureField::find_between(Voxel node, Voxel along) const {
+  if (!has_node(node - along) || !has_node(node + along)) return std::nullopt;
+  const Configuration low = node_at(node - along), high = node_at(node + along), middle = (low + high) / 2;
+  const Voxel below = node - along * 3, above = node + along * 3;
+  const bool has_below = is_node(below) && has_node(below), has_above = is_node(above) && has_node(above);
+  Configuration q = middle;
+  if (has_below && has_above)
+    q = (9 * (low + high) - node_at(below) - node_at(above)) / 16;
+  else if (has_below)
+    q = (3 * high + 6 * low - node_at(below)) / 8;
+  else if (has_above)
+    q = (3 * low + 6 * high - node_at(above)) / 8;
+  else
+    return std::nullopt;
+  if ((q - middle).cwiseAbs().maxCoeff() > most_bend || !chain_.within_limits(q)) return std::nullopt;
+  return q;
 }
 
 bool PostureField::has_nodes(Voxel corner, int size) const {
@@ -133,22 +174,39 @@ bool PostureField::has_nodes(Voxel corner, int size) const {
   for (int k = 0; k <= last; ++k)
     for (int j = 0; j <= last; ++j)
       for (int i = 0; i <= last; ++i)
-        if (nodes_[node_index(low.i + i, low.j + j, low.k + k)].size() == 0) return false;
+        if (!has_node(low + Voxel{i, j, k})) return false;
   return true;
 }
 
-std::optional<Configuration> PostureField::corner_configuration(Voxel corner) const {
-  if (corner.i % parts == 0 && corner.j % parts == 0 && corner.k % parts == 0)
-    return nodes_[node_index(corner.i / parts, corner.j / parts, corner.k / parts)];
-  return interpolate(corner_cell(corner));
+/// The configurations at its corners, and in larger cubes than a cell at all nodes; none where one is missing.
+std::vector<Configuration> PostureField::find_corners(const Cube& cube) const {
+  std::vector<Configuration> corners;
+  PostureBatch between;
+  const int stride = std::min(cube.size, parts);
+  for (int k = 0; k <= cube.size; k += stride)
+    for (int j = 0; j <= cube.size; j += stride)
+      for (int i = 0; i <= cube.size; i += stride) {
+        const Voxel corner = cube.corner + Voxel{i, j, k};
+        const Vec3 cell = corner_cell(corner);
+        if (cube.size < parts) between.set(static_cast<int>(corners.size()), ball_m(cell), guess(cell));
+        corners.emplace_back(node_at({corner.i / parts, corner.j / parts, corner.k / parts}));
+      }
+  if (cube.size < parts) {
+    lanes_.solve(between, between_steps);
+    for (int lane = 0; lane < 8; ++lane) {
+      if (!(between.ball_off_m[static_cast<std::size_t>(lane)] < close_m)) return {};
+      corners[static_cast<std::size_t>(lane)] = between.q.get(lane, chain_.dof());
+    }
+  }
+  return corners;
 }
 
 /// All that the nodes lie in, with something to spare.
 PostureField::Surroundings PostureField::find_surroundings(const Scene& scene) const {
   JointBox box{Configuration::Constant(chain_.dof(), std::numeric_limits<double>::max()),
                Configuration::Constant(chain_.dof(), std::numeric_limits<double>::lowest())};
-  for (const Configuration& node : nodes_) {
-    if (node.size() == 0) continue;
+  for (const auto& node : nodes_.colwise()) {
+    if (std::isnan(node[0])) continue;
     box.low = box.low.cwiseMin(node);
     box.high = box.high.cwiseMax(node);
   }
@@ -161,27 +219,23 @@ PostureField::Surroundings PostureField::find_surroundings(const Scene& scene) c
 /// A bubble that holds all corners in a cube; those between nodes only in cubes smaller than a cell. Its surroundings
 /// become those of the bubble.
 std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) const {
-  const auto centre = interpolate(corner_cell(cube.corner) + span_ * (0.5 * cube.size / fine));
-  if (!centre) return std::nullopt;
+  const Configuration centre = guess(corner_cell(cube.corner) + span_ * (0.5 * cube.size / fine));
   // Exact configurations differ a little from interpolated ones, and edges pass from one bubble to the next, so more is
   // asked for than is needed.
   constexpr double more = 1.08;
-  std::vector<Configuration> wanted;
+  std::vector<Configuration> wanted = find_corners(cube);
+  if (wanted.empty()) return std::nullopt;
   Configuration half = Configuration::Constant(chain_.dof(), 1e-6);
-  const int stride = std::min(cube.size, parts);
-  for (int k = 0; k <= cube.size; k += stride)
-    for (int j = 0; j <= cube.size; j += stride)
-      for (int i = 0; i <= cube.size; i += stride) {
-        const auto q = corner_configuration(cube.corner + Voxel{i, j, k});
-        if (!q || !chain_.within_limits(*q, -limit_margin)) return std::nullopt;
-        wanted.push_back(*centre + more * (*q - *centre));
-        half = half.cwiseMax((wanted.back() - *centre).cwiseAbs());
-      }
-  const JointBox box{*centre - half, *centre + half};
+  for (Configuration& q : wanted) {
+    if (!chain_.within_limits(q, -limit_margin)) return std::nullopt;
+    q = centre + more * (q - centre);
+    half = half.cwiseMax((q - centre).cwiseAbs());
+  }
+  const JointBox box{centre - half, centre + half};
   if (!cube.around.box.holds(box)) cube.around = around_;
   if (!cube.around.box.holds(box)) return std::nullopt;
   cube.around.box = box;
-  Bubble bubble = scene.bubble(*centre, box, cube.around.pairs);
+  Bubble bubble = scene.bubble(centre, box, cube.around.pairs);
   if (!std::all_of(wanted.begin(), wanted.end(), [&](const Configuration& q) { return bubble.holds(q); }))
     return std::nullopt;
   return bubble;
@@ -193,11 +247,11 @@ struct PostureField::Cover {
   std::vector<Cube> holes;
 };
 
-void PostureField::cover(const Scene& scene, const std::vector<Cube>& cubes, int smallest, int threads,
+void PostureField::cover(const Scene& scene, const std::vector<Cube>& cubes, int smallest, const Helpers& helpers,
                          const Watch& watch) {
   std::vector<Cover> found(cubes.size());
-  for_each_index(threads, cubes.size(),
-                 [&](std::size_t at) { cover(scene, cubes[at], smallest, false, found[at], watch); });
+  helpers.for_each_index(cubes.size(),
+                         [&](std::size_t at) { cover(scene, cubes[at], smallest, false, found[at], watch); });
   for (Cover& one : found) {
     for (auto& [bubble, places] : one.bubbles) {
       for (Voxel place : places) covered_[index_of(place)] = static_cast<std::int32_t>(bubbles_.size());
@@ -249,18 +303,19 @@ bool PostureField::room_is_clear(const Scene& scene, const Cube& cube) const {
 /// tilted axis leads through cells that share an edge or a corner, so all those around it count.
 void PostureField::close_upwards() {
   bubble_ = covered_;
-  const Voxel lean = view_.lean;
+  std::vector<Voxel> above;
+  for (int part = 1; part < 8; ++part) {
+    const Voxel up{part & 1, part >> 1 & 1, part >> 2}, lean = view_.lean;
+    if (up.i <= lean.i && up.j <= lean.j && up.k <= lean.k) above.push_back(up);
+  }
   const auto usable_or_outside = [&](Voxel cell) {
     return std::max({cell.i, cell.j, cell.k}) >= fine || bubble_[index_of(cell)] >= 0;
   };
   for (int k = fine - 1; k >= 0; --k)
     for (int j = fine - 1; j >= 0; --j)
       for (int i = fine - 1; i >= 0; --i)
-        for (int part = 1; part < 8; ++part) {
-          const Voxel up{part & 1, part >> 1 & 1, part >> 2};
-          if (up.i > lean.i || up.j > lean.j || up.k > lean.k) continue;
+        for (const Voxel up : above)
           if (!usable_or_outside(Voxel{i, j, k} + up)) bubble_[index_of({i, j, k})] = -1;
-        }
   usable_ = static_cast<std::size_t>(std::count_if(bubble_.begin(), bubble_.end(), [](int id) { return id >= 0; }));
 }
 
@@ -283,33 +338,30 @@ void PostureField::find_roomy(const Scene& scene) {
   }
 }
 
-std::optional<Configuration> PostureField::guess(const Vec3& cell) const {
-  const Vec3 at = (cell - low_).cwiseQuotient(span_) * cells;
+Configuration PostureField::guess(const Vec3& cell) const {
+  const Vec3 at = (cell - low_).cwiseProduct(parts_per_cell_) / parts;
   int base[3];
   double part[3];
   for (int axis = 0; axis < 3; ++axis) {
     base[axis] = std::clamp(static_cast<int>(at[axis]), 0, cells - 1);
     part[axis] = at[axis] - base[axis];
   }
-  Configuration sum = Configuration::Zero(chain_.dof());
-  for (int corner = 0; corner < 8; ++corner) {
-    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    const Configuration& node = nodes_[node_index(base[0] + i, base[1] + j, base[2] + k)];
-    if (node.size() == 0) return std::nullopt;
-    sum += (i ? part[0] : 1 - part[0]) * (j ? part[1] : 1 - part[1]) * (k ? part[2] : 1 - part[2]) * node;
+  const Eigen::Index dof = chain_.dof();
+  Configuration sum = Configuration::Zero(dof);
+  for (int edge = 0; edge < 4; ++edge) {
+    const int j = edge & 1, k = edge >> 1;
+    const double share = (j ? part[1] : 1 - part[1]) * (k ? part[2] : 1 - part[2]);
+    const double from = share * (1 - part[0]), to = share * part[0];
+    const double* node_from = node_at({base[0], base[1] + j, base[2] + k}).data();
+    const double* node_to = node_from + dof;  // they are beside each other
+    for (Eigen::Index joint = 0; joint < dof; ++joint) sum[joint] += from * node_from[joint] + to * node_to[joint];
   }
   return sum;
 }
 
-std::optional<Configuration> PostureField::interpolate(const Vec3& cell) const {
-  const auto near = guess(cell);
-  if (!near) return std::nullopt;
-  return find_posture(chain_, ball_m(cell), view_.axis(), *near);
-}
-
 std::optional<Configuration> PostureField::at(const Vec3& cell) const {
   if (!usable(cell)) return std::nullopt;
-  return interpolate(cell);
+  return find_posture(chain_, ball_m(cell), view_.axis(), guess(cell));
 }
 
 bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,

@@ -11,10 +11,10 @@ namespace sculpt {
 /// Cells of a view, and those of the layer above it, that are reachable. Reads from several threads are safe.
 class ReachRows {
  public:
-  /// `reachable` says it of one cell, and is the same for all cells of one `part`, whose coordinates each depend on
-  /// that coordinate of the cell alone and never fall: it is asked once a part.
-  ReachRows(int n, const std::function<bool(const Vec3& cell)>& reachable,
-            const std::function<Voxel(const Vec3& cell)>& part);
+  /// `part` is what a cell belongs to: each of its coordinates depends on that coordinate of the cell alone and never
+  /// falls. `reachable` says it of all cells of a part.
+  ReachRows(int n, const std::function<Voxel(const Vec3& cell)>& part,
+            const std::function<bool(Voxel part)>& reachable);
 
   const std::uint64_t* row(int b, int c) const {
     return rows_.row(row_of_[static_cast<std::size_t>(b)], layer_of_[static_cast<std::size_t>(c)]);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/base/parallel.hpp"
+#include "core/base/helpers.hpp"
 
 namespace sculpt {
 namespace {
@@ -32,31 +32,43 @@ StraightMark begin(const ToolView& view) {
 
 class StraightPass {
  public:
-  StraightPass(Carving& carving, const ToolView& view, const ReachRows& reach, StraightMark from)
+  StraightPass(Carving& carving, const PostureField& field, const ReachRows& reach, StraightMark from)
       : support_(carving.support),
         arm_(carving.arm),
-        threads_(carving.threads),
+        helpers_(carving.helpers),
+        field_(field),
         stray_(stray_of(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
-        columns_(view, carving.support.standing(), carving.keep, reach, std::move(from.given_up)),
+        columns_(field.view(), carving.support.standing(), carving.keep, reach, std::move(from.given_up)),
         now_(std::move(from)) {}
 
-  PassEnd run(const NoteStraight& note) {
+  /// `entered`: the arm is in the direction already. Else the way to its hub is found beside the first strokes.
+  PassEnd run(bool entered, const NoteStraight& note) {
     const std::uint64_t before = arm_.removed();
     const bool cut_before = now_.so_far.cut;
-    Batch batch = plan(arm_.at());
+    Batch batch = plan(entered ? arm_.at() : hub_cell(field_.view().n));
     while (!batch.layers.empty()) {
       // As if nothing failed, what comes next is planned beside.
       now_.layers_at_once = std::min(2 * now_.layers_at_once, most_layers_at_once);
       StraightMark next = mark();
       Batch ahead;
-      for_each_index(threads_, 1 + batch.layers.size(), [&](std::size_t task) {
+      std::optional<HubArm::Entry> entry;
+      helpers_.for_each_index(2 + batch.layers.size(), [&](std::size_t task) {
         if (task == 0) {
+          if (!entered) entry = arm_.find_entry(field_);
+        } else if (task == 1) {
           ahead = plan(batch.end);
         } else {
-          Layer& layer = batch.layers[task - 1];
-          layer.followed = arm_.try_strokes(layer.from, layer.strokes);
+          Layer& layer = batch.layers[task - 2];
+          layer.followed = arm_.try_strokes(field_, layer.from, layer.strokes);
         }
       });
+      if (!entered && !entry) {
+        take_back(ahead, 0);
+        take_back(batch, 0);
+        return now_.so_far;
+      }
+      if (entry) arm_.enter(std::move(*entry));
+      entered = true;
       const auto failed = commit(batch, ahead);
       now_.so_far.cut = next.so_far.cut = cut_before || arm_.removed() > before;
       if (failed) {
@@ -70,7 +82,7 @@ class StraightPass {
       note(next);
       batch = std::move(ahead);
     }
-    rise();
+    if (entered) rise();
     return now_.so_far;
   }
 
@@ -153,13 +165,16 @@ class StraightPass {
       const auto& strokes = layers[at].strokes;
       const std::size_t done = arm_.commit(std::move(layers[at].followed), strokes);
       if (done == strokes.size()) continue;
-      for (auto later = ahead.layers.rbegin(); later != ahead.layers.rend(); ++later)
-        take_back(later->strokes, 0, false);
-      for (std::size_t later = layers.size(); later-- > at + 1;) take_back(layers[later].strokes, 0, false);
+      take_back(ahead, 0);
+      take_back(batch, at + 1);
       take_back(strokes, done, true);
       return layers[at].c;
     }
     return std::nullopt;
+  }
+
+  void take_back(const Batch& batch, std::size_t from_layer) {
+    for (std::size_t at = batch.layers.size(); at-- > from_layer;) take_back(batch.layers[at].strokes, 0, false);
   }
 
   /// Of a failed layer the first cut that could not be come to or not be made is given up.
@@ -175,13 +190,14 @@ class StraightPass {
   void rise() {
     Vec3 end = arm_.at();
     const std::vector<Stroke> up = columns_.rise(end, stray_);
-    if (arm_.commit(arm_.try_strokes(arm_.at(), up), up) < up.size())
+    if (arm_.commit(arm_.try_strokes(field_, arm_.at(), up), up) < up.size())
       throw std::logic_error("the tool came down where it cannot go up again");
   }
 
   Support& support_;
   HubArm& arm_;
-  int threads_;
+  const Helpers& helpers_;
+  const PostureField& field_;
   double stray_;
   Columns columns_;
   StraightMark now_;  ///< as of what is planned; what was given up, `columns_` knows
@@ -191,8 +207,7 @@ class StraightPass {
 
 PassEnd cut_straight(Carving& carving, const PostureField& field, const ReachRows& reach,
                      const std::optional<StraightMark>& from, const NoteStraight& note) {
-  if (!from && !carving.arm.enter(field)) return {};
-  return StraightPass(carving, field.view(), reach, from.value_or(begin(field.view()))).run(note);
+  return StraightPass(carving, field, reach, from.value_or(begin(field.view()))).run(from.has_value(), note);
 }
 
 }  // namespace sculpt

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/parallel.hpp"
+#include "core/base/helpers.hpp"
 #include "core/motion/tool_axes.hpp"
 #include "core/motion/tool_reach.hpp"
 #include "core/sweep/columns.hpp"
@@ -139,8 +139,8 @@ class Sweep {
   /// that is `fewest` voxels or more.
   template <typename Count>
   std::optional<std::size_t> best(std::size_t first, std::size_t end, std::uint64_t fewest, const Count& count) {
-    for_each_index(carving_.threads, end - first,
-                   [&](std::size_t at) { counts_[first + at] = now_.used_up[first + at] ? 0 : count(first + at); });
+    carving_.helpers.for_each_index(
+        end - first, [&](std::size_t at) { counts_[first + at] = now_.used_up[first + at] ? 0 : count(first + at); });
     const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first);
     const auto most = std::max_element(begin, counts_.begin() + static_cast<std::ptrdiff_t>(end));
     if (*most < fewest) return std::nullopt;
@@ -164,11 +164,11 @@ void remove_cut(Support& support, const VoxelSet& standing) {
 }  // namespace
 
 SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                          const Configuration& home, std::uint64_t seed, int threads,
+                          const Configuration& home, std::uint64_t seed, const Helpers& helpers,
                           const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch) {
-  Directions directions(scene, home, seed, threads, watch);
+  Directions directions(scene, home, seed, helpers, watch);
   std::optional<Support> support;
-  for_each_index(threads, 2, [&](std::size_t task) {
+  helpers.for_each_index(2, [&](std::size_t task) {
     if (task == 0) {
       directions.find_straight_fields();
     } else {
@@ -176,7 +176,8 @@ SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const Vox
       if (start) remove_cut(*support, start->standing);
     }
   });
-  Carving carving{scene, voxels.keep, threads, watch, std::move(*support), {scene, home, seed, listener.emit, watch}};
+  Carving carving{scene, voxels.keep,         helpers,
+                  watch, std::move(*support), {scene, home, directions.stock_turn(), seed, listener.emit, watch}};
   Sweep sweep(carving, directions, listener.note);
   if (start) sweep.resume(*start);
   listener.ready();

@@ -37,9 +37,9 @@ struct SweepListener {
 /// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home; or goes
 /// on with that at `start`, with the same keyframes that would have followed. `scene` holds the full stock and is not
 /// changed: what is free against all of it is free for ever. Every edge that is emitted is certified. `may_fall`: what
-/// cannot be held. Deterministic, also in `threads`. Throws Cancelled.
+/// cannot be held. The same with any `helpers`. Throws Cancelled.
 SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                          const Configuration& home, std::uint64_t seed, int threads,
+                          const Configuration& home, std::uint64_t seed, const Helpers& helpers,
                           const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch);
 
 }  // namespace sculpt

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/base/parallel.hpp"
+#include "core/base/helpers.hpp"
 #include "core/sweep/slanted_cuts.hpp"
 
 namespace sculpt {
@@ -17,7 +17,7 @@ class TiltedPass {
   TiltedPass(Carving& carving, const PostureField& field, const std::vector<Voxel>& wanted)
       : support_(carving.support),
         arm_(carving.arm),
-        threads_(carving.threads),
+        helpers_(carving.helpers),
         field_(field),
         hub_(hub_cell(field.view().n)),
         cuts_(field.view(), carving.support.standing(), wanted, gate(field.view().n),
@@ -40,8 +40,8 @@ class TiltedPass {
         break;
       }
       std::vector<Followed> followed(sorties.size());
-      for_each_index(threads_, sorties.size(),
-                     [&](std::size_t at) { followed[at] = arm_.try_strokes(hub_, sorties[at].strokes); });
+      helpers_.for_each_index(
+          sorties.size(), [&](std::size_t at) { followed[at] = arm_.try_strokes(field_, hub_, sorties[at].strokes); });
       const std::size_t done = commit(sorties, followed);
       for (std::size_t later = sorties.size(); later-- > done;) take_back(sorties[later]);
       if (done == sorties.size()) {
@@ -110,7 +110,7 @@ class TiltedPass {
 
   Support& support_;
   HubArm& arm_;
-  int threads_;
+  const Helpers& helpers_;
   const PostureField& field_;
   Vec3 hub_;
   SlantedCuts cuts_;

@@ -63,18 +63,17 @@ TEST(ReachRows, SayOfEachCellWhatIsSaidOfItsPart) {
       const auto at = [n](double x) { return static_cast<int>((x + 0.5) * 21 / (n + 2)); };
       return Voxel{at(cell.x()), at(cell.y()), at(cell.z())};
     };
-    const auto reachable = [&](const Vec3& cell) {
-      const Voxel in = part(cell);
+    const auto reachable = [](Voxel in) {
       return mix(mix(static_cast<std::uint64_t>(in.i), static_cast<std::uint64_t>(in.j)),
                  static_cast<std::uint64_t>(in.k)) %
                  3 >
              0;
     };
-    const ReachRows reach(n, reachable, part);
+    const ReachRows reach(n, part, reachable);
     for (int c = 0; c <= n; ++c)
       for (int b = 0; b < n; ++b)
         for (int a = 0; a < n; ++a)
-          ASSERT_EQ(holds(reach.row(b, c), a), reachable({double(a), double(b), double(c)}))
+          ASSERT_EQ(holds(reach.row(b, c), a), reachable(part({double(a), double(b), double(c)})))
               << a << ' ' << b << ' ' << c;
   }
 }

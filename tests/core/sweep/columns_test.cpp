@@ -29,7 +29,7 @@ Shape random_shape(int n, std::uint64_t seed) {
 }
 
 ReachRows everywhere(int n) {
-  return {n, [](const Vec3&) { return true; }, [](const Vec3&) { return Voxel{}; }};
+  return {n, [](const Vec3&) { return Voxel{}; }, [](Voxel) { return true; }};
 }
 
 /// What the strokes do, cell by cell; shares nothing with Columns but the words.
@@ -133,11 +133,10 @@ TEST(Strokes, CutWhatIsReachableOfRowsLongerThanAWord) {
           if (random.unit() < 0.02) shape.keep.insert(view.voxel({a, b, c}));
         }
     const auto part = [](const Vec3& cell) { return Voxel{int(cell.x()) / 5, int(cell.y()) / 4, int(cell.z()) / 3}; };
-    const auto reachable = [&](const Vec3& cell) {
-      const Voxel in = part(cell);
+    const auto reachable = [&](Voxel in) {
       return mix(seed, static_cast<std::uint64_t>(in.i + 64 * (in.j + 64 * in.k))) % 8 > 0;
     };
-    const ReachRows reach(n, reachable, part);
+    const ReachRows reach(n, part, reachable);
     Columns columns(view, shape.stock, shape.keep, reach);
     const std::uint64_t expected = columns.count_cuttable();
     EXPECT_GT(expected, 500u);
@@ -149,7 +148,7 @@ TEST(Strokes, CutWhatIsReachableOfRowsLongerThanAWord) {
       ASSERT_NO_FATAL_FAILURE(replay.run(strokes));
       for (const Stroke& stroke : strokes) {
         for (int m = 1; m <= stroke.count; ++m)
-          ASSERT_TRUE(reachable(from + (stroke.to - from) * (static_cast<double>(m) / stroke.count)));
+          ASSERT_TRUE(reachable(part(from + (stroke.to - from) * (static_cast<double>(m) / stroke.count))));
         from = stroke.to;
       }
     }

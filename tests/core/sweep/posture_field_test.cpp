@@ -41,6 +41,26 @@ TEST(PostureField, HasTheBallWhereItSaysWithTheToolAlongTheDirection) {
   EXPECT_GT(found, 2000);
 }
 
+TEST(PostureField, IsAsGoodForAGridThatNeedsMoreNodes) {
+  const Cell& cell = PandaField::get().cell;
+  const Grid grid = cell.grid(64);
+  const Scene scene(cell, grid, VoxelSet(64, true));
+  const PostureField field = make_field(scene, cell.home(scene.chain()), tool_views(64)[0]);
+  EXPECT_GT(field.usable_cells(), PostureField::all_cells() * 3 / 4);
+  Random random(7);
+  int found = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Vec3 at(random.between(0, 63), random.between(0, 63), random.between(0, 65));
+    const auto q = field.at(at);
+    ASSERT_EQ(q.has_value(), field.usable(at)) << at.transpose();
+    if (!q) continue;
+    ++found;
+    ASSERT_LT((*q - field.guess(at)).cwiseAbs().maxCoeff(), 0.02) << at.transpose();
+    ASSERT_LT((scene.chain().tool_pose(*q).ball_m - field.ball_m(at)).norm(), 1e-6) << at.transpose();
+  }
+  EXPECT_GT(found, 700);
+}
+
 TEST(PostureField, NeighbouringPositionsHaveNeighbouringConfigurations) {
   const PostureField& field = PandaField::get().field;
   Random random(2);
