@@ -9,6 +9,7 @@
 namespace sculpt {
 namespace {
 
+constexpr std::size_t first_layers_at_once = 8;  // so that there is soon something to write
 constexpr std::size_t most_layers_at_once = 16;
 
 struct Layer {
@@ -26,7 +27,7 @@ struct Batch {
 StraightMark begin(const ToolView& view) {
   StraightMark mark;
   mark.layer = view.n - 1;
-  mark.layers_at_once = most_layers_at_once;
+  mark.layers_at_once = first_layers_at_once;
   return mark;
 }
 

@@ -1,5 +1,6 @@
 #include "core/trajectory/segment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -79,25 +80,26 @@ void visit_differences(std::span<const std::int64_t> values, int order, const Vi
   }
 }
 
-std::size_t column_bytes(std::span<const std::int64_t> values, int order) {
-  std::size_t bytes = 0;
-  bool zeros = false;
-  visit_differences(values, order, [&](std::int64_t residual) {
-    if (residual != 0) bytes += static_cast<std::size_t>(varint_bytes(zigzag(residual)));
-    if (residual == 0 && !zeros) bytes += 2;
-    zeros = residual == 0;
-  });
+// What a column takes by differences of each order.
+std::array<std::size_t, most_order + 1> column_bytes(std::span<const std::int64_t> values) {
+  std::array<std::size_t, most_order + 1> bytes{};
+  std::array<std::int64_t, most_order + 1> before{};
+  std::array<bool, most_order + 1> zeros{};
+  for (std::int64_t value : values)
+    for (std::size_t order = 0; order <= most_order; ++order) {
+      const std::size_t start_of_zeros = zeros[order] ? 0 : 2;
+      zeros[order] = value == 0;
+      bytes[order] += value == 0 ? start_of_zeros : static_cast<std::size_t>(varint_bytes(zigzag(value)));
+      const std::int64_t difference = value - before[order];
+      before[order] = value;
+      value = difference;
+    }
   return bytes;
 }
 
 void append_column(std::string& out, std::span<const std::int64_t> values) {
-  int best = 0;
-  std::size_t fewest = column_bytes(values, 0);
-  for (int order = 1; order <= most_order; ++order)
-    if (const std::size_t bytes = column_bytes(values, order); bytes < fewest) {
-      best = order;
-      fewest = bytes;
-    }
+  const auto bytes = column_bytes(values);
+  const int best = static_cast<int>(std::min_element(bytes.begin(), bytes.end()) - bytes.begin());
   out += static_cast<char>(best);
   std::uint64_t zeros = 0;
   const auto end_zeros = [&] {
