@@ -149,7 +149,7 @@ void PostureField::fill_between() {
 }
 
 /// From the nodes beside it and those beyond them, by Lagrange's polynomial through the four, three at the rim. Nothing
-/// where that differs much from the straight line between the two beside it.
+/// where that differs much from the straight line between the two beside it, or these are on two branches.
 std::optional<Configuration> PostureField::find_between(Voxel node, Voxel along) const {
   if (!has_node(node - along) || !has_node(node + along)) return std::nullopt;
   const Configuration low = node_at(node - along), high = node_at(node + along), middle = (low + high) / 2;
@@ -164,7 +164,9 @@ std::optional<Configuration> PostureField::find_between(Voxel node, Voxel along)
     q = (3 * low + 6 * high - node_at(above)) / 8;
   else
     return std::nullopt;
-  if ((q - middle).cwiseAbs().maxCoeff() > most_bend || !chain_.within_limits(q)) return std::nullopt;
+  const bool one_branch = (high - low).cwiseAbs().maxCoeff() <= 2 * longest_joint_step;
+  const bool straight = (q - middle).cwiseAbs().maxCoeff() <= most_bend;
+  if (!one_branch || !straight || !chain_.within_limits(q)) return std::nullopt;
   return q;
 }
 
