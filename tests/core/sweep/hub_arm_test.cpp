@@ -9,13 +9,18 @@
 namespace sculpt {
 namespace {
 
-TEST(HubArm, GoesFromHubToHubAndHomeByCertifiedEdges) {
+class HubArmTest : public testing::Test {
+ protected:
+  void SetUp() override { directions.find_straight_fields(); }
+
   const PandaField& panda = PandaField::get();
   const Configuration home = panda.cell.home(panda.scene.chain());
   const Watch watch;
-  const Helpers helpers(2);
-  Directions directions(panda.scene, home, 0, helpers, watch);
-  directions.find_straight_fields();
+  const Helpers helpers{2};
+  Directions directions{panda.scene, home, 0, helpers, watch};
+};
+
+TEST_F(HubArmTest, GoesFromHubToHubAndHomeByCertifiedEdges) {
   ASSERT_TRUE(directions.stock_turn());
   const Vec3 hub = hub_cell(panda.grid.n);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -45,13 +50,7 @@ TEST(HubArm, GoesFromHubToHubAndHomeByCertifiedEdges) {
   }
 }
 
-TEST(HubArm, DrawsBackAndHasTheStockTurnedFromSideToSide) {
-  const PandaField& panda = PandaField::get();
-  const Configuration home = panda.cell.home(panda.scene.chain());
-  const Watch watch;
-  const Helpers helpers(1);
-  Directions directions(panda.scene, home, 0, helpers, watch);
-  directions.find_straight_fields();
+TEST_F(HubArmTest, DrawsBackAndHasTheStockTurnedFromSideToSide) {
   std::vector<Keyframe> way;
   const HubArm::Emit take = [&](std::vector<Keyframe> keyframes) { way = std::move(keyframes); };
   HubArm arm(panda.scene, home, directions.stock_turn(), 0, take, watch);
