@@ -182,8 +182,8 @@ struct Server::Impl {
   Retention retention;
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt};
-  TaskQueue probes{Pace::background}, replays{Pace::background}, exports{Pace::background};
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, probes{Pace::prompt};
+  TaskQueue replays{Pace::background}, exports{Pace::background};
   Services services{io,
                     config,
                     planner,
