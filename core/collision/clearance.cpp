@@ -26,8 +26,10 @@ Vec3 separation_from_piece_box(const Piece& piece, const Frame& pose, const Caps
   const Shape& shape = piece.shape;
   const Vec3 half =
       shape.kind == ShapeKind::box ? Vec3(shape.sides_m / 2) : Vec3(shape.radius_m, shape.radius_m, shape.length_m / 2);
-  const Frame box = pose * shape.pose;
-  return box.linear() * separation_from_box(placed(box.inverse(), hull).core, -half, half);
+  const Eigen::Matrix3d turn = pose.linear().lazyProduct(shape.pose.linear());
+  const Vec3 middle = pose * shape.pose.translation();
+  const Segment core{turn.transpose() * (hull.core.a - middle), turn.transpose() * (hull.core.b - middle)};
+  return turn * separation_from_box(core, -half, half);
 }
 
 double distance_to_piece_box(const Piece& piece, const Frame& pose, const Capsule& hull) {

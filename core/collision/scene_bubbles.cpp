@@ -109,13 +109,19 @@ std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const std::vec
   for (const Separation& plane : planes) {
     const double room = plane.gap_m - pair.margin_m + approach.room_m;
     if (room <= 0) return std::nullopt;
-    const auto advance_of = [&](const Vec3& point) -> Configuration {
-      return -(approach.end_a.transpose() * plane.normal +
-               approach.turn.transpose() * (point - hull_a).cross(plane.normal));
-    };
-    const Bubble::Advance advance{advance_of(plane.capsule.core.a), advance_of(plane.capsule.core.b), room};
-    const auto most = [&half](const Configuration& end) { return end.cwiseAbs().dot(half); };
-    if (std::max(most(advance.end_a), most(advance.end_b)) >= room) advances.push_back(advance);
+    const Vec3 lever_a = (plane.capsule.core.a - hull_a).cross(plane.normal);
+    const Vec3 lever_b = (plane.capsule.core.b - hull_a).cross(plane.normal);
+    Bubble::Advance advance{Configuration(half.size()), Configuration(half.size()), room};
+    double most_a = 0, most_b = 0;
+    for (Eigen::Index joint = 0; joint < half.size(); ++joint) {
+      const Vec3 turn = approach.turn.col(joint);
+      const double shared = plane.normal.dot(approach.end_a.col(joint));
+      advance.end_a[joint] = -(shared + turn.dot(lever_a));
+      advance.end_b[joint] = -(shared + turn.dot(lever_b));
+      most_a += std::abs(advance.end_a[joint]) * half[joint];
+      most_b += std::abs(advance.end_b[joint]) * half[joint];
+    }
+    if (std::max(most_a, most_b) >= room) advances.push_back(advance);
   }
   return advances;
 }
@@ -187,19 +193,16 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
     approaches.push_back(approach);
     return Answer::kept_apart;
   };
-  auto kept = pairs.begin();
-  for (auto pair = pairs.begin(); pair != pairs.end(); ++pair) {
-    const Answer answer = look_at(impl_->pairs[*pair]);
-    if (answer == Answer::touch_nowhere) continue;
-    if (answer == Answer::too_near) {
-      // What spoils this box spoils its parts as well, most likely: they shall begin with it.
-      std::rotate(pairs.begin(), pair, pair + 1);
-      pairs.erase(kept + 1, pair + 1);
-      return {};
-    }
-    *kept++ = *pair;
+  Pairs left, spoilt;
+  for (std::size_t pair : pairs) {
+    const Answer answer = look_at(impl_->pairs[pair]);
+    if (answer == Answer::too_near) spoilt.push_back(pair);
+    if (answer == Answer::kept_apart) left.push_back(pair);
   }
-  pairs.erase(kept, pairs.end());
+  // What spoils this box spoils its parts as well, most likely: they shall begin with it.
+  pairs = spoilt;
+  pairs.insert(pairs.end(), left.begin(), left.end());
+  if (!spoilt.empty()) return {};
   return {q, box, approaches, std::move(advances)};
 }
 

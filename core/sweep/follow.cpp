@@ -145,6 +145,7 @@ class Follower {
     put(0, cell);
     field_.lanes().solve(ahead_);
     here_ = stop_of(0, cell);
+    held_ = -1;
     return ahead_.solved(0);
   }
 
@@ -213,25 +214,26 @@ class Follower {
     field_.lanes().bend(edges_);
   }
 
-  /// Goes to the end of the next piece if the edge there is certified. A function with second derivative at most b
-  /// leaves its chord by b / 8 at most.
+  /// Goes to the end of the next piece if the edge there is certified. A function whose second derivative is b in the
+  /// middle and whose third is at most c leaves its chord by b / 8 + c / 48 at most: the integral of b + c |s - 1/2|
+  /// times the chord's Green's function is largest in the middle.
   bool take(const Piece& piece, std::size_t lane) {
     longest_next_ = piece.length / 2;
     if (!ahead_.solved(static_cast<int>(lane))) return false;
     Stop next = stop_of(lane, piece.end);
-    const double from_bend = 1 / (8 * voxel_m_);
+    const double from_bend = 1 / (8 * voxel_m_), from_change = 1 / (48 * voxel_m_);
     const Strayed strayed{piece.length,
                           std::max(here_.ball_off, next.ball_off),
                           std::max(here_.top_off, next.top_off),
                           from_bend * edges_.ball_bend_m[lane],
                           from_bend * edges_.top_bend_m[lane],
-                          from_bend * 0.5 * derivative_bounds(chain_, turn_[lane], travel_[lane]).third_m};
+                          from_change * derivative_bounds(chain_, turn_[lane], travel_[lane]).third_m};
     known_[direction_of(piece.from.along())] = strayed;
     if (!(strayed.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
       longest_next_ = longest_edge;  // what was learnt makes it short enough
       return false;
     }
-    if (!field_.links_are_free(here_.cell, here_.q, next.cell, next.q)) return false;
+    if (!field_.links_are_free(here_.cell, here_.q, next.cell, next.q, held_)) return false;
     here_ = std::move(next);
     longest_next_ = longest_edge;
     return true;
@@ -256,6 +258,7 @@ class Follower {
   Configuration turn_rates_;  ///< rad per unit of each joint
 
   Stop here_;
+  int held_ = -1;                                  ///< number of a bubble of the field that holds it, if known
   double longest_next_ = longest_edge;             ///< after a refusal
   std::array<std::optional<Strayed>, 4> known_{};  ///< of the last edge along each axis, and along none
   std::vector<Piece> pieces_;                      ///< from here on, one per lane

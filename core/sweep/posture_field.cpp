@@ -227,12 +227,12 @@ std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) 
   constexpr double more = 1.08;
   std::vector<Configuration> wanted = find_corners(cube);
   if (wanted.empty()) return std::nullopt;
-  Configuration half = Configuration::Constant(chain_.dof(), 1e-6);
-  for (Configuration& q : wanted) {
-    if (!chain_.within_limits(q, -limit_margin)) return std::nullopt;
-    q = centre + more * (q - centre);
-    half = half.cwiseMax((q - centre).cwiseAbs());
-  }
+  JointBox hull{wanted.front(), wanted.front()};
+  for (const Configuration& q : wanted) hull = {hull.low.cwiseMin(q), hull.high.cwiseMax(q)};
+  if (!chain_.within_limits(hull.low, -limit_margin) || !chain_.within_limits(hull.high, -limit_margin))
+    return std::nullopt;
+  for (Configuration& q : wanted) q = centre + more * (q - centre);
+  const Configuration half = more * hull.reach_from(centre) + Configuration::Constant(chain_.dof(), 1e-6);
   const JointBox box{centre - half, centre + half};
   if (!cube.around.box.holds(box)) cube.around = around_;
   if (!cube.around.box.holds(box)) return std::nullopt;
@@ -349,14 +349,19 @@ Configuration PostureField::guess(const Vec3& cell) const {
     part[axis] = at[axis] - base[axis];
   }
   const Eigen::Index dof = chain_.dof();
-  Configuration sum = Configuration::Zero(dof);
+  double from[4], to[4];
+  const double* edges[4];  // from one node to the one beside it
   for (int edge = 0; edge < 4; ++edge) {
     const int j = edge & 1, k = edge >> 1;
     const double share = (j ? part[1] : 1 - part[1]) * (k ? part[2] : 1 - part[2]);
-    const double from = share * (1 - part[0]), to = share * part[0];
-    const double* node_from = node_at({base[0], base[1] + j, base[2] + k}).data();
-    const double* node_to = node_from + dof;  // they are beside each other
-    for (Eigen::Index joint = 0; joint < dof; ++joint) sum[joint] += from * node_from[joint] + to * node_to[joint];
+    from[edge] = share * (1 - part[0]);
+    to[edge] = share * part[0];
+    edges[edge] = &nodes_(0, node_index({base[0], base[1] + j, base[2] + k}));
+  }
+  Configuration sum(dof);
+  for (Eigen::Index joint = 0; joint < dof; ++joint) {
+    const auto along = [&](int edge) { return from[edge] * edges[edge][joint] + to[edge] * edges[edge][dof + joint]; };
+    sum[joint] = along(0) + along(1) + along(2) + along(3);
   }
   return sum;
 }
@@ -367,9 +372,13 @@ std::optional<Configuration> PostureField::at(const Vec3& cell) const {
 }
 
 bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
-                                  const Configuration& to) const {
+                                  const Configuration& to, int& held) const {
   constexpr int splits = 12;
-  return line_is_usable(from_cell, to_cell, splits) && in_bubbles(from_cell, from, to_cell, to, splits);
+  int held_now = held;
+  if (!line_is_usable(from_cell, to_cell, splits) || !in_bubbles(from_cell, from, to_cell, to, held_now, splits))
+    return false;
+  held = held_now;
+  return true;
 }
 
 /// Two cells that share a face are a box together, so a line between them stays in them; others are halved. What is
@@ -390,18 +399,20 @@ bool PostureField::line_is_usable(const Vec3& from_cell, const Vec3& to_cell, in
 }
 
 bool PostureField::in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
-                              const Configuration& to, int splits) const {
+                              const Configuration& to, int& held, int splits) const {
   for (const Vec3& cell : {from_cell, to_cell}) {
     const std::int32_t id = bubble_[fine_cell(cell)];
     if (id < 0) continue;
     const Bubble& bubble = bubbles_[static_cast<std::size_t>(id)];
-    if (bubble.holds(from) && bubble.holds(to)) return true;
+    if (!(id == held || bubble.holds(from)) || !bubble.holds(to)) continue;
+    held = id;
+    return true;
   }
   if (splits == 0) return false;
   const Vec3 middle_cell = (from_cell + to_cell) / 2;
   const Configuration middle = (from + to) / 2;
-  return in_bubbles(from_cell, from, middle_cell, middle, splits - 1) &&
-         in_bubbles(middle_cell, middle, to_cell, to, splits - 1);
+  return in_bubbles(from_cell, from, middle_cell, middle, held, splits - 1) &&
+         in_bubbles(middle_cell, middle, to_cell, to, held, splits - 1);
 }
 
 }  // namespace sculpt

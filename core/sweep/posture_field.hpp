@@ -55,9 +55,10 @@ class PostureField {
   std::optional<Configuration> at(const Vec3& cell) const;
 
   /// Is the joint-linear edge free of contacts between links, room, stock and each other, and the straight line of the
-  /// ball from `from_cell` to `to_cell`, where it is at the ends, usable all along?
-  bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell,
-                      const Configuration& to) const;
+  /// ball from `from_cell` to `to_cell`, where it is at the ends, usable all along? `held`: the number of a bubble that
+  /// is known to hold `from`, or -1; if the edge is free it becomes that of one that holds `to`.
+  bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
+                      int& held) const;
 
   /// Is the tool clear of what stands still in the stock's frame even half a voxel off any line between the two?
   bool may_stray(const Vec3& from_cell, const Vec3& to_cell) const {
@@ -130,7 +131,7 @@ class PostureField {
   void find_roomy(const Scene& scene);
   bool line_is_usable(const Vec3& from_cell, const Vec3& to_cell, int splits) const;
   bool in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
-                  int splits) const;
+                  int& held, int splits) const;
   Chain chain_;
   Grid grid_;
   ToolView view_;

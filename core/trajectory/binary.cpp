@@ -4,6 +4,7 @@
 #include <istream>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/sha256.hpp"
 #include "core/trajectory/binary_frame.hpp"
@@ -37,27 +38,36 @@ struct BinaryWriter::Impl {
   Impl(std::ostream& stream, const Grid& cells) : out(stream), grid(cells) {}
 
   void send(const std::string& bytes) {
-    hash.add(bytes);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     offset += bytes.size();
+    unhashed += bytes;
+  }
+
+  // Not with the preamble yet: a first hash takes a millisecond, of the thread that begins to plan.
+  void hash_all() {
+    hash.add(unhashed);
+    unhashed.clear();
   }
 
   void end_segment() {
-    if (pending.empty()) return;
+    if (pending.keyframes() == 0) return;
     segments.push_back({offset, keyframes, removed});
-    const SegmentBytes segment{pending.size(), removed, encode_segment(pending)};
+    const std::size_t count = pending.keyframes();
+    const SegmentBytes segment{count, removed, pending.take()};
     send(segment.head());
     send(segment.body);
-    keyframes += pending.size();
-    for (const Keyframe& keyframe : pending) removed += static_cast<std::uint64_t>(run_length(keyframe));
-    pending.clear();
+    hash_all();
+    keyframes += count;
+    removed += std::exchange(pending_removed, 0);
   }
 
   std::ostream& out;
   Grid grid;
   std::uint64_t offset = 0, keyframes = 0, removed = 0;
-  std::vector<Keyframe> pending;
+  SegmentEncoder pending;
+  std::uint64_t pending_removed = 0;
   std::vector<FileSegment> segments;
+  std::string unhashed;
   Sha256 hash;
 };
 
@@ -70,14 +80,16 @@ BinaryWriter::~BinaryWriter() = default;
 
 void BinaryWriter::add(const Keyframe& keyframe) {
   if (keyframe.cut && !is_run(keyframe, impl_->grid))
-    check_run(keyframe, impl_->grid, "keyframe " + std::to_string(impl_->keyframes + impl_->pending.size()));
-  impl_->pending.push_back(keyframe);
-  if (impl_->pending.size() == most_segment_keyframes) impl_->end_segment();
+    check_run(keyframe, impl_->grid, "keyframe " + std::to_string(impl_->keyframes + impl_->pending.keyframes()));
+  impl_->pending.add(keyframe);
+  impl_->pending_removed += static_cast<std::uint64_t>(run_length(keyframe));
+  if (impl_->pending.keyframes() == most_segment_keyframes) impl_->end_segment();
 }
 
 void BinaryWriter::finish() {
   impl_->end_segment();
   impl_->send(index_bytes(impl_->segments, impl_->keyframes, impl_->removed, impl_->offset));
+  impl_->hash_all();
   impl_->out << impl_->hash.hex();
 }
 

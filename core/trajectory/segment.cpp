@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <memory>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/trajectory/number_text.hpp"
@@ -13,6 +14,7 @@ namespace sculpt {
 namespace {
 
 constexpr int most_order = 3;
+constexpr std::size_t longest_varint = 10;
 constexpr std::uint64_t token_move = 0, token_again = 1, first_cut_token = 2;
 constexpr std::uint64_t directions = face_steps.size(), start_anywhere = 6, starts = 7;
 
@@ -24,13 +26,15 @@ std::int64_t unzigzag(std::uint64_t value) {
   return static_cast<std::int64_t>(value >> 1 ^ (0 - (value & 1)));
 }
 
-int varint_bytes(std::uint64_t value) {
-  return (std::bit_width(value | 1) + 6) / 7;
+char* write_varint(char* out, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) *out++ = static_cast<char>(value | 0x80);
+  *out++ = static_cast<char>(value);
+  return out;
 }
 
 void append_varint(std::string& out, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) out += static_cast<char>(value | 0x80);
-  out += static_cast<char>(value);
+  std::array<char, longest_varint> bytes;
+  out.append(bytes.data(), write_varint(bytes.data(), value));
 }
 
 // Which of the `face_steps` it is, or `start_anywhere` if it is none.
@@ -39,13 +43,6 @@ std::uint64_t direction_of(Voxel step) {
     if (face_steps[at] == step) return at;
   return start_anywhere;
 }
-
-// What the next cut is told relative to.
-struct LastCut {
-  Voxel end{0, 0, 0};
-  std::uint64_t direction = 0;
-  std::uint64_t length = 1;
-};
 
 void append_cut(std::string& out, const Keyframe& keyframe, LastCut& last) {
   LastCut cut{keyframe.last, last.direction, static_cast<std::uint64_t>(run_length(keyframe))};
@@ -66,57 +63,72 @@ void append_cut(std::string& out, const Keyframe& keyframe, LastCut& last) {
   last = cut;
 }
 
-// Calls `visit(residual)` for the differences of the given order, with zeros before the first value.
-template <typename Visit>
-void visit_differences(std::span<const std::int64_t> values, int order, const Visit& visit) {
-  std::array<std::int64_t, most_order> before{};
-  for (std::int64_t value : values) {
-    for (int level = 0; level < order; ++level) {
-      const std::int64_t difference = value - before[static_cast<std::size_t>(level)];
-      before[static_cast<std::size_t>(level)] = value;
-      value = difference;
-    }
-    visit(value);
-  }
+template <typename Int>
+std::vector<Int> differences(const std::vector<Int>& values) {
+  std::vector<Int> steps(values);
+  for (std::size_t at = 1; at < values.size(); ++at) steps[at] = values[at] - values[at - 1];
+  return steps;
 }
 
-// What a column takes by differences of each order.
-std::array<std::size_t, most_order + 1> column_bytes(std::span<const std::int64_t> values) {
-  std::array<std::size_t, most_order + 1> bytes{};
-  std::array<std::int64_t, most_order + 1> before{};
-  std::array<bool, most_order + 1> zeros{};
-  for (std::int64_t value : values)
-    for (std::size_t order = 0; order <= most_order; ++order) {
-      const std::size_t start_of_zeros = zeros[order] ? 0 : 2;
-      zeros[order] = value == 0;
-      bytes[order] += value == 0 ? start_of_zeros : static_cast<std::size_t>(varint_bytes(zigzag(value)));
-      const std::int64_t difference = value - before[order];
-      before[order] = value;
-      value = difference;
-    }
-  return bytes;
+// What they take, a run of zeros two bytes.
+template <typename Int>
+std::size_t bytes_of(const std::vector<Int>& residuals) {
+  const auto bytes_after = [](Int before, Int residual) -> Int {
+    constexpr int bits = 8 * sizeof(Int);
+    const Int size = residual ^ residual >> (bits - 1);
+    Int bytes = 1;
+#pragma GCC unroll 9
+    for (int more = 6; more < bits - 1; more += 7) bytes += size >> more != 0;
+    const Int zero = residual == 0, begins = before != 0;
+    return bytes - zero + ((zero & begins) << 1);
+  };
+  Int bytes = bytes_after(1, residuals[0]);
+  for (std::size_t at = 1; at < residuals.size(); ++at) bytes += bytes_after(residuals[at - 1], residuals[at]);
+  return static_cast<std::size_t>(bytes);
 }
 
-void append_column(std::string& out, std::span<const std::int64_t> values) {
-  const auto bytes = column_bytes(values);
-  const int best = static_cast<int>(std::min_element(bytes.begin(), bytes.end()) - bytes.begin());
-  out += static_cast<char>(best);
+template <typename Int>
+void append_residuals(std::string& out, const std::vector<Int>& residuals) {
+  const auto bytes = std::make_unique_for_overwrite<char[]>(longest_varint * (residuals.size() + 1));
+  char* end = bytes.get();
   std::uint64_t zeros = 0;
   const auto end_zeros = [&] {
     if (zeros == 0) return;
-    out += '\0';
-    append_varint(out, zeros - 1);
+    *end++ = '\0';
+    end = write_varint(end, zeros - 1);
     zeros = 0;
   };
-  visit_differences(values, best, [&](std::int64_t residual) {
+  for (const Int residual : residuals) {
     if (residual == 0) {
       ++zeros;
-      return;
+      continue;
     }
     end_zeros();
-    append_varint(out, zigzag(residual));
-  });
+    end = write_varint(end, zigzag(residual));
+  }
   end_zeros();
+  out.append(bytes.get(), end);
+}
+
+template <typename Int>
+void append_by_differences(std::string& out, const std::vector<std::int64_t>& values) {
+  std::array<std::vector<Int>, most_order + 1> residuals{std::vector<Int>(values.begin(), values.end())};
+  std::size_t best = 0, least = bytes_of(residuals[0]);
+  for (std::size_t order = 1; order <= most_order; ++order) {
+    residuals[order] = differences(residuals[order - 1]);
+    if (const std::size_t bytes = bytes_of(residuals[order]); bytes < least) {
+      best = order;
+      least = bytes;
+    }
+  }
+  out += static_cast<char>(best);
+  append_residuals(out, residuals[best]);
+}
+
+void append_column(std::string& out, const std::vector<std::int64_t>& values) {
+  constexpr std::int64_t narrow = std::int64_t{1} << (31 - most_order);  // its differences fit into 32 bits
+  const bool is_narrow = std::all_of(values.begin(), values.end(), [](auto v) { return v < narrow && v > -narrow; });
+  is_narrow ? append_by_differences<std::int32_t>(out, values) : append_by_differences<std::int64_t>(out, values);
 }
 
 std::int64_t quanta_of(double value) {
@@ -228,21 +240,27 @@ std::size_t longest_segment(std::size_t keyframes, std::size_t joints) {
   return keyframes * (longest_token + longest_residual * joints) + 2 * joints;
 }
 
-std::string encode_segment(std::span<const Keyframe> keyframes) {
-  std::string body;
-  LastCut last;
-  for (const Keyframe& keyframe : keyframes) {
-    if (keyframe.cut)
-      append_cut(body, keyframe, last);
-    else
-      append_varint(body, token_move);
-  }
-  std::vector<std::int64_t> column(keyframes.size());
-  const Eigen::Index joints = keyframes.empty() ? 0 : keyframes.front().q.size();
-  for (Eigen::Index joint = 0; joint < joints; ++joint) {
-    for (std::size_t at = 0; at < keyframes.size(); ++at) column[at] = quanta_of(keyframes[at].q[joint]);
+void SegmentEncoder::add(const Keyframe& keyframe) {
+  if (keyframe.cut)
+    append_cut(tokens_, keyframe, last_);
+  else
+    append_varint(tokens_, token_move);
+  quanta_.reserve(most_segment_keyframes * static_cast<std::size_t>(keyframe.q.size()));
+  for (const double value : keyframe.q) quanta_.push_back(quanta_of(value));
+  ++keyframes_;
+}
+
+std::string SegmentEncoder::take() {
+  std::string body = std::exchange(tokens_, {});
+  const std::size_t joints = keyframes_ == 0 ? 0 : quanta_.size() / keyframes_;
+  std::vector<std::int64_t> column(keyframes_);
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    for (std::size_t at = 0; at < keyframes_; ++at) column[at] = quanta_[at * joints + joint];
     append_column(body, column);
   }
+  quanta_.clear();
+  last_ = {};
+  keyframes_ = 0;
   return body;
 }
 

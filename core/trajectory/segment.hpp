@@ -1,7 +1,7 @@
 // Keyframes <-> the body of one .sct segment; docs/trajectory.md describes the bytes. Internal to trajectory/.
 #pragma once
 
-#include <span>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +15,29 @@ inline constexpr std::size_t most_segment_keyframes = 4096;
 /// Upper bound of a body's bytes: no reader takes more memory than that for what a file promises.
 std::size_t longest_segment(std::size_t keyframes, std::size_t joints);
 
-/// Throws InputError `trajectory_invalid` for a joint value that is no multiple of the quantum.
-std::string encode_segment(std::span<const Keyframe> keyframes);
+/// What the next cut of a segment is told relative to.
+struct LastCut {
+  Voxel end{0, 0, 0};
+  std::uint64_t direction = 0;  ///< of the `face_steps`
+  std::uint64_t length = 1;
+};
+
+/// Not shared between threads.
+class SegmentEncoder {
+ public:
+  /// All with as many joints. Throws InputError `trajectory_invalid` for a joint value that is no multiple of the
+  /// quantum.
+  void add(const Keyframe& keyframe);
+  std::size_t keyframes() const { return keyframes_; }
+  /// The body of those that were added; begins anew.
+  std::string take();
+
+ private:
+  std::string tokens_;
+  LastCut last_;
+  std::vector<std::int64_t> quanta_;  ///< all joints of one keyframe after the other's
+  std::size_t keyframes_ = 0;
+};
 
 /// Throws InputError `trajectory_invalid` that begins with `where` unless the body holds exactly `count` valid
 /// keyframes.

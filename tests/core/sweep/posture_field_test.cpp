@@ -151,8 +151,12 @@ TEST(PostureField, EdgesWithFreeLinksAreCertifiedWithoutMaterialToo) {
     const auto q = panda.field.at(from), r = panda.field.at(to);
     if (!q || !r) continue;
     ++asked;
-    if (!panda.field.links_are_free(from, *q, to, *r)) continue;
+    int held = -1;
+    if (!panda.field.links_are_free(from, *q, to, *r, held)) continue;
     ++free;
+    ASSERT_GE(held, 0);
+    int known = held;
+    ASSERT_TRUE(panda.field.links_are_free(to, *r, from, *q, known));
     // The other certificate: distances against motion bounds, by bisection. The plate is in it as well, and what comes
     // as near to it as the lowest layer bends too much at this length.
     if (std::min(from.z(), to.z()) < 1) continue;
@@ -169,7 +173,11 @@ TEST(PostureField, LinksAreNotFreeAlongAnEdgeThatLeavesEveryBubble) {
   Configuration through_the_stock = *q;
   through_the_stock[2] += 0.8;  // the shoulder leans forward
   ASSERT_NE(panda.scene.certify(*q, through_the_stock), Contact::none);
-  EXPECT_FALSE(panda.field.links_are_free({8, 8, 12}, *q, {8, 8, 12}, through_the_stock));
+  int held = -1;
+  ASSERT_TRUE(panda.field.links_are_free({8, 8, 12}, *q, {8, 8, 12}, *q, held));
+  const int before = held;
+  EXPECT_FALSE(panda.field.links_are_free({8, 8, 12}, *q, {8, 8, 12}, through_the_stock, held));
+  EXPECT_EQ(held, before);
 }
 
 TEST(PostureField, RefiningTakesNothingAway) {

@@ -56,7 +56,8 @@ TEST(StockTurn, TurnsAFieldIntoOneOfAnotherSide) {
       const ToolPose pose = chain.tool_pose(*q);
       ASSERT_LT((pose.ball_m - other.ball_m(from)).norm(), 1e-6);
       ASSERT_LT((pose.axis - other.view().axis()).norm(), 1e-5);
-      if (!other.links_are_free(from, *q, to, *r)) continue;
+      int held = -1;
+      if (!other.links_are_free(from, *q, to, *r, held)) continue;
       ++free;
       ASSERT_EQ(empty.certify(*q, *r), Contact::none);
     }

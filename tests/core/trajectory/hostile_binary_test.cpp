@@ -52,6 +52,12 @@ std::string file_with(const TrajectoryHeader& header, std::size_t keyframes, con
   return bytes + sha256_hex(bytes);
 }
 
+std::string encode_segment(const std::vector<Keyframe>& keyframes) {
+  SegmentEncoder encoder;
+  for (const Keyframe& keyframe : keyframes) encoder.add(keyframe);
+  return encoder.take();
+}
+
 struct Sample {
   TrajectoryHeader header = sample_header();
   std::vector<Keyframe> keyframes = random_keyframes(3, header, Values::stored);
