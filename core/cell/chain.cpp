@@ -213,40 +213,6 @@ Configuration Chain::turn_rates() const {
   return rates;
 }
 
-Chain::ToolEnds Chain::tool_acceleration(const Configuration& q, const Configuration& rate) const {
-  // Outward recursion of a serial chain's velocities (Craig, Introduction to Robotics, 5.6), without joint
-  // accelerations.
-  Frame pose = Frame::Identity();
-  Vec3 turn = Vec3::Zero(), turn_rate = Vec3::Zero(), acceleration = Vec3::Zero();
-  const auto carry = [&](const Vec3& arm) {
-    acceleration += turn_rate.cross(arm) + turn.cross(turn.cross(arm));
-  };
-  for (const Step& step : steps_) {
-    const Vec3 from = pose.translation();
-    pose = product(pose, step.before);
-    carry(pose.translation() - from);
-    const Vec3 axis = pose.linear().col(2);
-    const double value = step.multiplier * q[step.coordinate] + step.offset;
-    const Vec3 motion = step.multiplier * rate[step.coordinate] * axis;
-    if (step.turns) {
-      turn_rate += turn.cross(motion);
-      turn += motion;
-      turn_about_z(pose, value);
-    } else {
-      carry(value * axis);
-      acceleration += 2 * turn.cross(motion);
-      pose.translation() += value * axis;
-    }
-  }
-  const Vec3 from = pose.translation();
-  pose = product(pose, last_);
-  carry(pose.translation() - from);
-  ToolEnds ends{acceleration, {}};
-  carry(-stickout_m_ * pose.linear().col(2));
-  ends.top_m = acceleration;
-  return ends;
-}
-
 JointColumns<6> Chain::jacobian(const Configuration& q) const {
   JointColumns<6> jacobian;
   tool_pose(q, jacobian);

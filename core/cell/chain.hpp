@@ -49,12 +49,6 @@ class Chain {
 
   /// How fast the tool can turn, per unit of each coordinate (rad): more than 1 where mimic joints add to it.
   Configuration turn_rates() const;
-  /// Ball's centre and the shank's other end.
-  struct ToolEnds {
-    Vec3 ball_m, top_m;
-  };
-  /// Second derivatives by t, at t = 0, of the tool along q + t * rate (m).
-  ToolEnds tool_acceleration(const Configuration& q, const Configuration& rate) const;
 
   /// One moving joint on the path: `before` (everything fixed since the previous one), then a turn about or shift along z by
   /// multiplier * q[coordinate] + offset. The joint's axis is turned onto z by the frames around it; joints on the stock side

@@ -28,16 +28,17 @@ std::vector<Drive> find_drives(const Chain& chain, int fixed, int moving);
 /// Chain::link_poses gives them.
 JointColumns<6> relative_twist(const Chain& chain, const std::vector<Drive>& drives, const std::vector<Frame>& poses);
 
-/// Bounds on the second and third derivative by t of a point along q + t * step (m). `turning_rad`, `travel_m`:
+/// Bounds on the second, third and fourth derivative by t of a point along q + t * step (m). `turning_rad`, `travel_m`:
 /// turn_bound and motion_bound for it, times |step|. A derivative is a sum of turnings about joints applied to the
 /// motion by the joint of them that comes last. Of turning joints none is slower than a later one, so the sum over all
 /// orders needs no order; a shift may be faster than an earlier turn and is counted in every place.
 struct DerivativeBounds {
-  double second_m, third_m;
+  double second_m, third_m, fourth_m;
 };
 inline DerivativeBounds derivative_bounds(const Chain& chain, double turning_rad, double travel_m) {
-  return {(chain.shifts() ? 2 : 1) * turning_rad * travel_m,
-          (chain.shifts() ? 3 : 1) * turning_rad * turning_rad * travel_m};
+  const double second_m = turning_rad * travel_m, third_m = turning_rad * second_m, fourth_m = turning_rad * third_m;
+  if (!chain.shifts()) return {second_m, third_m, fourth_m};
+  return {2 * second_m, 3 * third_m, 4 * fourth_m};
 }
 
 }  // namespace sculpt

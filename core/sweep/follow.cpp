@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/collision/margins.hpp"
@@ -76,32 +77,37 @@ struct Stop {
   double ball_off = 0, top_off = 0;  ///< from where ball and shank's end should be (voxel edges)
 };
 
-/// Bounds on how far ball and shank's end are from the line of an edge, in voxel edges: what the ends are off, what the
-/// bend in the middle does (it grows with the square of the edge's length), and what the bend changes along the edge
-/// (with the cube).
-struct Strayed {
-  double length, ball_off, top_off, ball_bow, top_bow, change;
+/// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off, what
+/// its bend in the middle does (it grows with the square of the edge's length), and what the bend changes along the edge
+/// (with the cube and more).
+struct EndStrayed {
+  double off, bow, change;
 
-  /// The largest share of what is allowed; above 1 the edge is not certified.
-  double share(const Stray& allowed) const {
-    return std::max((ball_off + ball_bow + change) / allowed.ball, (top_off + top_bow + change) / allowed.shank);
-  }
-  /// How long an edge like this may be to use the intended share.
-  double reach(const Stray& allowed) const {
-    return length * std::min(stretch(ball_bow, intended_share * allowed.ball - ball_off),
-                             stretch(top_bow, intended_share * allowed.shank - top_off));
-  }
-
- private:
-  /// About the x with bow x^2 + change x^3 = room; no more than takes to the longest edge.
-  double stretch(double bow, double room) const {
-    double x = std::min(std::sqrt(std::max(0.0, room) / (bow + change)), longest_edge / length);
+  double all() const { return off + bow + change; }
+  /// How much longer an edge like this may be, about, to use that room: the x with bow x^2 + change x^3 = room - off.
+  double stretch(double room, double most) const {
+    const double left = std::max(0.0, room - off);
+    double x = std::min(std::sqrt(left / (bow + change)), most);
     for (int step = 0; step < 2; ++step) {
-      const double excess = x * x * (bow + change * x) - room;
+      const double excess = x * x * (bow + change * x) - left;
       if (!(excess > 0)) break;
       x -= excess / (x * (2 * bow + 3 * change * x));
     }
     return x;
+  }
+};
+
+struct Strayed {
+  double length;  ///< of the edge, in voxel edges
+  EndStrayed ball, top;
+
+  /// The largest share of what is allowed; above 1 the edge is not certified.
+  double share(const Stray& allowed) const { return std::max(ball.all() / allowed.ball, top.all() / allowed.shank); }
+  /// How long an edge like this may be to use the intended share.
+  double reach(const Stray& allowed) const {
+    const double most = longest_edge / length;
+    return length * std::min(ball.stretch(intended_share * allowed.ball, most),
+                             top.stretch(intended_share * allowed.shank, most));
   }
 };
 
@@ -194,8 +200,7 @@ class Follower {
     return {std::max(wide, stray_.ball), std::max(wide, stray_.shank)};
   }
 
-  /// Bounds on the second derivatives of ball and shank's end all along each edge: their length in the middle and what
-  /// the third derivative can add.
+  /// How ball and shank's end bend in the middle of each edge, and what bounds derivatives of higher order.
   void bound_bends() {
     turn_.fill(0);
     travel_.fill(0);
@@ -214,20 +219,21 @@ class Follower {
     field_.lanes().bend(edges_);
   }
 
-  /// Goes to the end of the next piece if the edge there is certified. A function whose second derivative is b in the
-  /// middle and whose third is at most c leaves its chord by b / 8 + c / 48 at most: the integral of b + c |s - 1/2|
-  /// times the chord's Green's function is largest in the middle.
+  /// Goes to the end of the next piece if the edge there is certified. A function with the second and third derivative
+  /// b and c in the middle, and a fourth that is at most d, has the second derivative b + c u + r at 1/2 + u, where r is
+  /// at most d u^2 / 2. It leaves its chord by what these three do: b / 8, c / (72 sqrt 3) and d / 384 at most.
   bool take(const Piece& piece, std::size_t lane) {
     longest_next_ = piece.length / 2;
     if (!ahead_.solved(static_cast<int>(lane))) return false;
     Stop next = stop_of(lane, piece.end);
-    const double from_bend = 1 / (8 * voxel_m_), from_change = 1 / (48 * voxel_m_);
-    const Strayed strayed{piece.length,
-                          std::max(here_.ball_off, next.ball_off),
-                          std::max(here_.top_off, next.top_off),
-                          from_bend * edges_.ball_bend_m[lane],
-                          from_bend * edges_.top_bend_m[lane],
-                          from_change * derivative_bounds(chain_, turn_[lane], travel_[lane]).third_m};
+    const double more = derivative_bounds(chain_, turn_[lane], travel_[lane]).fourth_m / 384;
+    const auto strayed_by = [&](double off, double bend_m, double change_m) -> EndStrayed {
+      return {off, bend_m / (8 * voxel_m_), (change_m / (72 * std::numbers::sqrt3) + more) / voxel_m_};
+    };
+    const Strayed strayed{
+        piece.length,
+        strayed_by(std::max(here_.ball_off, next.ball_off), edges_.ball_bend_m[lane], edges_.ball_change_m[lane]),
+        strayed_by(std::max(here_.top_off, next.top_off), edges_.top_bend_m[lane], edges_.top_change_m[lane])};
     known_[direction_of(piece.from.along())] = strayed;
     if (!(strayed.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
       longest_next_ = longest_edge;  // what was learnt makes it short enough

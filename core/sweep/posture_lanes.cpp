@@ -262,43 +262,53 @@ HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, cons
   hn::Store(hn::IfThenElse(fine, top_off, none), d, batch.top_off_m.data() + lane);
 }
 
-/// Second derivative of a point, carried outwards along a chain.
+/// A turning with its first two derivatives, and the second and third derivative of a point, carried outwards along a
+/// chain.
 struct Motion {
-  V3 turn, turn_rate, acceleration;
+  V3 turn, turn_rate, turn_bend, bend, change;
 };
 HWY_INLINE void carry(Motion& motion, const V3& arm) {
-  motion.acceleration =
-      motion.acceleration + cross(motion.turn_rate, arm) + cross(motion.turn, cross(motion.turn, arm));
+  const V3 moved = cross(motion.turn, arm), turned = cross(motion.turn_rate, arm) + cross(motion.turn, moved);
+  motion.bend = motion.bend + turned;
+  motion.change = motion.change + cross(motion.turn_bend, arm) + cross(motion.turn_rate, moved) * all(2) +
+                  cross(motion.turn, turned);
 }
 
-/// Outward recursion of a serial chain's velocities (Craig, Introduction to Robotics, 5.6), without joint
-/// accelerations.
+/// Outward recursion of a serial chain's velocities (Craig, Introduction to Robotics, 5.6) without joint accelerations,
+/// derived twice.
 HWY_INLINE void bend_some(const PostureLanes::Program& program, EdgeBatch& edges, std::size_t lane) {
   Pose pose = start_of(program);
-  Motion motion{zero3(), zero3(), zero3()};
+  Motion motion{zero3(), zero3(), zero3(), zero3(), zero3()};
   for (const PostureLanes::Move& move : program.moves) {
     const auto joint = static_cast<std::size_t>(move.coordinate);
     const V from = hn::Load(d, edges.from.joints[joint].data() + lane);
     const V rate = hn::Load(d, edges.to.joints[joint].data() + lane) - from;
     const V value = (from + all(0.5) * rate) * all(move.multiplier) + all(move.offset);
     const V3 moved = pose.z * (all(move.multiplier) * rate);
+    // Of the joint's own motion, whose direction turns.
+    const V3 rate_of_moved = cross(motion.turn, moved);
+    const V3 bend_of_moved = cross(motion.turn_rate, moved) + cross(motion.turn, rate_of_moved);
     if (move.turns) {
-      motion.turn_rate = motion.turn_rate + cross(motion.turn, moved);
+      motion.turn_bend = motion.turn_bend + bend_of_moved;
+      motion.turn_rate = motion.turn_rate + rate_of_moved;
       motion.turn = motion.turn + moved;
       turn_about_z(pose, value);
     } else {
       const V3 arm = pose.z * value;
       carry(motion, arm);
-      motion.acceleration = motion.acceleration + cross(motion.turn, moved) * all(2);
+      motion.bend = motion.bend + rate_of_moved * all(2);
+      motion.change = motion.change + bend_of_moved * all(3);
       pose.at = pose.at + arm;
     }
     const V3 before = pose.at;
     pose = pose * move.after;
     carry(motion, pose.at - before);
   }
-  hn::Store(length(motion.acceleration), d, edges.ball_bend_m.data() + lane);
+  hn::Store(length(motion.bend), d, edges.ball_bend_m.data() + lane);
+  hn::Store(length(motion.change), d, edges.ball_change_m.data() + lane);
   carry(motion, pose.z * all(-program.stickout_m));
-  hn::Store(length(motion.acceleration), d, edges.top_bend_m.data() + lane);
+  hn::Store(length(motion.bend), d, edges.top_bend_m.data() + lane);
+  hn::Store(length(motion.change), d, edges.top_change_m.data() + lane);
 }
 
 }  // namespace

@@ -53,8 +53,9 @@ struct PostureBatch {
 /// Joint-linear edges, and how far they bend.
 struct EdgeBatch {
   LaneConfigurations from, to;
-  /// Out: lengths of the second derivatives, by the share of the edge, of ball and shank's end at the middle (m).
-  Lanes ball_bend_m, top_bend_m;
+  /// Out: lengths of the second and the third derivatives, by the share of the edge, of ball and shank's end at the
+  /// middle (m).
+  Lanes ball_bend_m, top_bend_m, ball_change_m, top_change_m;
 };
 
 /// A pull of the spare freedom: in each step by `strength` of the way towards these joint values, less as the error
@@ -78,7 +79,7 @@ class PostureLanes {
   /// enough is for the caller to see: that is what the distances are for.
   void solve(PostureBatch& batch, int steps = 1, const Pull* pull = nullptr) const;
 
-  /// As Chain::tool_acceleration at the middle of each edge (m).
+  /// Each edge on its own.
   void bend(EdgeBatch& edges) const;
 
   /// A frame: three columns of a rotation and an origin.

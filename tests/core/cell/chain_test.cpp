@@ -149,7 +149,7 @@ TEST(Chain, SourceOffThePathIsACoordinateWhenItsFollowerIsOnIt) {
   EXPECT_DOUBLE_EQ(chain.upper()[0], 0.5) << "the follower's range ends first";
 }
 
-TEST(Chain, ToolAccelerationIsTheSecondDifferenceOfItsEndsAndTurnsBoundIt) {
+TEST(Chain, TurnRatesBoundHowFastTheAxisTurns) {
   for (const SampleChain& sample : all_chains()) {
     SCOPED_TRACE(sample.title);
     const Chain chain = sample.chain();
@@ -160,17 +160,6 @@ TEST(Chain, ToolAccelerationIsTheSecondDifferenceOfItsEndsAndTurnsBoundIt) {
       const Configuration q = random_configuration(chain, random, 0.1);
       Configuration rate(chain.dof());
       for (Eigen::Index c = 0; c < rate.size(); ++c) rate[c] = random.between(-1, 1);
-      const auto ends = [&](double t) {
-        const ToolPose pose = chain.tool_pose(q + t * rate);
-        return std::pair<Vec3, Vec3>(pose.ball_m, pose.ball_m + sample.stickout_m * pose.axis);
-      };
-      const double step = 1e-4;
-      const auto [ball, top] = ends(0);
-      const auto [ball_before, top_before] = ends(-step);
-      const auto [ball_after, top_after] = ends(step);
-      const Chain::ToolEnds found = chain.tool_acceleration(q, rate);
-      EXPECT_LT((found.ball_m - (ball_before + ball_after - 2 * ball) / (step * step)).norm(), 1e-5);
-      EXPECT_LT((found.top_m - (top_before + top_after - 2 * top) / (step * step)).norm(), 1e-5);
       const Vec3 axis = chain.tool_pose(q).axis, turned = chain.tool_pose(q + 1e-6 * rate).axis;
       EXPECT_LE((turned - axis).norm() / 1e-6, turns.dot(rate.cwiseAbs()) + 1e-6);
     }

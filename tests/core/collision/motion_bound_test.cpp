@@ -3,21 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/cell/tool_derivatives.hpp"
 
 namespace sculpt {
 namespace {
-
-/// Derivatives by t of the ball's centre along q + t * step, by central differences.
-struct Derivatives {
-  double second_m, third_m;
-};
-Derivatives derivatives(const Chain& chain, const Configuration& q, const Configuration& step) {
-  const double h = 1e-3;
-  const auto ball = [&](double t) { return chain.tool_pose(q + t * step).ball_m; };
-  const Vec3 second = (ball(h) - 2 * ball(0) + ball(-h)) / (h * h);
-  const Vec3 third = (ball(2 * h) - 2 * ball(h) + 2 * ball(-h) - ball(-2 * h)) / (2 * h * h * h);
-  return {second.norm(), third.norm()};
-}
 
 // The mimic machine has shifts behind turns, seen from the stock: each order of the two counts.
 TEST(MotionBound, HoldsForHigherDerivativesToo) {
@@ -35,10 +24,13 @@ TEST(MotionBound, HoldsForHigherDerivativesToo) {
       Configuration step(chain.dof());
       for (Eigen::Index c = 0; c < step.size(); ++c) step[c] = random.unit() < 0.4 ? 0 : random.between(-1, 1);
       const DerivativeBounds bounds = derivative_bounds(chain, turn.dot(step.cwiseAbs()), speed.dot(step.cwiseAbs()));
-      const Derivatives found = derivatives(chain, q, step);
-      ASSERT_LE(found.second_m, bounds.second_m + 1e-5);
-      ASSERT_LE(found.third_m, bounds.third_m + 1e-4);
-      if (bounds.second_m > 0.01) closest = std::max(closest, found.second_m / bounds.second_m);
+      const ToolDerivatives found = tool_derivatives(chain, q, step);
+      for (const ToolDerivatives::End& end : {found.ball, found.top}) {
+        ASSERT_LE(end.second_m.norm(), bounds.second_m + 1e-5);
+        ASSERT_LE(end.third_m.norm(), bounds.third_m + 1e-4);
+        ASSERT_LE(end.fourth_m.norm(), bounds.fourth_m + 1e-2);
+      }
+      if (bounds.second_m > 0.01) closest = std::max(closest, found.ball.second_m.norm() / bounds.second_m);
     }
     EXPECT_GT(closest, 0.05) << "the bound says nothing";
   }
@@ -57,9 +49,9 @@ TEST(MotionBound, CountsAShiftBehindATurnInBothOrders) {
   const Configuration speed = motion_bound(chain, chain.stock_link(), chain.tool_link(), 0);
   const Configuration turn = turn_bound(chain, chain.stock_link(), chain.tool_link());
   const Configuration step = Configuration::Ones(2);
-  const Derivatives found = derivatives(chain, Configuration::Zero(2), step);
-  EXPECT_NEAR(found.second_m, 2, 1e-3);
-  EXPECT_GE(derivative_bounds(chain, turn.dot(step), speed.dot(step)).second_m, found.second_m - 1e-3);
+  const double found_m = tool_derivatives(chain, Configuration::Zero(2), step).ball.second_m.norm();
+  EXPECT_NEAR(found_m, 2, 1e-3);
+  EXPECT_GE(derivative_bounds(chain, turn.dot(step), speed.dot(step)).second_m, found_m - 1e-3);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "core/trajectory/trajectory.hpp"
 #include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/cell/tool_derivatives.hpp"
 
 namespace sculpt {
 namespace {
@@ -166,7 +167,7 @@ TEST(PostureLanes, RefuseAToolUpsideDown) {
   for (int lane = 0; lane < lane_count; ++lane) EXPECT_FALSE(around.batch.solved(lane));
 }
 
-TEST(PostureLanes, BendAsTheToolAccelerates) {
+TEST(PostureLanes, BendAsTheDifferencesOfTheToolSay) {
   for (const SampleChain& sample : sample_chains()) {
     const Chain chain = sample.chain();
     const PostureLanes lanes(chain, Vec3(0.36, 0.48, 0.8));
@@ -175,16 +176,19 @@ TEST(PostureLanes, BendAsTheToolAccelerates) {
       Random random(seed);
       EdgeBatch edges;
       for (int lane = 0; lane < lane_count; ++lane) {
-        edges.from.set(lane, random_configuration(chain, random));
-        edges.to.set(lane, random_configuration(chain, random));
+        const Configuration from = random_configuration(chain, random);
+        edges.from.set(lane, from);
+        edges.to.set(lane, nearby(from, random, 0.7));
       }
       lanes.bend(edges);
       for (int lane = 0; lane < lane_count; ++lane) {
-        const Configuration from = edges.from.get(lane, chain.dof()), rate = edges.to.get(lane, chain.dof()) - from;
-        const Chain::ToolEnds middle = chain.tool_acceleration(from + 0.5 * rate, rate);
+        const Configuration from = edges.from.get(lane, chain.dof()), step = edges.to.get(lane, chain.dof()) - from;
+        const auto [ball, top] = tool_derivatives(chain, from + 0.5 * step, step);
         const auto at = static_cast<std::size_t>(lane);
-        ASSERT_NEAR(edges.ball_bend_m[at], middle.ball_m.norm(), 1e-12 * (1 + middle.ball_m.norm()));
-        ASSERT_NEAR(edges.top_bend_m[at], middle.top_m.norm(), 1e-12 * (1 + middle.top_m.norm()));
+        ASSERT_NEAR(edges.ball_bend_m[at], ball.second_m.norm(), 1e-5);
+        ASSERT_NEAR(edges.top_bend_m[at], top.second_m.norm(), 1e-5);
+        ASSERT_NEAR(edges.ball_change_m[at], ball.third_m.norm(), 1e-4);
+        ASSERT_NEAR(edges.top_change_m[at], top.third_m.norm(), 1e-4);
       }
     }
   }
@@ -262,6 +266,8 @@ TEST(PostureLanes, GiveTheSameBitsOnAllTargets) {
         ASSERT_TRUE(same_bits(batch.top_off_m, first.top_off_m));
         ASSERT_TRUE(same_bits(edges.ball_bend_m, first_edges.ball_bend_m));
         ASSERT_TRUE(same_bits(edges.top_bend_m, first_edges.top_bend_m));
+        ASSERT_TRUE(same_bits(edges.ball_change_m, first_edges.ball_change_m));
+        ASSERT_TRUE(same_bits(edges.top_change_m, first_edges.top_change_m));
       }
     }
   }
