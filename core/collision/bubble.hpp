@@ -62,10 +62,22 @@ class Bubble {
 
   bool empty() const { return centre_.size() == 0; }
   bool holds(const Configuration& q) const {
-    if (q.size() != centre_.size() || !box_.holds(q)) return false;
-    const Configuration step = q - centre_;
-    for (const Advance& advance : advances_)
-      if (std::max(advance.end_a.dot(step), advance.end_b.dot(step)) >= advance.room_m) return false;
+    if (q.size() != centre_.size()) return false;
+    Configuration step(q.size());
+    bool in_box = true;
+    for (Eigen::Index joint = 0; joint < q.size(); ++joint) {
+      in_box &= q[joint] >= box_.low[joint] && q[joint] <= box_.high[joint];
+      step[joint] = q[joint] - centre_[joint];
+    }
+    if (!in_box) return false;
+    for (const Advance& advance : advances_) {
+      double by_a = 0, by_b = 0;
+      for (Eigen::Index joint = 0; joint < step.size(); ++joint) {
+        by_a += advance.end_a[joint] * step[joint];
+        by_b += advance.end_b[joint] * step[joint];
+      }
+      if (std::max(by_a, by_b) >= advance.room_m) return false;
+    }
     for (std::size_t at = 0; at < rooms_.size(); ++at) {
       Eigen::Matrix<double, 9, 1> moved = motions_.col(first_column(at)) * step[0];
       for (Eigen::Index joint = 1; joint < step.size(); ++joint)

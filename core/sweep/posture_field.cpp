@@ -184,7 +184,8 @@ bool PostureField::has_nodes(Voxel corner, int size) const {
 std::vector<Configuration> PostureField::find_corners(const Cube& cube) const {
   std::vector<Configuration> corners;
   PostureBatch between;
-  const int stride = std::min(cube.size, parts);
+  const int stride = std::min(cube.size, parts), along = cube.size / stride + 1;
+  corners.reserve(static_cast<std::size_t>(along * along * along));
   for (int k = 0; k <= cube.size; k += stride)
     for (int j = 0; j <= cube.size; j += stride)
       for (int i = 0; i <= cube.size; i += stride) {
@@ -305,6 +306,8 @@ bool PostureField::room_is_clear(const Scene& scene, const Cube& cube) const {
 /// tilted axis leads through cells that share an edge or a corner, so all those around it count.
 void PostureField::close_upwards() {
   bubble_ = covered_;
+  usable_ = all_cells();
+  if (std::ranges::find(covered_, -1) == covered_.end()) return;
   std::vector<Voxel> above;
   for (int part = 1; part < 8; ++part) {
     const Voxel up{part & 1, part >> 1 & 1, part >> 2}, lean = view_.lean;

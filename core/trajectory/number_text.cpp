@@ -66,11 +66,13 @@ char* write_number(char* out, double value) {
   else
     out = std::to_chars(out, out + longest_number, whole).ptr;
   if (part == 0) return out;
+  const auto digits = static_cast<std::uint32_t>(part), first = digits / 10'000, last = digits - first * 10'000;
+  const std::uint32_t hundreds = first / 100, tens = last / 100;
   *out++ = '.';
-  *out++ = static_cast<char>('0' + part / 1'000'000);
-  out = write_pair(out, part / 10'000 % 100);
-  out = write_pair(out, part / 100 % 100);
-  out = write_pair(out, part % 100);
+  *out++ = static_cast<char>('0' + hundreds);
+  out = write_pair(out, first - hundreds * 100);
+  out = write_pair(out, tens);
+  out = write_pair(out, last - tens * 100);
   while (out[-1] == '0') --out;
   return out;
 }
