@@ -219,29 +219,39 @@ PostureField::Surroundings PostureField::find_surroundings(const Scene& scene) c
   return {box, scene.pairs_in(box)};
 }
 
-/// A bubble that holds all corners in a cube; those between nodes only in cubes smaller than a cell. Its surroundings
-/// become those of the bubble.
-std::optional<Bubble> PostureField::find_bubble(const Scene& scene, Cube& cube) const {
-  const Configuration centre = guess(corner_cell(cube.corner) + span_ * (0.5 * cube.size / fine));
+/// What a bubble for a cube must hold: a little more than all corners in it, those between nodes only in cubes smaller
+/// than a cell.
+struct PostureField::Wanted {
+  Configuration centre;
+  std::vector<Configuration> corners;  ///< none if one is missing or near a limit
+  JointBox box;                        ///< around them
+
+  bool held_by(const Bubble& bubble) const {
+    return std::ranges::all_of(corners, [&](const Configuration& q) { return bubble.holds(q); });
+  }
+};
+
+PostureField::Wanted PostureField::find_wanted(const Cube& cube) const {
   // Exact configurations differ a little from interpolated ones, and edges pass from one bubble to the next, so more is
   // asked for than is needed.
   constexpr double more = 1.08;
-  std::vector<Configuration> wanted = find_corners(cube);
-  if (wanted.empty()) return std::nullopt;
-  JointBox hull{wanted.front(), wanted.front()};
-  for (const Configuration& q : wanted) hull = {hull.low.cwiseMin(q), hull.high.cwiseMax(q)};
-  if (!chain_.within_limits(hull.low, -limit_margin) || !chain_.within_limits(hull.high, -limit_margin))
-    return std::nullopt;
-  for (Configuration& q : wanted) q = centre + more * (q - centre);
-  const Configuration half = more * hull.reach_from(centre) + Configuration::Constant(chain_.dof(), 1e-6);
-  const JointBox box{centre - half, centre + half};
-  if (!cube.around.box.holds(box)) cube.around = around_;
-  if (!cube.around.box.holds(box)) return std::nullopt;
-  cube.around.box = box;
-  Bubble bubble = scene.bubble(centre, box, cube.around.pairs);
-  if (!std::all_of(wanted.begin(), wanted.end(), [&](const Configuration& q) { return bubble.holds(q); }))
-    return std::nullopt;
-  return bubble;
+  Wanted wanted{guess(corner_cell(cube.corner) + span_ * (0.5 * cube.size / fine)), find_corners(cube), {}};
+  if (wanted.corners.empty()) return wanted;
+  JointBox hull{wanted.corners.front(), wanted.corners.front()};
+  for (const Configuration& q : wanted.corners) hull = {hull.low.cwiseMin(q), hull.high.cwiseMax(q)};
+  if (!chain_.within_limits(hull.low, -limit_margin) || !chain_.within_limits(hull.high, -limit_margin)) return {};
+  for (Configuration& q : wanted.corners) q = wanted.centre + more * (q - wanted.centre);
+  const Configuration half = more * hull.reach_from(wanted.centre) + Configuration::Constant(chain_.dof(), 1e-6);
+  wanted.box = {wanted.centre - half, wanted.centre + half};
+  return wanted;
+}
+
+/// A bubble in the box of what is wanted; empty if there is none. The cube's surroundings become those of the bubble.
+Bubble PostureField::find_bubble(const Scene& scene, const Wanted& wanted, Cube& cube) const {
+  if (!cube.around.box.holds(wanted.box)) cube.around = around_;
+  if (!cube.around.box.holds(wanted.box)) return {};
+  cube.around.box = wanted.box;
+  return scene.bubble(wanted.centre, wanted.box, cube.around.pairs);
 }
 
 /// Bubbles and the usable cells that each of them is for.
@@ -254,9 +264,10 @@ void PostureField::cover(const Scene& scene, const std::vector<Cube>& cubes, int
                          const Watch& watch) {
   std::vector<Cover> found(cubes.size());
   helpers.for_each_index(cubes.size(),
-                         [&](std::size_t at) { cover(scene, cubes[at], smallest, false, found[at], watch); });
+                         [&](std::size_t at) { cover(scene, cubes[at], smallest, {}, false, found[at], watch); });
   for (Cover& one : found) {
     for (auto& [bubble, places] : one.bubbles) {
+      if (places.empty()) continue;
       for (Voxel place : places) covered_[index_of(place)] = static_cast<std::int32_t>(bubbles_.size());
       bubbles_.push_back(std::move(bubble));
     }
@@ -265,22 +276,31 @@ void PostureField::cover(const Scene& scene, const std::vector<Cube>& cubes, int
   close_upwards();
 }
 
-/// Covers a cube by one bubble if there is one, else by parts as small as `smallest`. `room`: for the tool is known.
-void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room, Cover& found,
-                         const Watch& watch) const {
+/// Covers a cube by one bubble if there is one, else by parts as small as `smallest`. `tried`: the last of the bubbles
+/// found that did not hold all of a cube around it. `room`: for the tool is known.
+void PostureField::cover(const Scene& scene, Cube cube, int smallest, std::optional<std::size_t> tried, bool room,
+                         Cover& found, const Watch& watch) const {
   if (watch.stop.stop_requested()) throw Cancelled{};
-  if (cube.size <= parts && !has_nodes(cube.corner, cube.size)) return;
+  const bool has_all = has_nodes(cube.corner, cube.size);
+  if (cube.size <= parts && !has_all) return;
   room = room || room_is_clear(scene, cube);
-  if (has_nodes(cube.corner, cube.size)) {
-    if (auto bubble = find_bubble(scene, cube)) {
-      std::vector<Voxel> places;
+  if (const Wanted wanted = has_all ? find_wanted(cube) : Wanted{}; !wanted.corners.empty()) {
+    bool held = tried && wanted.held_by(found.bubbles[*tried].first);
+    if (!held) {
+      if (Bubble bubble = find_bubble(scene, wanted, cube); !bubble.empty()) {
+        held = wanted.held_by(bubble);
+        tried = found.bubbles.size();
+        found.bubbles.emplace_back(std::move(bubble), std::vector<Voxel>{});
+      }
+    }
+    if (held) {
+      std::vector<Voxel>& places = found.bubbles[*tried].second;
       for (int k = 0; k < cube.size; ++k)
         for (int j = 0; j < cube.size; ++j)
           for (int i = 0; i < cube.size; ++i) {
             const Voxel place = cube.corner + Voxel{i, j, k};
             if (room || room_is_clear(scene, {place, 1, {}})) places.push_back(place);
           }
-      found.bubbles.emplace_back(std::move(*bubble), std::move(places));
       return;
     }
   }
@@ -290,8 +310,8 @@ void PostureField::cover(const Scene& scene, Cube cube, int smallest, bool room,
   }
   const int half = cube.size / 2;
   for (int child = 0; child < 8; ++child)
-    cover(scene, {cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.around}, smallest, room,
-          found, watch);
+    cover(scene, {cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.around}, smallest,
+          tried, room, found, watch);
 }
 
 /// For all ball positions in the cube that can occur: they are centres of voxels, or above, so that none is nearer to a

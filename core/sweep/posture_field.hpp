@@ -103,10 +103,12 @@ class PostureField {
     int size;
     Surroundings around;
   };
+  struct Wanted;
   struct Cover;
   std::vector<Configuration> find_corners(const Cube& cube) const;
   Surroundings find_surroundings(const Scene& scene) const;
-  std::optional<Bubble> find_bubble(const Scene& scene, Cube& cube) const;
+  Wanted find_wanted(const Cube& cube) const;
+  Bubble find_bubble(const Scene& scene, const Wanted& wanted, Cube& cube) const;
   Voxel corner_below(const Vec3& cell) const;
   std::size_t fine_cell(const Vec3& cell) const;
   /// A node, and about its configuration.
@@ -123,7 +125,8 @@ class PostureField {
   }
   void cover(const Scene& scene, const std::vector<Cube>& cubes, int smallest, const Helpers& helpers,
              const Watch& watch);
-  void cover(const Scene& scene, Cube cube, int smallest, bool room, Cover& found, const Watch& watch) const;
+  void cover(const Scene& scene, Cube cube, int smallest, std::optional<std::size_t> tried, bool room, Cover& found,
+             const Watch& watch) const;
   bool room_is_clear(const Scene& scene, const Cube& cube) const;
   void close_upwards();
   /// Around the tool by `room_voxels` (voxel edges), for all ball positions in a box of cells.
