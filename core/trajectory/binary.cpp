@@ -38,15 +38,9 @@ struct BinaryWriter::Impl {
   Impl(std::ostream& stream, const Grid& cells) : out(stream), grid(cells) {}
 
   void send(const std::string& bytes) {
+    hash.add(bytes);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     offset += bytes.size();
-    unhashed += bytes;
-  }
-
-  // Not with the preamble yet: a first hash takes a millisecond, of the thread that begins to plan.
-  void hash_all() {
-    hash.add(unhashed);
-    unhashed.clear();
   }
 
   void end_segment() {
@@ -56,7 +50,6 @@ struct BinaryWriter::Impl {
     const SegmentBytes segment{count, removed, pending.take()};
     send(segment.head());
     send(segment.body);
-    hash_all();
     keyframes += count;
     removed += std::exchange(pending_removed, 0);
   }
@@ -67,7 +60,6 @@ struct BinaryWriter::Impl {
   SegmentEncoder pending;
   std::uint64_t pending_removed = 0;
   std::vector<FileSegment> segments;
-  std::string unhashed;
   Sha256 hash;
 };
 
@@ -89,7 +81,6 @@ void BinaryWriter::add(const Keyframe& keyframe) {
 void BinaryWriter::finish() {
   impl_->end_segment();
   impl_->send(index_bytes(impl_->segments, impl_->keyframes, impl_->removed, impl_->offset));
-  impl_->hash_all();
   impl_->out << impl_->hash.hex();
 }
 

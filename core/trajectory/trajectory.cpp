@@ -81,7 +81,7 @@ void TrajectoryWriter::add(const Keyframe& keyframe) {
 
 TrajectoryStart TrajectoryWriter::so_far() {
   impl_->hash_all();
-  return {impl_->end.keyframes, impl_->bytes, impl_->hash.hex_so_far()};
+  return {impl_->end.keyframes, impl_->bytes, impl_->hash.hex()};
 }
 
 TrajectoryEnd TrajectoryWriter::finish() {
