@@ -79,7 +79,7 @@ class PostureLanes {
   /// enough is for the caller to see: that is what the distances are for.
   void solve(PostureBatch& batch, int steps = 1, const Pull* pull = nullptr) const;
 
-  /// Each edge on its own.
+  /// By the exact recursion along the chain; each edge on its own.
   void bend(EdgeBatch& edges) const;
 
   /// A frame: three columns of a rotation and an origin.
