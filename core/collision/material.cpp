@@ -84,7 +84,9 @@ bool Material::meets_thin_capsule(const Segment& segment, double radius, std::op
   const double highest = std::max(segment.a[main], segment.b[main]) + radius;
   if (highest <= 0 || lowest >= n()) return false;
   const int first_slab = floor_to(lowest, 0, last), last_slab = floor_to(highest, 0, last);
-  for (int slab = first_slab; slab <= last_slab; ++slab) {
+  // From a on: what is in the way of a tool is most often beside its ball.
+  for (int ahead = 0; ahead <= last_slab - first_slab; ++ahead) {
+    const int slab = d[main] < 0 ? last_slab - ahead : first_slab + ahead;
     double from = 0, to = 1;
     if (!clip(segment, main, slab - radius, slab + 1 + radius, from, to)) continue;
     const Vec3 p = segment.a + from * d, q = segment.a + to * d;
