@@ -151,7 +151,6 @@ class Follower {
     put(0, cell);
     field_.lanes().solve(ahead_);
     here_ = stop_of(0, cell);
-    held_ = -1;
     return ahead_.solved(0);
   }
 
