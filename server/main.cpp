@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "proto/version.hpp"
 #include "server/config.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
@@ -21,7 +22,6 @@
 #include "server/server.hpp"
 #include "server/settings.hpp"
 #include "server/token_command.hpp"
-#include "server/version.hpp"
 
 namespace {
 

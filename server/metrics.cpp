@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "proto/version.hpp"
 #include "server/services.hpp"
-#include "server/version.hpp"
 
 namespace sculpt {
 namespace {

@@ -1,10 +1,10 @@
 #include <spdlog/spdlog.h>
 
 #include "proto/schema.hpp"
+#include "proto/version.hpp"
 #include "server/handlers.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
-#include "server/version.hpp"
 
 namespace sculpt {
 namespace {

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <iostream>
 
+#include "proto/version.hpp"
+
 namespace sculpt {
 
 namespace {

@@ -15,9 +15,6 @@ struct Invocation {
   std::function<int()> run;  ///< the command; gives the exit code, or throws Failure, InputError...
 };
 
-/// How this program names itself to servers, and in --version.
-inline constexpr const char* client_name = "sculpt 0.1.0";
-
 /// Says on stderr when the server is lost and looked for.
 Client connect(const std::string& server);
 

@@ -9,6 +9,7 @@
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/queue_view.hpp"
 #include "clients/cli/screen.hpp"
+#include "proto/version.hpp"
 
 namespace sculpt {
 

@@ -5,12 +5,15 @@ import hashlib
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import unittest
 
 import shapes
-from harness import SCULPT, ClientTest, environment, shared_data
+from harness import SCULPT, SOURCE, ClientTest, environment, shared_data
+
+import sculpt
 
 COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan".split()
 
@@ -27,6 +30,12 @@ class CommandLine(ClientTest):
     def test_version_stands_before_and_after_the_command(self):
         self.assertRegex(self.fine("--version"), r"^sculpt \d+\.\d+\.\d+\n$")
         self.assertEqual(self.fine("list", "--version"), self.fine("--version"))
+
+    def test_the_version_is_the_projects_everywhere(self):
+        project = re.search(r"project\(sculptd VERSION (\S+) ", (SOURCE / "CMakeLists.txt").read_text())[1]
+        self.assertEqual(self.fine("--version"), f"sculpt {project}\n")
+        self.assertEqual(sculpt.VERSION, f"sculpt.py/{project}")
+        self.assertIn(f"sculptd {project} listening", (SOURCE / "README.md").read_text())
 
     def test_a_wrong_command_line_is_usage(self):
         for arguments in ([], ["fly"], ["status"], ["status", "x", "--bogus"], ["fetch", "x"], ["fetch", "x", "-o", "y", "--format", "xml"],
