@@ -38,11 +38,11 @@ forbid "verify shares nothing with the planners" "$(include 'core/(search|motion
 forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
-fcl_headers='collision/fcl_shape|verify/solid_body|verify/standing_voxels|verify/tool_replay'
+fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
 forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
-forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/fcl_shape')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
+forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
 forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_]+\.[ch]pp')" -- core server clients
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/posture_lanes\.cpp')" -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients

@@ -71,6 +71,17 @@ void path_rows(std::string& table, const Json& report) {
           {"checks_per_voxel", "checks a voxel"}});
 }
 
+/// A line per pair of links that may touch.
+void link_rows(std::string& table, const Json& report) {
+  const char* label = "links not kept apart";
+  for (const Json& pair : report.value("unchecked_links", Json::array())) {
+    const Json links = pair.value("links", Json::array());
+    if (links.size() != 2) continue;
+    row(table, label, text_of(links[0]) + ", " + text_of(links[1]) + ": " + pair.value("why", ""));
+    label = "";
+  }
+}
+
 void run_rows(std::string& table, const Json& report) {
   const Json seconds = report.value("seconds", Json::object());
   for (const auto& [stage, value] : seconds.items()) row(table, "seconds " + stage, fixed(value.get<double>(), 3, ""));
@@ -104,6 +115,7 @@ std::string report_table(const Json& report) {
         {"resolution", "resolution"}});
   voxel_rows(table, report);
   path_rows(table, report);
+  link_rows(table, report);
   run_rows(table, report);
   return table;
 }

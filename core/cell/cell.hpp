@@ -3,12 +3,17 @@
 
 #include <filesystem>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "core/cell/chain.hpp"
 #include "core/cell/tool.hpp"
 #include "core/material/voxel.hpp"
 
 namespace sculpt {
+
+/// Indices of two different links, the smaller first.
+using LinkPair = std::pair<int, int>;
 
 /// Everything a cell is made of, as bytes: it can be sent to a machine that does not share this disk.
 struct CellFiles {
@@ -26,6 +31,8 @@ struct Cell {
   Vec3 stock_origin_m = Vec3::Zero();        ///< corner of voxel (0,0,0) in the stock link's frame
   ToolSpec tool;
   std::vector<double> rest;                  ///< value of every robot joint at home
+  std::vector<LinkPair> ignore_pairs;        ///< may touch, whatever is found out about them; sorted, none twice
+  std::vector<LinkPair> check_pairs;         ///< must not touch, whatever is found out about them; sorted, none twice
 
   Grid grid(int n) const { return {n, stock_size_m / n, stock_origin_m}; }
   /// The cell must outlive the chain.

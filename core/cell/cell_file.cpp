@@ -106,7 +106,7 @@ json parse_json(const std::string& text) {
 
 Field top_level(const json& document) {
   Field top(document, "");
-  top.require_object({"name", "urdf", "packages", "stock", "tool", "home"});
+  top.require_object({"name", "urdf", "packages", "stock", "tool", "home", "ignore_pairs", "check_pairs"});
   return top;
 }
 
@@ -260,6 +260,33 @@ std::vector<double> parse_home(const Robot& robot, const Field& top) {
   return rest;
 }
 
+/// Pairs of links under `name`, none if the field is not there.
+std::vector<LinkPair> parse_pairs(const Robot& robot, const Field& top, const std::string& name) {
+  std::vector<LinkPair> pairs;
+  if (!top.has(name)) return pairs;
+  for (const Field& pair : top.at(name).elements()) {
+    const std::vector<Field> links = pair.elements();
+    if (links.size() != 2)
+      refuse(pair.pointer(), "must be two names of links, not " + std::to_string(links.size()) + " values");
+    const int first = find_link(robot, links[0]), second = find_link(robot, links[1]);
+    if (first == second) refuse(pair.pointer(), "'" + links[0].text() + "' twice: name two links");
+    pairs.emplace_back(std::minmax(first, second));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+void refuse_contradictions(const Cell& cell) {
+  for (const auto& [a, b] : cell.check_pairs) {
+    if (!std::binary_search(cell.ignore_pairs.begin(), cell.ignore_pairs.end(), LinkPair{a, b})) continue;
+    const auto& links = cell.robot.links;
+    refuse("/check_pairs", "'" + links[static_cast<std::size_t>(a)].name + "' and '" +
+                               links[static_cast<std::size_t>(b)].name +
+                               "' stand in ignore_pairs as well: take the pair out of one of the two");
+  }
+}
+
 const std::string& file_named(const CellFiles& files, const std::string& name) {
   const auto at = files.files.find(name);
   if (at == files.files.end())
@@ -336,6 +363,9 @@ Cell parse_cell(const CellFiles& files) {
   for (Shape& shape : holder_shapes(cell.tool))  // to whoever looks at links the holder is part of one
     cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes.push_back(std::move(shape));
   cell.rest = parse_home(cell.robot, top);
+  cell.ignore_pairs = parse_pairs(cell.robot, top, "ignore_pairs");
+  cell.check_pairs = parse_pairs(cell.robot, top, "check_pairs");
+  refuse_contradictions(cell);
   cell.chain();  // refuses a cell in which nothing moves the tool
   return cell;
 }

@@ -20,7 +20,7 @@ Piece make_piece(const Shape& shape) {
     rest[longest] = 0;
     radius = rest.norm();
   }
-  return {shape, {{shape.pose * Vec3(-half), shape.pose * half}, radius}};
+  return {shape, {{shape.pose * Vec3(-half), shape.pose * half}, radius}, 0};
 }
 
 /// A capsule around all pieces: along the line between the two of their ends that are farthest apart.
@@ -97,13 +97,17 @@ Shape box_shape(const Frame& frame, const Eigen::AlignedBox3d& box) {
 
 std::vector<Piece> make_pieces(const Link& link) {
   std::vector<Piece> pieces;
-  for (const Shape& shape : link.shapes) {
+  const auto add = [&](const Shape& shape, std::size_t covers) {
+    pieces.push_back(make_piece(shape));
+    pieces.back().covers = covers;
+  };
+  for (std::size_t at = 0; at < link.shapes.size(); ++at) {
+    const Shape& shape = link.shapes[at];
     if (shape.kind != ShapeKind::mesh) {
-      pieces.push_back(make_piece(shape));
+      add(shape, at);
       continue;
     }
-    for (const Eigen::AlignedBox3d& box : cover_mesh(*shape.mesh))
-      pieces.push_back(make_piece(box_shape(shape.pose, box)));
+    for (const Eigen::AlignedBox3d& box : cover_mesh(*shape.mesh)) add(box_shape(shape.pose, box), at);
   }
   return pieces;
 }
@@ -135,6 +139,14 @@ std::vector<Body> make_bodies(const Cell& cell, const Tool& tool) {
     add(link, false, make_pieces(cell.robot.links[static_cast<std::size_t>(link)]));
   add(cell.tool_link, true, make_pieces(tool));
   return bodies;
+}
+
+Body part_of(const Body& body, const std::vector<std::size_t>& shapes) {
+  Body part{body.link, body.tool, {}, {}};
+  for (const Piece& piece : body.pieces)
+    if (std::find(shapes.begin(), shapes.end(), piece.covers) != shapes.end()) part.pieces.push_back(piece);
+  part.hull = make_hull(part.pieces);
+  return part;
 }
 
 }  // namespace sculpt

@@ -23,6 +23,7 @@ struct Capsule {
 struct Piece {
   Shape shape;
   Capsule hull;
+  std::size_t covers = 0;  ///< which of its link's shapes it is, or covers a part of
 };
 
 struct Body {
@@ -35,5 +36,8 @@ struct Body {
 /// A body for each link with shapes, meshes replaced by boxes that cover their triangles, then the tool on the tool
 /// link.
 std::vector<Body> make_bodies(const Cell& cell, const Tool& tool);
+
+/// Of the body, what covers these shapes of its link: some of those that it has.
+Body part_of(const Body& body, const std::vector<std::size_t>& shapes);
 
 }  // namespace sculpt

@@ -1,7 +1,11 @@
 #include "core/collision/fcl_shape.hpp"
 
+#include <algorithm>
+
 namespace sculpt {
 namespace {
+
+constexpr double least_mm = 1e-3;
 
 std::shared_ptr<fcl::CollisionGeometryd> make_bvh(const Mesh& mesh) {
   std::vector<fcl::Vector3d> vertices;
@@ -21,13 +25,16 @@ std::shared_ptr<fcl::CollisionGeometryd> make_bvh(const Mesh& mesh) {
 
 std::shared_ptr<fcl::CollisionGeometryd> make_fcl_geometry(const Shape& shape, double grow_m) {
   const double grow = fcl_mm * grow_m;
+  const auto grown = [&](double length_m, double by) { return std::max(fcl_mm * length_m + by, least_mm); };
+  const Vec3& sides = shape.sides_m;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      return std::make_shared<fcl::Sphered>(fcl_mm * shape.radius_m + grow);
+      return std::make_shared<fcl::Sphered>(grown(shape.radius_m, grow));
     case ShapeKind::box:
-      return std::make_shared<fcl::Boxd>(fcl_mm * shape.sides_m + Vec3::Constant(2 * grow));
+      return std::make_shared<fcl::Boxd>(grown(sides.x(), 2 * grow), grown(sides.y(), 2 * grow),
+                                         grown(sides.z(), 2 * grow));
     case ShapeKind::cylinder:
-      return std::make_shared<fcl::Cylinderd>(fcl_mm * shape.radius_m + grow, fcl_mm * shape.length_m + 2 * grow);
+      return std::make_shared<fcl::Cylinderd>(grown(shape.radius_m, grow), grown(shape.length_m, 2 * grow));
     case ShapeKind::mesh:
       return make_bvh(*shape.mesh);
   }
@@ -40,6 +47,13 @@ bool fcl_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl:
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::CollisionResultd result;
   return fcl::collide(&a, pose_a, &b, pose_b, request, result) > 0;
+}
+
+double fcl_distance_mm(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
+                       const Frame& pose_b) {
+  const fcl::DistanceRequestd request;
+  fcl::DistanceResultd result;
+  return fcl::distance(&a, pose_a, &b, pose_b, request, result);
 }
 
 }  // namespace sculpt

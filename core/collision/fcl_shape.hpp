@@ -12,7 +12,8 @@ namespace sculpt {
 
 inline constexpr double fcl_mm = 1000;
 
-/// The shape grown by `grow_m` on all sides (a little more at edges and corners); meshes cannot grow.
+/// The shape grown by `grow_m` on all sides (a little more at edges and corners), or shrunk if it is below 0, to next
+/// to nothing at most; meshes stay as they are.
 std::shared_ptr<fcl::CollisionGeometryd> make_fcl_geometry(const Shape& shape, double grow_m);
 
 inline Frame to_fcl(const Frame& pose) {
@@ -24,5 +25,9 @@ inline Frame to_fcl(const Frame& pose) {
 /// True when the two touch. Poses as `to_fcl` gives them.
 bool fcl_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
                const Frame& pose_b);
+
+/// Distance in mm of the surfaces, 0 or less where they meet. Poses as `to_fcl` gives them.
+double fcl_distance_mm(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
+                       const Frame& pose_b);
 
 }  // namespace sculpt

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/collision/clearance.hpp"
-#include "core/collision/link_pairs.hpp"
 #include "core/collision/margins.hpp"
 #include "core/collision/scene_impl.hpp"
 
@@ -29,46 +28,7 @@ Scene::Impl::Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
   turn_rates = chain.turn_rates();
   radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
   for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
-  find_never_touching();
-}
-
-Scene::Impl::Mover Scene::Impl::make_mover(int body, int from_link) const {
-  const Body& mover = bodies[static_cast<std::size_t>(body)];
-  return {body, motion_bound(chain, from_link, mover.link, mover.hull.extent()),
-          turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
-}
-
-Configuration Scene::Impl::grid_speed_from(int link) const {
-  const Vec3 first = grid.origin_m, last = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
-  return motion_bound(chain, link, chain.stock_link(), first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm());
-}
-
-void Scene::Impl::add_pairs(const Cell& cell) {
-  const std::vector<int> group = rigid_groups(cell.robot);
-  const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
-  const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
-  const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
-  const auto link_pairs = find_link_pairs(cell.robot);
-  const auto apart = [&](const Body& a, const Body& b) {
-    if (a.tool != b.tool) return group_of(a.tool ? b : a) != tool_group;
-    return !a.tool && std::binary_search(link_pairs.begin(), link_pairs.end(), std::make_pair(a.link, b.link));
-  };
-  for (const Body& body : bodies)
-    if (!body.tool && group_of(body) == stock_group) fixed.push_back(&body);
-  for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
-    const Body& first = bodies[static_cast<std::size_t>(a)];
-    if (!first.tool && group_of(first) != stock_group)
-      pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}, grid_speed_from(first.link)});
-    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
-      const Body& second = bodies[static_cast<std::size_t>(b)];
-      if (!apart(first, second)) continue;
-      const double margin = first.tool || second.tool ? tool_margin_voxels * grid.voxel_m : link_margin_m;
-      Pair pair{a, b, margin, {make_mover(a, second.link), make_mover(b, first.link)}, {}};
-      if (pair.movers[0].drives.empty()) continue;
-      pair.tool_and_fixed = (first.tool || second.tool) && group_of(first.tool ? second : first) == stock_group;
-      pairs.push_back(std::move(pair));
-    }
-  }
+  find_free_ranges();
 }
 
 ToolLine Scene::Impl::tool_line(const ToolPose& pose) const {
@@ -88,15 +48,6 @@ bool Scene::Impl::near(const Pair& pair, const std::vector<Frame>& at, double re
   if (pair.second < 0) return near_material(a, pose_a, material, grid, reach_m);
   const Body& b = bodies[static_cast<std::size_t>(pair.second)];
   return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
-}
-
-/// Marks the pairs that one joint moves and that it can move as it likes. Material only shrinks, so that stays true.
-void Scene::Impl::find_never_touching() {
-  for (Pair& pair : pairs) {
-    if (pair.joints() != 1) continue;
-    const Configuration range = chain.upper() - chain.lower();
-    pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
-  }
 }
 
 Contact Scene::Impl::certify_links(const Configuration& from, const Configuration& step, double middle, double half,
@@ -160,6 +111,10 @@ bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   return !impl_->material.meets_capsule({line.ball, line.top}, radius, exempt);
 }
 
+const std::vector<UncheckedLinks>& Scene::unchecked_links() const {
+  return impl_->unchecked;
+}
+
 std::uint64_t Scene::checks() const {
   return impl_->checks;
 }
@@ -175,7 +130,8 @@ std::string Scene::describe_contact(const Configuration& q) const {
   for (const Impl::Pair& pair : impl_->pairs)
     if (impl_->near(pair, at, pair.margin_m))
       return name(impl_->bodies[static_cast<std::size_t>(pair.first)]) + " touches " +
-             (pair.second < 0 ? "the stock" : name(impl_->bodies[static_cast<std::size_t>(pair.second)]));
+             (pair.second < 0 ? "the stock" : name(impl_->bodies[static_cast<std::size_t>(pair.second)])) +
+             (pair.of_links ? " (if these two may touch, list them in \"ignore_pairs\" of the cell file)" : "");
   return {};
 }
 
@@ -186,7 +142,7 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);
   for (const Impl::Pair& pair : impl_->pairs)
-    if (impl_->near(pair, at, pair.margin_m)) return kind(pair.second);
+    if (!pair.is_free_between(q, q) && impl_->near(pair, at, pair.margin_m)) return kind(pair.second);
   return Contact::none;
 }
 
@@ -215,7 +171,7 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
     return Contact::tool_material;
   std::vector<const Impl::Pair*> open;
   for (const Impl::Pair& pair : impl_->pairs)
-    if (!pair.never_touch) open.push_back(&pair);
+    if (!pair.never_touch && !pair.is_free_between(from, to)) open.push_back(&pair);
   return impl_->certify_links(from, step, 0.5, 0.5, open);
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/cell/cell.hpp"
 #include "core/collision/bubble.hpp"
+#include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
 
 namespace sculpt {
@@ -39,10 +40,14 @@ class Scene {
   /// Contacts at q. The tool (not the links) may touch `exempt`.
   Contact contact_at(const Configuration& q, std::optional<Voxel> exempt = {}) const;
 
+  /// Links that may touch each other, at least with some of their shapes, and why.
+  const std::vector<UncheckedLinks>& unchecked_links() const;
+
   /// Configurations that were tested so far, for links or for the tool: what collision checking costs.
   std::uint64_t checks() const;
 
-  /// The first contact at q as a person would say it, e.g. "'link5' touches 'link7'"; empty if there is none.
+  /// The first contact at q as a person would say it, e.g. "'link5' touches the stock", with the cure where it is two
+  /// links; empty if there is none.
   std::string describe_contact(const Configuration& q) const;
 
   /// Pairs of bodies, or of a body and the material, by number.

@@ -127,6 +127,7 @@ std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const std::vec
 }
 
 bool Scene::Impl::is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const {
+  if (pair.is_free_between(box.low, box.high)) return true;
   if (checks_left-- <= 0) return false;
   count_check();
   const Configuration centre = box.centre(), half = box.reach_from(centre);
@@ -169,6 +170,7 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) 
   std::vector<Bubble::Advance> advances;
   enum class Answer { touch_nowhere, kept_apart, too_near };
   const auto look_at = [&](const Impl::Pair& pair) {
+    if (pair.is_free_between(box.low, box.high)) return Answer::touch_nowhere;
     const double enough = pair.motion(half) + 1e-9;
     const auto planes = impl_->planes(pair, at, half, enough);
     if (planes && planes->empty()) return Answer::touch_nowhere;

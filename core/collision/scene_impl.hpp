@@ -25,8 +25,11 @@ struct Scene::Impl {
     double margin_m;  ///< kept between the two; intervals on which they move less than half of it are not split further
     std::vector<Mover> movers;    ///< first seen from second, and second from first: either alone bounds their approach
     Configuration grid_speed;     ///< motion_bound of all of the grid, seen from the body; of two bodies none
+    bool of_links = false;        ///< and not of the tool or the material
     bool tool_and_fixed = false;  ///< the tool and what stands still in the stock's frame
     bool never_touch = false;     ///< moved against each other by one joint only, and free all along its range
+    Eigen::Index coordinate = -1;  ///< that joint's, where it is free in parts of its range only:
+    std::vector<std::pair<double, double>> free_ranges = {};  ///< where it surely is, in order
 
     /// The one that moves less.
     const Mover& mover(const Configuration& joint_steps) const {
@@ -36,6 +39,14 @@ struct Scene::Impl {
     double motion(const Configuration& joint_steps) const {
       const double least = mover(joint_steps).speed.dot(joint_steps);
       return second < 0 ? std::min(least, grid_speed.dot(joint_steps)) : least;
+    }
+    /// Does one joint move the two, and are they surely free wherever it stands between these?
+    bool is_free_between(const Configuration& from, const Configuration& to) const {
+      if (coordinate < 0) return false;
+      const auto [low, high] = std::minmax(from[coordinate], to[coordinate]);
+      return std::any_of(free_ranges.begin(), free_ranges.end(), [low = low, high = high](const auto& range) {
+        return range.first <= low && high <= range.second;
+      });
     }
     /// How many joints move the two against each other.
     Eigen::Index joints() const { return (movers[0].speed.array() > 0).count(); }
@@ -73,6 +84,7 @@ struct Scene::Impl {
   std::vector<Body> bodies;
   std::vector<const Body*> fixed;  ///< those that stand still in the stock's frame
   std::vector<Pair> pairs;
+  std::vector<UncheckedLinks> unchecked;
   Configuration tool_speed;  ///< voxel edges per unit of each coordinate, for the shank's whole length
   Configuration turn_rates;  ///< rad per unit of each coordinate
   ToolRadii radii;           ///< voxel edges
@@ -84,7 +96,12 @@ struct Scene::Impl {
   Mover make_mover(int body, int from_link) const;
   Configuration grid_speed_from(int link) const;
   void add_pairs(const Cell& cell);
-  void find_never_touching();
+  void add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked);
+  void add_pair(int a, int b, double margin_m);
+  /// The body, or a new one that is a part of it.
+  int body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes);
+  void find_free_ranges();
+  void add_free_ranges(Pair& pair, double low, double high) const;
 };
 
 }  // namespace sculpt

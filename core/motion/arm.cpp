@@ -18,6 +18,9 @@ constexpr std::size_t most_hubs = 12;
 /// Attempts by effort: configurations to start IK from, and iterations of RRTConnect.
 constexpr int random_seeds[] = {3, 10, 30};
 constexpr int rrt_iterations[] = {150, 600, 3000};
+/// Work on transits that may be in vain, in tests of configurations: at first, and more for each voxel that is cut.
+constexpr std::uint64_t in_vain_at_first = 10'000'000, in_vain_a_voxel = 20'000;
+constexpr std::uint64_t tests_a_start = 10;  ///< what solving IK from one configuration costs, about
 
 /// A path walked backwards.
 std::vector<Configuration> reversed(std::vector<Configuration> path) {
@@ -149,10 +152,20 @@ std::optional<Arm::Entry> Arm::find_entry(Voxel voxel, std::size_t axis, const C
 }
 
 bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
-  if (!fits(voxel, axis)) return false;
+  if (!fits(voxel, axis) || memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut) return false;
+  const std::uint64_t tests = scene_.checks();
+  std::uint64_t starts = 0;
+  if (transit_to(voxel, axis, effort, starts)) return true;
+  memory_.in_vain += scene_.checks() - tests + tests_a_start * starts;
+  return false;
+}
+
+/// `starts` counts where IK started.
+bool Arm::transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& starts) {
   int failures = 0;
   for (const Configuration& seed : entry_seeds(voxel, axis, effort)) {
     if (stop_.stop_requested()) throw Cancelled{};
+    ++starts;
     const auto entry = find_entry(voxel, axis, seed);
     if (!entry) continue;
     const Configuration& hub = entry->from_outside.front();
@@ -196,6 +209,7 @@ void Arm::commit(const Path& moves, const Configuration& cut, Voxel voxel) {
   const Keyframe keyframe{cut, true, voxel, voxel};
   emit_(keyframe);
   stand_at(keyframe);
+  ++memory_.cut;
   memory_.outside = false;
   memory_.way_out.clear();
 }

@@ -22,6 +22,8 @@ struct ArmMemory {
   std::map<std::size_t, Path> hubs;               ///< per axis: configurations outside the stock that entries came from
   std::uint64_t queries = 0;                      ///< transits asked for
   std::uint64_t ompl_calls = 0, ompl_solved = 0;  ///< how often OMPL was asked for one, and how often it found one
+  std::uint64_t in_vain = 0;                      ///< work, in tests of configurations, on transits that were not found
+  std::uint64_t cut = 0;                          ///< voxels
 };
 
 /// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:
@@ -56,7 +58,7 @@ class Arm {
   /// Cuts a voxel after lifting the tool along its axis just far enough, moving across and coming down again.
   bool cut_after_hop(Voxel voxel);
   /// Cuts a voxel from another direction: leaves the stock, moves freely (OMPL where the direct edge is not free),
-  /// comes in along `axis`.
+  /// comes in along `axis`. Once far more work was in vain than voxels were cut, it is not tried any more.
   bool cut_after_transit(Voxel voxel, std::size_t axis, int effort);
 
   /// Leaves the stock and goes home.
@@ -75,6 +77,7 @@ class Arm {
   /// Ball position before the cut: on the same line, just clear of the voxel.
   Vec3 beside(Voxel voxel, const Vec3& axis) const;
   bool hop(Voxel voxel, double lift_m);
+  bool transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& starts);
   /// From where the arm stands to outside the stock, both included; never fails.
   const Path& way_out();
   std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort);

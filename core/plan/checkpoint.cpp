@@ -152,7 +152,9 @@ Json to_json(const ArmMemory& arm) {
           {"way_out", to_json(arm.way_out)},
           {"queries", arm.queries},
           {"ompl_calls", arm.ompl_calls},
-          {"ompl_solved", arm.ompl_solved}};
+          {"ompl_solved", arm.ompl_solved},
+          {"in_vain", arm.in_vain},
+          {"cut", arm.cut}};
 }
 
 ArmMemory arm_of(const Json& json) {
@@ -165,6 +167,8 @@ ArmMemory arm_of(const Json& json) {
   arm.queries = json.at("queries").get<std::uint64_t>();
   arm.ompl_calls = json.at("ompl_calls").get<std::uint64_t>();
   arm.ompl_solved = json.at("ompl_solved").get<std::uint64_t>();
+  arm.in_vain = json.at("in_vain").get<std::uint64_t>();
+  arm.cut = json.at("cut").get<std::uint64_t>();
   return arm;
 }
 

@@ -149,6 +149,12 @@ void count_path(Report& report, const PathFigures& figures, double voxel_m, std:
   report.quality.checks_per_voxel = static_cast<double>(checks) / removed;
 }
 
+void list_unchecked_links(Report& report, const Scene& scene) {
+  const auto name = [&](int link) { return scene.chain().robot().links[static_cast<std::size_t>(link)].name; };
+  for (const UncheckedLinks& pair : scene.unchecked_links())
+    report.unchecked_links.push_back({name(pair.links.first), name(pair.links.second), pair.why});
+}
+
 void count_residue(Report& report, const std::vector<Residue>& residue) {
   report.voxels.residue = residue.size();
   std::map<Reason, std::uint64_t> counts;
@@ -269,6 +275,7 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
   Scene scene(cell, result.grid, result.voxels.stock);
   const Chain& chain = scene.chain();
   report.search = search_for(job, chain);
+  list_unchecked_links(report, scene);
   const TrajectoryHeader header = make_header(job, report.search, cell, chain, result.grid);
   if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +

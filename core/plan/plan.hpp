@@ -71,6 +71,10 @@ struct Report {
   struct {
     double load = 0, voxelize = 0, octree = 0, plan = 0, verify = 0, total = 0;
   } seconds;
+  struct MayTouch {
+    std::string first, second, why;  ///< names of links, and UncheckedLinks::why
+  };
+  std::vector<MayTouch> unchecked_links;  ///< links of which some shapes were not kept apart
   std::uint64_t peak_memory_bytes = 0;
   std::string plan_sha256;  ///< of the lines, whatever the form of the file
   struct {

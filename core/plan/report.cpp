@@ -8,6 +8,9 @@ std::string report_json(const Report& report) {
   using Json = nlohmann::ordered_json;
   Json residue = Json::array();
   for (const auto& [reason, voxels] : report.residue) residue.push_back({{"reason", name(reason)}, {"voxels", voxels}});
+  Json unchecked = Json::array();
+  for (const auto& [first, second, why] : report.unchecked_links)
+    unchecked.push_back({{"links", {first, second}}, {"why", why}});
   const auto& v = report.voxels;
   const auto& p = report.path;
   const auto& q = report.quality;
@@ -49,6 +52,7 @@ std::string report_json(const Report& report) {
                     {"plan", s.plan},
                     {"verify", s.verify},
                     {"total", s.total}}},
+                  {"unchecked_links", unchecked},
                   {"peak_memory_bytes", report.peak_memory_bytes},
                   {"threads", report.threads},
                   {"plan_sha256", report.plan_sha256},

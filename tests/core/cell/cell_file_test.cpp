@@ -74,6 +74,33 @@ TEST(CellFile, JointsLeftOutOfHomeStandAsNearToZeroAsTheyCan) {
   EXPECT_EQ(parse_cell({"test", with(good, "\"lift\": 0.2", ""), {{"r.urdf", urdf}}}).rest, std::vector<double>{0.1});
 }
 
+/// `good` with pairs of links.
+std::string with_pairs(const std::string& ignore, const std::string& check) {
+  return with(good, "\"home\"", "\"ignore_pairs\": " + ignore + ", \"check_pairs\": " + check + ", \"home\"");
+}
+
+TEST(CellFile, PairsOfLinksArriveAsIndicesInOrderAndOnce) {
+  const Cell plain = parse_cell({"test", good, {{"r.urdf", urdf}}});
+  EXPECT_TRUE(plain.ignore_pairs.empty());
+  EXPECT_TRUE(plain.check_pairs.empty());
+  const int room = plain.robot.find_link("room"), head = plain.robot.find_link("head");
+  const std::vector<LinkPair> both{{std::min(room, head), std::max(room, head)}};
+  const std::string either_way = R"([["head", "room"], ["room", "head"]])";
+  EXPECT_EQ(parse_cell({"test", with_pairs(either_way, "[]"), {{"r.urdf", urdf}}}).ignore_pairs, both);
+  EXPECT_EQ(parse_cell({"test", with_pairs("[]", either_way), {{"r.urdf", urdf}}}).check_pairs, both);
+}
+
+TEST(CellFile, PairsOfLinksThatCannotBeMeantAreRefused) {
+  expect_refused(with_pairs(R"([["room", "haed"]])", "[]"), "/ignore_pairs/0/1", "no link 'haed'; its links are");
+  expect_refused(with_pairs("[]", R"([["room", "head"], ["rom", "head"]])"), "/check_pairs/1/0", "'rom'");
+  expect_refused(with_pairs(R"([["room"]])", "[]"), "/ignore_pairs/0", "two names");
+  expect_refused(with_pairs(R"([["head", "head"]])", "[]"), "/ignore_pairs/0", "'head' twice");
+  expect_refused(with_pairs(R"(["room", "head"])", "[]"), "/ignore_pairs/0", "array");
+  expect_refused(with_pairs(R"({"room": "head"})", "[]"), "/ignore_pairs", "array");
+  expect_refused(with_pairs(R"([["head", "room"]])", R"([["room", "head"]])"), "/check_pairs",
+                 "'room' and 'head' stand in ignore_pairs as well");
+}
+
 TEST(CellFile, UnknownAndMissingFieldsAreNamedByTheirPointer) {
   expect_refused(with(good, "\"stock\"", "\"stok\""), "/stok", "stock");
   expect_refused(with(good, "\"size_m\"", "\"size\""), "/stock/size", "size_m");

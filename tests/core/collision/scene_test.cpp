@@ -4,7 +4,6 @@
 
 #include "core/base/random.hpp"
 #include "core/collision/body.hpp"
-#include "core/collision/link_pairs.hpp"
 #include "core/collision/motion_bound.hpp"
 #include "tests/core/collision/small_arm.hpp"
 
@@ -117,21 +116,6 @@ TEST(MotionBound, HoldsForRandomMotionsOfEveryLinkSeenFromEveryOther) {
             << fixed << " " << moving;
       }
   }
-}
-
-TEST(LinkPairs, LeaveOutNeighboursAndKeepTheRest) {
-  const Cell cell = make_test_cell();
-  const auto pairs = find_link_pairs(cell.robot);
-  const auto has = [&](const char* a, const char* b) {
-    const int first = cell.robot.find_link(a), second = cell.robot.find_link(b);
-    return std::count(pairs.begin(), pairs.end(), std::make_pair(std::min(first, second), std::max(first, second))) ==
-           1;
-  };
-  EXPECT_FALSE(has("base", "disc"));
-  EXPECT_FALSE(has("upper", "fore"));
-  EXPECT_TRUE(has("base", "nose"));
-  EXPECT_TRUE(has("disc", "fore"));
-  EXPECT_TRUE(has("upper", "nose"));
 }
 
 TEST(Body, EveryShapeLiesInItsBoundingCapsules) {

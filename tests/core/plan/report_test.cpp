@@ -9,6 +9,7 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
   Report report;
   report.mesh = "a \"quoted\" name\xff.stl";
   report.residue = {{Reason::tool_cannot_reach, 3}};
+  report.unchecked_links = {{"fore", "nose", "ignore_pairs"}};
   const std::string json = report_json(report);
   EXPECT_EQ(json.find('\n'), std::string::npos);
   for (const char* field : {"\"mesh\":",
@@ -31,6 +32,7 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"travel_m\":",
                             "\"joint_travel_rad\":",
                             "\"seconds\":{\"load\":",
+                            "\"unchecked_links\":[{\"links\":[\"fore\",\"nose\"],\"why\":\"ignore_pairs\"}]",
                             "\"peak_memory_bytes\":",
                             "\"threads\":",
                             "\"plan_sha256\":",

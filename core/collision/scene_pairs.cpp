@@ -1,0 +1,132 @@
+// Which bodies of a scene must stay apart, and what is known of them once and for all.
+#include <map>
+
+#include "core/collision/margins.hpp"
+#include "core/collision/scene_impl.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Parts of a joint's range that move less than this are not split further (m).
+constexpr double finest_part_m = 1e-3;
+/// Of a gap at home that is less than the margin. Edges that start there move on for the rest.
+constexpr double share_of_gap = 0.6;
+
+using Shapes = std::vector<std::size_t>;
+
+/// Shapes of the first link, and shapes of the second one that all of them must be kept apart from.
+std::vector<std::pair<Shapes, Shapes>> group_shapes(const CheckedLinks& checked) {
+  std::map<std::size_t, Shapes> partners;
+  for (const auto& [first, second] : checked.shapes) partners[first].push_back(second);
+  std::map<Shapes, Shapes> alike;
+  for (const auto& [first, seconds] : partners) alike[seconds].push_back(first);
+  std::vector<std::pair<Shapes, Shapes>> groups;
+  for (const auto& [seconds, firsts] : alike) groups.emplace_back(firsts, seconds);
+  return groups;
+}
+
+}  // namespace
+
+Scene::Impl::Mover Scene::Impl::make_mover(int body, int from_link) const {
+  const Body& mover = bodies[static_cast<std::size_t>(body)];
+  return {body, motion_bound(chain, from_link, mover.link, mover.hull.extent()),
+          turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
+}
+
+Configuration Scene::Impl::grid_speed_from(int link) const {
+  const Vec3 first = grid.origin_m, last = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
+  return motion_bound(chain, link, chain.stock_link(), first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm());
+}
+
+void Scene::Impl::add_pair(int a, int b, double margin_m) {
+  const Body& first = bodies[static_cast<std::size_t>(a)];
+  const Body& second = bodies[static_cast<std::size_t>(b)];
+  Pair pair{a, b, margin_m, {make_mover(a, second.link), make_mover(b, first.link)}, {}};
+  pair.of_links = !first.tool && !second.tool;
+  if (!pair.movers[0].drives.empty()) pairs.push_back(std::move(pair));
+}
+
+int Scene::Impl::body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes) {
+  if (shapes.size() == all_shapes) return body;
+  bodies.push_back(part_of(bodies[static_cast<std::size_t>(body)], shapes));
+  return static_cast<int>(bodies.size()) - 1;
+}
+
+void Scene::Impl::add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked) {
+  const auto& links = cell.robot.links;
+  const bool tight = checked.gap_m > 0 && checked.gap_m < link_margin_m;
+  for (const auto& [first, second] : group_shapes(checked))
+    add_pair(body_of(a, first, links[static_cast<std::size_t>(checked.links.first)].shapes.size()),
+             body_of(b, second, links[static_cast<std::size_t>(checked.links.second)].shapes.size()),
+             tight ? share_of_gap * checked.gap_m : link_margin_m);
+}
+
+void Scene::Impl::add_pairs(const Cell& cell) {
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
+  const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
+  LinkPairs found = find_link_pairs(cell);
+  unchecked = std::move(found.unchecked);
+  std::map<LinkPair, const CheckedLinks*> checked;
+  for (const CheckedLinks& links : found.checked) checked[links.links] = &links;
+  struct Place {
+    int link, group;
+    bool tool;
+  };
+  std::vector<Place> places;  // of whole bodies: parts of them are added on the way
+  for (const Body& body : bodies) places.push_back({body.link, group[static_cast<std::size_t>(body.link)], body.tool});
+  const int count = static_cast<int>(places.size());
+  for (int a = 0; a < count; ++a) {
+    const Place& first = places[static_cast<std::size_t>(a)];
+    if (!first.tool && first.group != stock_group)
+      pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}, grid_speed_from(first.link)});
+    for (int b = a + 1; b < count; ++b) {
+      const Place& second = places[static_cast<std::size_t>(b)];
+      if (second.tool) {
+        const std::size_t before = pairs.size();
+        if (first.group != tool_group) add_pair(a, b, tool_margin_voxels * grid.voxel_m);
+        if (pairs.size() > before) pairs.back().tool_and_fixed = first.group == stock_group;
+      } else if (const auto at = checked.find({first.link, second.link}); at != checked.end()) {
+        add_link_pairs(cell, a, b, *at->second);
+      }
+    }
+  }
+  for (int a = 0; a < count; ++a)
+    if (const Place& place = places[static_cast<std::size_t>(a)]; !place.tool && place.group == stock_group)
+      fixed.push_back(&bodies[static_cast<std::size_t>(a)]);
+}
+
+/// Finds the pairs that one joint moves and that it can move as it likes, or in parts of its range. Material only
+/// shrinks, so that stays true.
+void Scene::Impl::find_free_ranges() {
+  for (Pair& pair : pairs) {
+    if (pair.joints() != 1) continue;
+    const Configuration range = chain.upper() - chain.lower();
+    pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
+    if (pair.never_touch || !pair.of_links) continue;
+    pair.movers[0].speed.maxCoeff(&pair.coordinate);
+    add_free_ranges(pair, chain.lower()[pair.coordinate], chain.upper()[pair.coordinate]);
+  }
+}
+
+void Scene::Impl::add_free_ranges(Pair& pair, double low, double high) const {
+  Configuration q = chain.lower(), half = Configuration::Zero(chain.dof());
+  q[pair.coordinate] = (low + high) / 2;
+  half[pair.coordinate] = (high - low) / 2;
+  std::vector<Frame> at;
+  count_check();
+  chain.link_poses(q, at);
+  const double motion = pair.motion(half);
+  if (!near(pair, at, motion + pair.margin_m)) {
+    auto& ranges = pair.free_ranges;
+    if (!ranges.empty() && ranges.back().second == low)
+      ranges.back().second = high;
+    else
+      ranges.emplace_back(low, high);
+  } else if (motion > finest_part_m) {
+    add_free_ranges(pair, low, q[pair.coordinate]);
+    add_free_ranges(pair, q[pair.coordinate], high);
+  }
+}
+
+}  // namespace sculpt
