@@ -10,7 +10,9 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/material/gltf_guard.hpp"
@@ -96,8 +98,9 @@ void check_memory(std::uint64_t needed, std::uint64_t cap, const std::string& wh
 }
 
 bool reads(const Assimp::BaseImporter& reader, const std::string& extension) {
-  const std::string extensions = " " + std::string(reader.GetInfo()->mFileExtensions) + " ";
-  return extensions.find(" " + extension + " ") != std::string::npos;
+  std::istringstream extensions(reader.GetInfo()->mFileExtensions);
+  return std::find(std::istream_iterator<std::string>(extensions), {}, extension) !=
+         std::istream_iterator<std::string>();
 }
 
 /// Assimp tries the readers of some fifty formats on a file that its own does not want: none but its own are left.

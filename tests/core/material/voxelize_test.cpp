@@ -96,7 +96,9 @@ TEST(Voxelize, WhatReachesOutOfTheGridIsCutOff) {
 }
 
 TEST(Voxelize, AHollowBallIsHollow) {
-  const Mesh mesh = shapes::joined(shapes::sphere(middle, 0.18, 160), shapes::sphere(middle, 0.1, 160));
+  Mesh inner = shapes::sphere(middle, 0.1, 160);
+  for (auto& t : inner.triangles) std::swap(t[1], t[2]);  // a cavity faces inwards
+  const Mesh mesh = shapes::joined(shapes::sphere(middle, 0.18, 160), inner);
   const Grid grid = grid_of(64);
   expect_same_inside(
       voxelize(mesh, grid, {}), grid, [](const Vec3& p) { return std::abs((p - middle).norm() - 0.14) - 0.04; }, 1e-4);
@@ -137,6 +139,15 @@ TEST(Voxelize, SurfacesThatEncloseNothingAreRefusedWithTheShare) {
       std::string::npos);
   const Mesh floor_and_roof = shapes::box(Vec3(-0.1, -0.1, 0.2), Vec3(0.1, 0.1, 0.3), 0b110000);
   EXPECT_NE(refusal(floor_and_roof, 32).find("encloses no voxel centre"), std::string::npos);
+}
+
+TEST(Voxelize, ARefusalSaysWhereTheHolesAre) {
+  // Open above: a hole of 200 mm by 200 mm at z = 400 mm.
+  Mesh mesh = shapes::box(middle - Vec3(0.1, 0.1, 0.1), middle + Vec3(0.1, 0.1, 0.1), 0b011111);
+  const std::string said = refusal(mesh, 32);
+  EXPECT_NE(said.find("1 hole, the largest 282.8 mm across, around (0, 0, 400) mm"), std::string::npos) << said;
+  mesh = shapes::joined(mesh, shapes::box(Vec3(-0.15, -0.15, 0.2), Vec3(-0.12, -0.12, 0.25), 0b011111));
+  EXPECT_NE(refusal(mesh, 32).find("2 holes, the largest 282.8 mm"), std::string::npos) << refusal(mesh, 32);
 }
 
 TEST(Voxelize, AHalfBallShellIsRefusedInAnyPose) {
