@@ -7,6 +7,7 @@
 #include "core/material/facet_groups.hpp"
 #include "core/material/holes.hpp"
 #include "core/material/nesting.hpp"
+#include "core/material/twins.hpp"
 
 namespace sculpt {
 namespace {
@@ -17,6 +18,7 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 struct Partition {
   std::vector<std::uint32_t> shell_of;
   std::vector<bool> twisted;
+  std::vector<bool> turned;  ///< facets
 };
 
 /// Turns the facets of each shell as most of them are.
@@ -27,7 +29,7 @@ Partition turn_alike(FixedMesh& mesh, const std::vector<Side>& sides) {
     if (edge.size() == 2 && !groups.join(edge[0].facet, edge[1].facet, edge[0].forward == edge[1].forward))
       misfits.push_back(edge[0].facet);
   });
-  Partition parts{std::vector<std::uint32_t>(mesh.triangles.size()), {}};
+  Partition parts{std::vector<std::uint32_t>(mesh.triangles.size()), {}, std::vector<bool>(mesh.triangles.size())};
   std::vector<std::uint32_t> shell_of_root(mesh.triangles.size(), none);
   std::vector<std::int64_t> turned;  // of each shell: facets turned against the root, less those that are not
   for (std::uint32_t facet = 0; facet < mesh.triangles.size(); ++facet) {
@@ -40,8 +42,10 @@ Partition turn_alike(FixedMesh& mesh, const std::vector<Side>& sides) {
     turned[shell_of_root[root]] += is_turned ? 1 : -1;
   }
   for (std::uint32_t facet = 0; facet < mesh.triangles.size(); ++facet)
-    if (groups.find(facet).turned != (turned[parts.shell_of[facet]] > 0))
+    if (groups.find(facet).turned != (turned[parts.shell_of[facet]] > 0)) {
+      parts.turned[facet] = true;
       std::swap(mesh.triangles[facet][1], mesh.triangles[facet][2]);
+    }
   parts.twisted.resize(turned.size());
   for (std::uint32_t facet : misfits) parts.twisted[parts.shell_of[facet]] = true;
   return parts;
@@ -58,21 +62,18 @@ double volume_of(const FixedMesh& mesh, std::uint32_t facet, const Vec3& from) {
   return (mesh.at(a) - from).dot((mesh.at(b) - from).cross(mesh.at(c) - from));
 }
 
-/// The edges at which the facets of one shell do not cancel each other.
-std::vector<OpenEdge> find_ends(const FixedMesh& mesh, const std::vector<std::uint32_t>& shell_of) {
+/// The edges at which the facets of one shell do not cancel each other. `sides`: before facets were turned.
+std::vector<OpenEdge> find_ends(const std::vector<Side>& sides, const Partition& parts) {
   std::vector<OpenEdge> ends;
   std::vector<std::pair<std::uint32_t, int>> sums;
-  for_each_edge(sort_sides(mesh.triangles, mesh.vertices.size()), [&](std::span<const Side> edge) {
-    if (edge.size() == 2 && edge[0].forward != edge[1].forward && shell_of[edge[0].facet] == shell_of[edge[1].facet])
-      return;
+  const auto is_forward = [&](const Side& side) { return side.forward != parts.turned[side.facet]; };
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() == 2 && is_forward(edge[0]) != is_forward(edge[1])) return;  // joined, so of one shell
     sums.clear();
     for (const Side& side : edge) {
-      const auto known = std::ranges::find(sums, shell_of[side.facet], &std::pair<std::uint32_t, int>::first);
-      const int sign = side.forward ? 1 : -1;
-      if (known == sums.end())
-        sums.emplace_back(shell_of[side.facet], sign);
-      else
-        known->second += sign;
+      const std::uint32_t shell = parts.shell_of[side.facet];
+      const auto known = std::ranges::find(sums, shell, &std::pair<std::uint32_t, int>::first);
+      (known == sums.end() ? sums.emplace_back(shell, 0) : *known).second += is_forward(side) ? 1 : -1;
     }
     for (const auto& [shell, sum] : sums)
       if (sum != 0) ends.push_back({shell, edge[0].low, edge[0].high});
@@ -81,9 +82,9 @@ std::vector<OpenEdge> find_ends(const FixedMesh& mesh, const std::vector<std::ui
 }
 
 /// Shells that are far from closed: their holes, taken as round, have more than a fifth of their area.
-std::vector<bool> find_sheets(const FixedMesh& mesh, const Partition& parts) {
+std::vector<bool> find_sheets(const FixedMesh& mesh, const std::vector<Side>& sides, const Partition& parts) {
   std::vector<double> hole(parts.twisted.size()), area(parts.twisted.size());
-  for (const Hole& each : find_holes(mesh, find_ends(mesh, parts.shell_of)))
+  for (const Hole& each : find_holes(mesh, find_ends(sides, parts)))
     hole[each.group] += each.length * each.length / (4 * std::numbers::pi);
   for (std::uint32_t facet = 0; facet < mesh.triangles.size(); ++facet)
     area[parts.shell_of[facet]] += area_of(mesh, facet);
@@ -161,9 +162,11 @@ class Turning {
 }  // namespace
 
 Surface turn_shells(FixedMesh mesh) {
-  Partition parts = turn_alike(mesh, sort_sides(mesh.triangles, mesh.vertices.size()));
+  std::vector<Side> sides = sort_sides(mesh.triangles, mesh.vertices.size());
+  while (halve_twins(mesh, sides)) sides = sort_sides(mesh.triangles, mesh.vertices.size());
+  Partition parts = turn_alike(mesh, sides);
   std::vector<bool> twisted(mesh.triangles.size()), sheet(mesh.triangles.size());
-  const std::vector<bool> sheets = find_sheets(mesh, parts);
+  const std::vector<bool> sheets = find_sheets(mesh, sides, parts);
   for (std::size_t facet = 0; facet < sheet.size(); ++facet) {
     twisted[facet] = parts.twisted[parts.shell_of[facet]];
     sheet[facet] = sheets[parts.shell_of[facet]];

@@ -21,9 +21,10 @@ struct Surface {
   std::vector<bool> sheet;  ///< facets of shells that are far from closed: turned as in the file
 };
 
-/// Facets joined by edges of two facets are a shell. Within a shell all are turned as most of them are; an outermost
-/// shell is turned outwards; one that lies wholly in another is a cavity if the file turns it against that one, and a
-/// solid in a solid if not. Shells that are far from closed are taken together. Deterministic.
+/// Facets that are there twice are one (halve_twins). Facets joined by edges of two facets are a shell. Within a shell
+/// all are turned as most of them are; an outermost shell is turned outwards; one that lies wholly in another is a
+/// cavity if the file turns it against that one, and a solid in a solid if not. Shells that are far from closed are
+/// taken together. Deterministic.
 Surface turn_shells(FixedMesh mesh);
 
 }  // namespace sculpt

@@ -91,9 +91,9 @@ std::vector<Rim> find_rims(const FixedMesh& mesh, const std::vector<Side>& sides
   return rims;
 }
 
-/// Halves what is there several times; false where nothing is.
-bool halve_twins(FixedMesh& mesh) {
-  const std::vector<Side> sides = sort_sides(mesh.triangles, mesh.vertices.size());
+}  // namespace
+
+bool halve_twins(FixedMesh& mesh, const std::vector<Side>& sides) {
   const std::vector<Corners> twins = find_twins(mesh, sides);
   if (twins.empty()) return false;
   std::vector<bool> is_twin(mesh.triangles.size()), goes(mesh.triangles.size());
@@ -114,14 +114,6 @@ bool halve_twins(FixedMesh& mesh) {
   const bool changed = left.size() < mesh.triangles.size();
   mesh.triangles = std::move(left);
   return changed;
-}
-
-}  // namespace
-
-FixedMesh drop_twins(FixedMesh mesh) {
-  while (halve_twins(mesh)) {
-  }
-  return mesh;
 }
 
 }  // namespace sculpt

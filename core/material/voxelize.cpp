@@ -4,7 +4,7 @@
 
 #include "core/material/crossings.hpp"
 #include "core/material/holes.hpp"
-#include "core/material/twins.hpp"
+#include "core/material/shells.hpp"
 #include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
@@ -147,7 +147,7 @@ std::string percent_of(std::uint64_t part, std::uint64_t all) {
 }  // namespace
 
 Solid find_solid(const Mesh& mesh, const Grid& grid, const Watch& watch) {
-  Surface surface = turn_shells(drop_twins(to_fixed(mesh, grid)));
+  Surface surface = turn_shells(to_fixed(mesh, grid));
   Axes axes;
   Shares shares = find_crossings(surface, grid.n, axes, watch);
   const auto holes = [&] { return describe_holes(surface.mesh, grid); };
