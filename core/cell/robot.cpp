@@ -68,11 +68,26 @@ void refuse_deep_nesting(const std::string& xml) {
   }
 }
 
+/// urdfdom skips what it does not know, so that of a xacro source parts would be missing. (A URDF that xacro wrote
+/// names its namespace still, and may have its source in comments.)
+void refuse_xacro(const std::string& xml) {
+  std::size_t at = 0;
+  while ((at = xml.find('<', at)) != std::string::npos) {
+    if (xml.compare(at, 7, "<xacro:") == 0)
+      refuse(
+          "the file is a xacro source, not a URDF: write it out with `xacro robot.urdf.xacro > robot.urdf`, and name "
+          "that file");
+    if (xml.compare(at, 4, "<!--") == 0) at = xml.find("-->", at);
+    if (at != std::string::npos) ++at;
+  }
+}
+
 urdf::ModelInterfaceSharedPtr parse_model(const std::string& xml) {
   if (xml.size() > largest_urdf_bytes) {
     refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(largest_urdf_bytes));
   }
   refuse_deep_nesting(xml);
+  refuse_xacro(xml);
   static std::mutex console_mutex;
   const std::lock_guard lock(console_mutex);
   CollectedMessages messages;
@@ -131,8 +146,7 @@ class MeshShelf {
     }
     auto& kept = meshes_[{reference, {scale.x(), scale.y(), scale.z()}}];
     if (kept) return kept;
-    auto mesh = std::make_shared<Mesh>(
-        load_mesh(read_file_(reference), extension_of(reference), mesh_memory_cap_bytes, Watch{}));
+    auto mesh = std::make_shared<Mesh>(load(reference, owner));
     for (Vec3& vertex : mesh->vertices) vertex = vertex.cwiseProduct(scale);
     if (scale.prod() < 0) {
       for (auto& triangle : mesh->triangles) std::swap(triangle[1], triangle[2]);
@@ -142,6 +156,21 @@ class MeshShelf {
   }
 
  private:
+  Mesh load(const std::string& reference, const std::string& owner) const {
+    const std::string extension = extension_of(reference), named = "mesh '" + reference + "' of " + owner;
+    if (extension == "dae")
+      throw InputError("mesh_unreadable", named +
+                                              " is a Collada file, which is not read: convert it (for example with "
+                                              "`assimp export`) to STL or OBJ, in metres, and name that one in "
+                                              "<collision>; <visual> may keep it");
+    const std::string bytes = read_file_(reference);
+    try {
+      return load_mesh(bytes, extension, mesh_memory_cap_bytes, Watch{});
+    } catch (const InputError& error) {
+      throw InputError(error.code(), named + ": " + error.what());
+    }
+  }
+
   const std::function<std::string(const std::string&)>& read_file_;
   std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const Mesh>> meshes_;
 };

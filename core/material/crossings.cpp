@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/material/columns.hpp"
+#include "core/material/prefix_parity.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -59,117 +62,107 @@ class Plane {
   double slope_a_ = 0, slope_b_ = 0;
 };
 
-/// Flips the bits where a surface is entered or left.
-class Toggles {
- public:
-  Toggles(Crossings& out, int n, int axis) : out_(out), n_(n) {
-    const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(n), static_cast<std::size_t>(n) * n};
-    along_ = stride[axis];
-    across_a_ = stride[(axis + 1) % 3];
-    across_b_ = stride[(axis + 2) % 3];
+/// A facet seen along the axis, while the rows of columns go over it.
+struct Facet {
+  std::array<Point, 3> corners;
+  Plane plane;
+  std::int64_t end;  ///< first row behind it
+  Role role;
+  bool enters;  ///< a column going up the axis goes in through it
+};
+
+bool enters(const std::array<Point, 3>& t) {
+  return (t[1].a - t[0].a) * (t[2].b - t[0].b) < (t[1].b - t[0].b) * (t[2].a - t[0].a);
+}
+
+void cross(const Facet& facet, std::int64_t row, int n, std::vector<Crossing>& crossings) {
+  const std::int64_t b = row * unit + half;
+  std::array<std::int64_t, 2> ends{};
+  int met = 0;
+  for (int e = 0; e < 3; ++e) {
+    const Point &p = facet.corners[e], &q = facet.corners[(e + 1) % 3];
+    if ((p.b <= b) != (q.b <= b)) ends[met++] = first_column(p, q, b);  // never more than two of three edges
   }
-  void add(std::int64_t a, std::int64_t b, std::int64_t c) {
-    const std::size_t column = static_cast<std::size_t>(a + n_ * b);
-    out_.met[column >> 6] |= std::uint64_t{1} << (column & 63);
-    out_.odd[column >> 6] ^= std::uint64_t{1} << (column & 63);
-    if (c >= n_) return;
-    const std::size_t at = a * across_a_ + b * across_b_ + std::max<std::int64_t>(c, 0) * along_;
-    out_.inside.words()[at >> 6] ^= std::uint64_t{1} << (at & 63);
+  if (met < 2) return;
+  const std::int64_t last = std::min<std::int64_t>(std::max(ends[0], ends[1]), n);
+  for (std::int64_t a = std::max<std::int64_t>(std::min(ends[0], ends[1]), 0); a < last; ++a) {
+    const std::int64_t depth = facet.plane.first_voxel(a * unit + half, b);
+    crossings.emplace_back(a, std::clamp<std::int64_t>(depth, 0, n), n, facet.role, facet.enters);
+  }
+}
+
+/// Facets of a surface that meet rows of columns, by the first row.
+class Rows {
+ public:
+  Rows(const Surface& surface, int n, int axis) : surface_(surface), n_(n), axis_(axis), first_(n + 1, 0) {
+    const auto count = static_cast<std::uint32_t>(surface.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < count; ++t)
+      if (const auto row = first_row(t); row < last_row(t)) ++first_[row + 1];
+    for (int row = 0; row < n; ++row) first_[row + 1] += first_[row];
+    facets_.resize(first_[n]);
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t t = 0; t < count; ++t)
+      if (const auto row = first_row(t); row < last_row(t)) facets_[next[row]++] = t;
+  }
+
+  /// Adds those that begin in the row, and takes out those that ended before it.
+  void go_to(int row, std::vector<Facet>& active) const {
+    std::erase_if(active, [&](const Facet& facet) { return facet.end <= row; });
+    for (std::uint32_t at = first_[row]; at < first_[row + 1]; ++at) {
+      const std::uint32_t t = facets_[at];
+      std::array<Point, 3> corners;
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto& v = surface_.mesh.vertices[surface_.mesh.triangles[t][corner]];
+        corners[corner] = {v[(axis_ + 1) % 3], v[(axis_ + 2) % 3], v[axis_]};
+      }
+      active.push_back({corners, Plane(corners), last_row(t), surface_.role[t], enters(corners)});
+    }
   }
 
  private:
-  Crossings& out_;
-  std::int64_t n_;
-  std::size_t along_, across_a_, across_b_;
+  std::int64_t b(std::uint32_t facet, int corner) const {
+    return surface_.mesh.vertices[surface_.mesh.triangles[facet][corner]][(axis_ + 2) % 3];
+  }
+  std::int64_t first_row(std::uint32_t t) const {
+    return std::max<std::int64_t>(first_centre(std::min({b(t, 0), b(t, 1), b(t, 2)})), 0);
+  }
+  std::int64_t last_row(std::uint32_t t) const {
+    return std::min<std::int64_t>(first_centre(std::max({b(t, 0), b(t, 1), b(t, 2)})), n_);
+  }
+
+  const Surface& surface_;
+  int n_, axis_;
+  std::vector<std::uint32_t> first_;  // of each row: where its facets begin in `facets_`
+  std::vector<std::uint32_t> facets_;
 };
-
-void add_triangle(const std::array<Point, 3>& t, int n, Toggles& toggles) {
-  const std::int64_t b_low = std::max<std::int64_t>(first_centre(std::min({t[0].b, t[1].b, t[2].b})), 0);
-  const std::int64_t b_high = std::min<std::int64_t>(first_centre(std::max({t[0].b, t[1].b, t[2].b})), n);
-  if (b_low >= b_high) return;
-  const Plane plane(t);
-  for (std::int64_t row = b_low; row < b_high; ++row) {
-    const std::int64_t b = row * unit + half;
-    std::array<std::int64_t, 2> ends{};
-    int met = 0;
-    for (int e = 0; e < 3; ++e) {
-      const Point &p = t[e], &q = t[(e + 1) % 3];
-      if ((p.b <= b) != (q.b <= b)) ends[met++] = first_column(p, q, b);  // never more than two of three edges
-    }
-    if (met < 2) continue;
-    const std::int64_t last = std::min<std::int64_t>(std::max(ends[0], ends[1]), n);
-    for (std::int64_t column = std::max<std::int64_t>(std::min(ends[0], ends[1]), 0); column < last; ++column)
-      toggles.add(column, row, plane.first_voxel(column * unit + half, b));
-  }
-}
-
-/// The bits of a word that have at least `shift` bits of their own span (a power of two of bits) below them.
-std::uint64_t reach_of(std::size_t shift, std::size_t span) {
-  std::uint64_t reach = 0;
-  for (std::size_t bit = 0; bit < 64; ++bit)
-    if (bit % span >= shift) reach |= std::uint64_t{1} << bit;
-  return reach;
-}
-
-/// Columns that step from bit to bit inside a word.
-void prefix_parity_narrow(std::vector<std::uint64_t>& words, std::size_t stride, std::size_t span) {
-  const std::size_t in_word = std::min<std::size_t>(span, 64), words_a_span = span / in_word;
-  std::array<std::uint64_t, 7> reach{};
-  for (std::size_t s = 0; stride << s < in_word; ++s) reach[s] = reach_of(stride << s, in_word);
-  std::uint64_t repeat = 0;  // copies the lowest `stride` bits all over a word
-  for (std::size_t bit = 0; bit < 64; bit += stride) repeat |= std::uint64_t{1} << bit;
-  for (std::size_t first = 0; first < words.size(); first += words_a_span) {
-    std::uint64_t carry = 0;
-    for (std::size_t at = first; at < first + words_a_span; ++at) {
-      std::uint64_t word = words[at];
-      for (std::size_t s = 0; stride << s < in_word; ++s) word ^= (word << (stride << s)) & reach[s];
-      words[at] = word ^ (carry * repeat);
-      carry = words[at] >> (64 - stride);
-    }
-  }
-}
-
-/// Each bit becomes the parity of itself and all bits before it in its column: columns step by `stride` bits and fill
-/// `span` bits.
-void prefix_parity(std::vector<std::uint64_t>& words, std::size_t stride, std::size_t span) {
-  if (stride < 64) return prefix_parity_narrow(words, stride, span);
-  const std::size_t step = stride / 64, block = span / 64;
-  for (std::size_t first = 0; first < words.size(); first += block)
-    for (std::size_t at = first + step; at < first + block; ++at) words[at] ^= words[at - step];
-}
 
 }  // namespace
 
-FixedMesh to_fixed(const Mesh& mesh, const Grid& grid) {
-  constexpr double limit = 8192;  // voxels; products of two coordinates then stay below 2^62
-  FixedMesh fixed;
-  fixed.triangles = mesh.triangles;
-  fixed.vertices.reserve(mesh.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 at = (vertex - grid.origin_m) / grid.voxel_m;
-    if (!(at.cwiseAbs().maxCoeff() < limit))
-      throw InputError(
-          "target_outside_stock",
-          "the mesh reaches more than 8192 voxels out of the grid: check its units (metres) and its place");
-    fixed.vertices.push_back({std::llround(at.x() * unit), std::llround(at.y() * unit), std::llround(at.z() * unit)});
-  }
-  return fixed;
-}
-
-Crossings find_crossings(const FixedMesh& mesh, int n, int axis, const Watch& watch) {
-  Crossings crossings{VoxelSet(n), {}, {}};
+Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& watch) {
+  constexpr std::size_t most_a_column = 10000;
+  Crossings crossings{VoxelSet(n), {}, {}, 0, {}};
   crossings.met.resize(static_cast<std::size_t>(n) * n / 64);
   crossings.odd = crossings.met;
-  Toggles toggles(crossings, n, axis);
-  const std::uint64_t count = mesh.triangles.size();
-  for (std::uint64_t t = 0; t < count; ++t) {
-    if (t % 1024 == 0) watch.step(Stage::voxelize, axis * count + t, 3 * count);
-    std::array<Point, 3> points;
-    for (int corner = 0; corner < 3; ++corner) {
-      const auto& at = mesh.vertices[mesh.triangles[t][corner]];
-      points[corner] = {at[(axis + 1) % 3], at[(axis + 2) % 3], at[axis]};
+  Columns columns(crossings, n, axis);
+  const Rows rows(surface, n, axis);
+  std::vector<Facet> active;
+  std::vector<Crossing> met;
+  for (int row = 0; row < n; ++row) {
+    rows.go_to(row, active);
+    met.clear();
+    for (std::size_t at = 0; at < active.size(); ++at) {
+      if (at % 1024 == 0) watch.step(Stage::voxelize, axis * n + row, 3 * n);
+      cross(active[at], row, n, met);
+      if (met.size() > most_a_column * static_cast<std::size_t>(n))
+        throw InputError("mesh_not_solid",
+                         "the mesh is not a solid: its facets lie in one another, more than 10000 deep: "
+                         "remove those that are there many times");
     }
-    add_triangle(points, n, toggles);
+    std::sort(met.begin(), met.end());
+    for (std::size_t first = 0, end = 0; first < met.size(); first = end) {
+      while (end < met.size() && met[end].column(n) == met[first].column(n)) ++end;
+      columns.add({&met[first], end - first}, row);
+    }
   }
   const std::size_t edge = static_cast<std::size_t>(n);
   const std::array<std::size_t, 4> stride{1, edge, edge * edge, edge * edge * edge};

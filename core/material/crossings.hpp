@@ -2,34 +2,28 @@
 #pragma once
 
 #include "core/base/watch.hpp"
-#include "core/material/mesh.hpp"
-#include "core/material/voxel_set.hpp"
+#include "core/material/shells.hpp"
+#include "core/material/voxel_grid.hpp"
 
 namespace sculpt {
 
 /// Columns of `axis` run through voxel centres. A column is named (a, b): its coordinates on the axes after `axis` and
-/// after that (x -> y, z; y -> z, x; z -> x, y); its bit is a + n b.
+/// after that (x -> y, z; y -> z, x; z -> x, y); its bit is a + n b. Which facets a column goes through is exact: one
+/// through an edge or a vertex counts as if moved by an infinitesimal step, so that a closed surface never leaves an
+/// odd column.
 struct Crossings {
-  VoxelSet inside;                 ///< parity from the low end of each column
+  VoxelSet inside;                 ///< where solids wind round more often than cavities
   std::vector<std::uint64_t> met;  ///< columns with any crossing
-  std::vector<std::uint64_t> odd;  ///< columns with an odd number of crossings: their parity cannot be trusted
+  std::vector<std::uint64_t> odd;  ///< columns with an odd number of crossings: what they say cannot be trusted
+  /// Columns with an even number whose signs do not cancel: even and odd decides in them.
+  std::uint64_t unbalanced = 0;
+  /// Voxels in a doubtful shell where signs say one thing, even and odd another.
+  Ambiguous ambiguous;
 
   bool is_odd(std::size_t column) const { return (odd[column >> 6] >> (column & 63)) & 1; }
 };
 
-/// Vertices in 1/65536 of a voxel edge, relative to the grid's corner. Parity is exact on these integers: a column
-/// through an edge or a vertex counts as if moved by an infinitesimal step, so that a closed surface never leaves an
-/// odd column.
-constexpr int unit_bits = 16;
-struct FixedMesh {
-  std::vector<std::array<std::int64_t, 3>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-/// Throws InputError `target_outside_stock` for a mesh that reaches out of the grid so far that the integers would
-/// overflow.
-FixedMesh to_fixed(const Mesh& mesh, const Grid& grid);
-
-Crossings find_crossings(const FixedMesh& mesh, int n, int axis, const Watch& watch);
+/// Throws InputError `mesh_not_solid` where facets lie in each other by the ten thousand.
+Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& watch);
 
 }  // namespace sculpt

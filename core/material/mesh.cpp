@@ -10,11 +10,14 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/material/gltf_guard.hpp"
-#include "core/material/ply_guard.hpp"
+#include "core/material/off.hpp"
+#include "core/material/ply.hpp"
 #include "core/material/vertex_join.hpp"
 
 namespace sculpt {
@@ -35,8 +38,8 @@ const Kind& find_kind(const std::string& extension) {
                    "mesh kind \"" + extension + "\" is not known: convert the mesh to stl, obj, ply, off, glb or gltf");
 }
 
-/// Reads the caller's bytes in place. A reader that asks for more at the end again and again would do so for ever, as
-/// assimp's does on a .ply whose header has no end: it is stopped by an exception.
+/// Reads the caller's bytes in place. A reader that asks for more at the end again and again would do so for ever: it
+/// is stopped by an exception.
 class ViewStream final : public Assimp::IOStream {
  public:
   explicit ViewStream(std::string_view bytes) : bytes_(bytes) {}
@@ -96,8 +99,9 @@ void check_memory(std::uint64_t needed, std::uint64_t cap, const std::string& wh
 }
 
 bool reads(const Assimp::BaseImporter& reader, const std::string& extension) {
-  const std::string extensions = " " + std::string(reader.GetInfo()->mFileExtensions) + " ";
-  return extensions.find(" " + extension + " ") != std::string::npos;
+  std::istringstream extensions(reader.GetInfo()->mFileExtensions);
+  return std::find(std::istream_iterator<std::string>(extensions), {}, extension) !=
+         std::istream_iterator<std::string>();
 }
 
 /// Assimp tries the readers of some fifty formats on a file that its own does not want: none but its own are left.
@@ -162,26 +166,86 @@ void collect_parts(const aiScene& scene, const aiNode& node, const Eigen::Matrix
   for (unsigned c = 0; c < node.mNumChildren; ++c) collect_parts(scene, *node.mChildren[c], transform, parts);
 }
 
-void add_part(const Part& part, VertexJoin& join, Mesh& mesh, std::vector<std::uint32_t>& ids) {
+/// Collects triangles: corners at one point become one vertex, triangles without an area are left out.
+class Collector {
+ public:
+  explicit Collector(std::uint64_t vertices) : join_(mesh_.vertices, vertices) {}
+
+  /// `number`: of the vertex in its part, for the message.
+  std::uint32_t add_vertex(const Vec3& at, std::size_t number) {
+    if (!at.allFinite())
+      throw InputError("mesh_not_finite",
+                       "vertex " + std::to_string(number) +
+                           " of the mesh has a coordinate that is not a finite number: repair the mesh "
+                           "(for example \"remove non-finite vertices\" of a mesh editor)");
+    return join_.add(at);
+  }
+
+  void add_triangle(const std::array<std::uint32_t, 3>& t) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+    const Vec3 a = mesh_.vertices[t[1]] - mesh_.vertices[t[0]], b = mesh_.vertices[t[2]] - mesh_.vertices[t[0]];
+    if (!a.cross(b).isZero(0)) mesh_.triangles.push_back(t);
+  }
+
+  Mesh finish() {
+    if (mesh_.triangles.empty())
+      throw InputError("mesh_empty", "the mesh has no triangle with an area: export the surface of a solid");
+    return std::move(mesh_);
+  }
+
+ private:
+  Mesh mesh_;
+  VertexJoin join_;
+};
+
+void add_part(const Part& part, Collector& collector, std::vector<std::uint32_t>& ids) {
   ids.resize(part.mesh->mNumVertices);
   for (unsigned v = 0; v < part.mesh->mNumVertices; ++v) {
     const aiVector3D& p = part.mesh->mVertices[v];
-    const Vec3 at = (part.transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>();
-    if (!at.allFinite())
-      throw InputError("mesh_not_finite",
-                       "vertex " + std::to_string(v) +
-                           " of the mesh has a coordinate that is not a finite number: repair the mesh "
-                           "(for example \"remove non-finite vertices\" of a mesh editor)");
-    ids[v] = join.add(at);
+    ids[v] = collector.add_vertex((part.transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>(), v);
   }
   for (unsigned f = 0; f < part.mesh->mNumFaces; ++f) {
     const aiFace& face = part.mesh->mFaces[f];
-    if (face.mNumIndices != 3) continue;  // points and lines
-    const std::array<std::uint32_t, 3> t{ids[face.mIndices[0]], ids[face.mIndices[1]], ids[face.mIndices[2]]};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    const Vec3 a = mesh.vertices[t[1]] - mesh.vertices[t[0]], b = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-    if (!a.cross(b).isZero(0)) mesh.triangles.push_back(t);
+    if (face.mNumIndices == 3)  // else points and lines
+      collector.add_triangle({ids[face.mIndices[0]], ids[face.mIndices[1]], ids[face.mIndices[2]]});
   }
+}
+
+void check_counts(std::uint64_t vertices, std::uint64_t faces, std::uint64_t memory_cap_bytes) {
+  check_memory(vertices * VertexJoin::bytes_a_vertex + faces * sizeof(Mesh::triangles[0]), memory_cap_bytes,
+               "its " + std::to_string(faces) + " triangles");
+}
+
+/// A mesh as its own reader gives it.
+Mesh collect(Mesh file, std::uint64_t memory_cap_bytes) {
+  check_counts(file.vertices.size(), file.triangles.size(), memory_cap_bytes);
+  Collector collector(file.vertices.size());
+  std::vector<std::uint32_t> ids;
+  ids.reserve(file.vertices.size());
+  for (const Vec3& vertex : file.vertices) ids.push_back(collector.add_vertex(vertex, ids.size()));
+  for (const auto& [a, b, c] : file.triangles) collector.add_triangle({ids[a], ids[b], ids[c]});
+  return collector.finish();
+}
+
+Mesh load_by_assimp(std::string_view bytes, const std::string& extension, std::uint64_t memory_cap_bytes,
+                    const Watch& watch) {
+  Assimp::Importer importer;
+  const aiScene& scene = import_scene(importer, bytes, extension);
+  std::vector<Part> parts;
+  collect_parts(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), parts);
+  std::uint64_t vertices = 0, faces = 0;
+  for (const Part& part : parts) {
+    vertices += part.mesh->mNumVertices;
+    faces += part.mesh->mNumFaces;
+  }
+  check_counts(vertices, faces, memory_cap_bytes);  // a small glTF file may show one sub-mesh many times
+  Collector collector(vertices);
+  std::vector<std::uint32_t> ids;
+  for (const Part& part : parts) {
+    watch.step(Stage::load, bytes.size() / 2, bytes.size());
+    add_part(part, collector, ids);
+  }
+  return collector.finish();
 }
 
 }  // namespace
@@ -198,31 +262,9 @@ Mesh load_mesh(std::string_view bytes, const std::string& extension, std::uint64
   check_memory(predict_mesh_memory(bytes.size(), extension), memory_cap_bytes,
                "a ." + extension + " file of " + std::to_string(bytes.size()) + " bytes");
   check_gltf(bytes, extension);
-  check_ply(bytes, extension);
-  Assimp::Importer importer;
-  const aiScene& scene = import_scene(importer, bytes, extension);
-  watch.step(Stage::load, bytes.size() / 2, bytes.size());
-
-  std::vector<Part> parts;
-  collect_parts(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), parts);
-  std::uint64_t vertices = 0, faces = 0;
-  for (const Part& part : parts) {
-    vertices += part.mesh->mNumVertices;
-    faces += part.mesh->mNumFaces;
-  }
-  // A small glTF file may show one sub-mesh many times.
-  check_memory(vertices * VertexJoin::bytes_a_vertex + faces * sizeof(Mesh::triangles[0]), memory_cap_bytes,
-               "its " + std::to_string(faces) + " triangles");
-
-  Mesh mesh;
-  VertexJoin join(mesh.vertices, vertices);
-  std::vector<std::uint32_t> ids;
-  for (const Part& part : parts) {
-    watch.step(Stage::load, bytes.size() / 2, bytes.size());
-    add_part(part, join, mesh, ids);
-  }
-  if (mesh.triangles.empty())
-    throw InputError("mesh_empty", "the mesh has no triangle with an area: export the surface of a solid");
+  Mesh mesh = extension == "ply"   ? collect(read_ply(bytes, memory_cap_bytes), memory_cap_bytes)
+              : extension == "off" ? collect(read_off(bytes), memory_cap_bytes)
+                                   : load_by_assimp(bytes, extension, memory_cap_bytes, watch);
   watch.step(Stage::load, bytes.size(), bytes.size());
   return mesh;
 }

@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "core/material/crossings.hpp"
+#include "core/material/holes.hpp"
+#include "core/material/shells.hpp"
 #include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
@@ -12,6 +14,8 @@ namespace {
 /// 50 %, a cube without one side at 33 %.
 constexpr double odd_share_limit = 0.2;
 constexpr double dispute_share_limit = 0.2;
+/// Above this share of columns the turn of facets that no neighbour confirms is no better than chance.
+constexpr double unbalanced_share_limit = 0.05;
 
 struct Vote {
   VoxelSet inside;
@@ -86,40 +90,90 @@ std::uint64_t count(const std::vector<std::uint64_t>& words) {
   return sum;
 }
 
-[[noreturn]] void refuse(const std::string& why, double odd_share) {
+/// Where the surface is open: the number of holes, and place and size of the longest.
+std::string describe_holes(const FixedMesh& mesh, const Grid& grid) {
+  std::vector<Hole> holes = find_holes(mesh, find_open_edges(sort_sides(mesh.triangles, mesh.vertices.size())));
+  if (holes.empty()) return "";
+  const auto longest = std::ranges::max_element(holes, {}, &Hole::length);
+  const double mm = 1000 * grid.voxel_m / (1 << unit_bits);
+  const Vec3 at = mm * longest->box.center() + 1000 * grid.origin_m;
+  std::ostringstream text;
+  text.precision(4);
+  text << "; " << holes.size() << (holes.size() == 1 ? " hole" : " holes") << ", the largest "
+       << mm * longest->box.diagonal().norm() << " mm across, around (" << at.x() << ", " << at.y() << ", " << at.z()
+       << ") mm of the stock's frame, as the mesh is placed";
+  return text.str();
+}
+
+/// How far the columns of three axes can be trusted.
+struct Shares {
+  std::uint64_t met = 0, odd = 0, unbalanced = 0;
+  double odd_share() const { return share(odd); }
+  double unbalanced_share() const { return share(unbalanced); }
+
+ private:
+  double share(std::uint64_t columns) const {
+    return met == 0 ? 0 : static_cast<double>(columns) / static_cast<double>(met);
+  }
+};
+
+[[noreturn]] void refuse(const std::string& why, const Shares& shares, const std::string& holes) {
   std::ostringstream text;
   text.precision(3);
-  text << "the mesh is not a solid: " << why << " (" << 100 * odd_share
-       << " % of the columns that meet its surface are inconsistent, limit " << 100 * odd_share_limit
-       << " %): close its surface in a mesh editor";
+  text << "the mesh is not a solid: " << why << " (" << 100 * shares.odd_share()
+       << " % of the columns that meet its surface are inconsistent, limit " << 100 * odd_share_limit << " %" << holes
+       << "): close its surface in a mesh editor";
   throw InputError("mesh_not_solid", text.str());
+}
+
+Shares find_crossings(const Surface& surface, int n, Axes& axes, const Watch& watch) {
+  Shares shares;
+  for (int axis = 0; axis < 3; ++axis) {
+    axes[axis] = find_crossings(surface, n, axis, watch);
+    shares.met += count(axes[axis].met);
+    shares.odd += count(axes[axis].odd);
+    shares.unbalanced += axes[axis].unbalanced;
+  }
+  return shares;
+}
+
+std::string percent_of(std::uint64_t part, std::uint64_t all) {
+  std::ostringstream text;
+  text.precision(3);
+  text << 100 * static_cast<double>(part) / static_cast<double>(all) << " %";
+  return text.str();
 }
 
 }  // namespace
 
-VoxelSet voxelize(const Mesh& mesh, const Grid& grid, const Watch& watch) {
-  const FixedMesh fixed = to_fixed(mesh, grid);
+Solid find_solid(const Mesh& mesh, const Grid& grid, const Watch& watch) {
+  Surface surface = turn_shells(to_fixed(mesh, grid));
   Axes axes;
-  std::uint64_t met = 0, odd = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    axes[axis] = find_crossings(fixed, grid.n, axis, watch);
-    met += count(axes[axis].met);
-    odd += count(axes[axis].odd);
+  Shares shares = find_crossings(surface, grid.n, axes, watch);
+  const auto holes = [&] { return describe_holes(surface.mesh, grid); };
+  if (shares.odd_share() > odd_share_limit) refuse("its surface is open", shares, holes());
+  const bool chance = shares.unbalanced_share() > unbalanced_share_limit;
+  if (chance) {
+    for (std::size_t facet = 0; facet < surface.role.size(); ++facet)
+      if (surface.sheet[facet]) surface.role[facet] = Role::unturned;
+    shares = find_crossings(surface, grid.n, axes, watch);
   }
-  const double odd_share = met == 0 ? 0 : static_cast<double>(odd) / static_cast<double>(met);
-  if (odd_share > odd_share_limit) refuse("its surface is open", odd_share);
   Vote vote = take_vote(axes, grid.n, watch);
   if (vote.enclosed == 0)
-    refuse("it encloses no voxel centre, so it is either open or thinner than a voxel; raise the resolution",
-           odd_share);
-  const double dispute_share = static_cast<double>(vote.disputed) / static_cast<double>(vote.enclosed);
-  if (dispute_share > dispute_share_limit) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "x, y and z columns disagree on what is inside, by " << 100 * dispute_share << " % of its volume";
-    refuse(text.str(), odd_share);
-  }
-  return std::move(vote.inside);
+    refuse("it encloses no voxel centre, so it is either open or thinner than a voxel; raise the resolution", shares,
+           holes());
+  const auto limit = static_cast<std::uint64_t>(dispute_share_limit * static_cast<double>(vote.enclosed));
+  if (vote.disputed > limit)
+    refuse("x, y and z columns disagree on what is inside, by " + percent_of(vote.disputed, vote.enclosed) +
+               " of its volume",
+           shares, holes());
+  const Ambiguous& ambiguous =
+      std::ranges::max_element(axes, {}, [](const Crossings& axis) { return axis.ambiguous.voxels; })->ambiguous;
+  if (chance && ambiguous.voxels > limit)
+    refuse("its facets are turned at random, and even and odd crossings disagree with them on " +
+               percent_of(ambiguous.voxels, vote.enclosed) + " of its volume",
+           shares, holes());
+  return {std::move(vote.inside), ambiguous};
 }
 
 }  // namespace sculpt

@@ -1,9 +1,11 @@
-// A mesh file; the first byte says of which kind it claims to be.
+// A mesh file, and what is inside it; the first byte says of which kind it claims to be.
 #include "core/material/mesh.hpp"
 
 #include <array>
 
 #include "core/base/error.hpp"
+#include "core/material/placement.hpp"
+#include "core/material/voxelize.hpp"
 #include "tests/fuzz/target.hpp"
 
 void read_hostile(std::string_view bytes) {
@@ -12,7 +14,9 @@ void read_hostile(std::string_view bytes) {
   constexpr std::uint64_t memory_cap_bytes = 256u << 20;
   const char* kind = kinds[static_cast<std::uint8_t>(bytes.front()) % kinds.size()];
   try {
-    sculpt::load_mesh(bytes.substr(1), kind, memory_cap_bytes, {});
+    const sculpt::Mesh mesh = sculpt::load_mesh(bytes.substr(1), kind, memory_cap_bytes, {});
+    const sculpt::Grid grid{8, 1, sculpt::Vec3::Zero()};
+    sculpt::find_solid(sculpt::place_mesh(mesh, {}, grid), grid, {});
   } catch (const sculpt::InputError&) {
   }
 }

@@ -42,6 +42,33 @@ void expect_refused(const std::string& xml, const std::string& word) {
   EXPECT_NE(sentence.find(word), std::string::npos) << "the sentence was: " << sentence;
 }
 
+TEST(Robot, AXacroSourceIsRefusedWithTheWayToWriteItOut) {
+  expect_refused(R"(<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><link name="a"/>
+    <xacro:include filename="arm.xacro"/></robot>)",
+                 "xacro robot.urdf.xacro > robot.urdf");
+  EXPECT_EQ(refusal(R"(<!-- made from <xacro:arm/> --><robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+    <link name="a"/></robot>)"),
+            "")
+      << "what xacro wrote names it still";
+}
+
+TEST(Robot, AMeshThatCannotBeReadIsNamedWithItsLink) {
+  const auto said = [](const std::string& file) {
+    try {
+      parse_urdf(with_shape("<mesh filename='" + file + "'/>"),
+                 [](const std::string&) { return std::string("ply\n"); });
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.code(), "mesh_unreadable");
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(said("package://arm/base.dae").find("mesh 'package://arm/base.dae' of link 'a' is a Collada file"),
+            std::string::npos);
+  EXPECT_NE(said("package://arm/base.DAE").find("to STL or OBJ"), std::string::npos);
+  EXPECT_NE(said("base.ply").find("mesh 'base.ply' of link 'a': the .ply file"), std::string::npos);
+}
+
 TEST(Robot, ShapesOfAllKindsAreRead) {
   const Robot robot = parse_plain(R"(<robot name="r"><link name="a">
     <visual><geometry><mesh filename="never-read.stl"/></geometry></visual>
