@@ -6,8 +6,8 @@
 namespace sculpt {
 namespace {
 
-Answer read_chunk(const Artifacts& artifacts, const ArtifactReadParams& wanted) {
-  ArtifactChunk chunk = artifacts.read(wanted);
+Answer read_chunk(const Artifacts& artifacts, const ArtifactReadParams& wanted, WholeRead& so_far) {
+  ArtifactChunk chunk = artifacts.read(wanted, so_far);
   const bool eof = chunk.final && wanted.offset + chunk.bytes.size() == chunk.size;
   Json result{{"job", wanted.job},
               {"artifact", wanted.artifact},
@@ -42,11 +42,12 @@ void on_artifact_read(Services& services, Call call) {
   const ArtifactReadParams wanted = read_artifact_read(call.params);
   find_job(services.store, wanted.job);
   const bool to_export = services.artifacts.needs_export(wanted);
-  call.session->hold();
+  call.session->hold();  // so that nobody else goes on with so_far
+  const std::shared_ptr<WholeRead> so_far = call.session->whole_read();
   answer_from(to_export ? services.exports : services.disk, services, std::move(call),
-              [&artifacts = services.artifacts, wanted, to_export](const std::stop_token&) {
+              [&artifacts = services.artifacts, wanted, to_export, so_far](const std::stop_token&) {
                 if (to_export) artifacts.make_export(wanted);
-                return read_chunk(artifacts, wanted);
+                return read_chunk(artifacts, wanted, *so_far);
               });
 }
 

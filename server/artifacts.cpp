@@ -1,5 +1,7 @@
 #include "server/artifacts.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -8,6 +10,8 @@
 
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
+#include "server/exported_file.hpp"
+#include "server/orphans.hpp"
 
 namespace sculpt {
 namespace {
@@ -63,6 +67,20 @@ std::string file_name(const std::string& artifact, const std::string& format) {
   return artifact + "." + (format == "binary" ? "sct" : format);
 }
 
+bool is_export(const std::string& file) {
+  return file == "trajectory.csv" || file == "trajectory.sct";
+}
+
+// Those that were made of a final artifact, with their seals.
+Json list_exports(const fs::path& folder, const std::string& job, const Kind& kind) {
+  Json made = Json::array();
+  for (const std::string& format : formats(kind)) {
+    const std::optional<FileSeal> seal = read_seal(folder, job, file_name(kind.artifact, format));
+    if (seal) made.push_back({{"format", format}, {"size", seal->size}, {"sha256", seal->sha256}});
+  }
+  return made;
+}
+
 std::optional<StoredArtifact> find_stored(const std::vector<StoredArtifact>& all, const std::string& artifact) {
   const auto found = std::ranges::find(all, artifact, &StoredArtifact::artifact);
   return found == all.end() ? std::nullopt : std::optional(*found);
@@ -73,20 +91,13 @@ std::optional<StoredArtifact> find_stored(const std::vector<StoredArtifact>& all
   throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + why + " and has no " + what);
 }
 
-std::uint64_t size_now(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  return error ? 0 : size;
+std::uint64_t size_now(const std::optional<StoredFile>& file) {
+  return file ? file->size() : 0;
 }
 
-std::string read_part(const fs::path& file, std::uint64_t offset, std::uint64_t bytes) {
-  std::string part(bytes, '\0');
-  if (bytes == 0) return part;
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(offset));
-  in.read(part.data(), static_cast<std::streamsize>(bytes));
-  if (static_cast<std::uint64_t>(in.gcount()) != bytes) throw StorageError("cannot read '" + file.string() + "'");
-  return part;
+bool continues(const WholeRead& so_far, const ArtifactReadParams& wanted, const std::string& format) {
+  return so_far.job == wanted.job && so_far.artifact == wanted.artifact && so_far.format == format &&
+         so_far.next == wanted.offset;
 }
 
 }  // namespace
@@ -95,6 +106,10 @@ void Artifacts::discard_leftovers(const std::string& job) const {
   const std::optional<JobRecord> record = store_.find(job);
   if (record && (!is_final(record->state) || !store_.artifacts(job).empty())) return;
   std::error_code ignored;
+  if (!record && !store_.was_removed(job)) {
+    if (fs::exists(fs::symlink_status(job_folder(job), ignored))) put_aside(folder_, job);
+    return;
+  }
   fs::remove_all(job_folder(job), ignored);
 }
 
@@ -105,23 +120,37 @@ Json Artifacts::list(const JobRecord& job) const {
     Json entry{{"artifact", kind.artifact}, {"formats", formats(kind)}};
     if (const std::optional<StoredArtifact> artifact = find_stored(stored, kind.artifact)) {
       entry.update({{"size", artifact->size}, {"final", true}, {"sha256", artifact->sha256}});
+      if (Json made = list_exports(folder_, job.id, kind); !made.empty()) entry["made"] = std::move(made);
     } else {
       const bool grows = entry["artifact"] == "trajectory";
-      entry.update({{"size", grows ? size_now(trajectory(job.id)) : 0}, {"final", false}});
+      entry.update(
+          {{"size", grows ? size_now(StoredFile::open(folder_, job.id, "trajectory.ndjson")) : 0}, {"final", false}});
     }
     list.push_back(std::move(entry));
   }
   return list;
 }
 
-ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted) const {
+std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const std::string& artifact,
+                                           const std::string& format) const {
+  const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
+  if (!stored) return std::nullopt;
+  if (format == stored->format) return FileSeal{stored->size, stored->sha256};
+  return read_seal(folder_, job.id, file_name(artifact, format));
+}
+
+ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted, WholeRead& so_far) const {
   ArtifactChunk chunk;
   chunk.format = choose_format(wanted);
   const JobRecord job = find_job(store_, wanted.job);
-  const fs::path file = job_folder(job.id) / file_name(wanted.artifact, chunk.format);
-  chunk.final = find_stored(store_.artifacts(job.id), wanted.artifact).has_value();
+  const std::optional<FileSeal> seal = seal_of(job, wanted.artifact, chunk.format);
+  chunk.final = seal.has_value();
   const bool grows = wanted.artifact == "trajectory" && chunk.format == "ndjson" && !is_final(job.state);
   if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
+  const std::string name = file_name(wanted.artifact, chunk.format);
+  const std::optional<StoredFile> file = StoredFile::open(folder_, job.id, name);
+  if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
+    refuse_damaged(job.id, name, fault);
   chunk.size = size_now(file);
   if (chunk.final && wanted.offset > chunk.size) {
     throw ProtocolError("params_invalid",
@@ -130,14 +159,41 @@ ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted) const {
                         "/params/offset");
   }
   const std::uint64_t left = chunk.size > wanted.offset ? chunk.size - wanted.offset : 0;
-  chunk.bytes = read_part(file, wanted.offset, std::min<std::uint64_t>(left, wanted.bytes));
+  if (file) chunk.bytes = file->read(wanted.offset, std::min<std::uint64_t>(left, wanted.bytes));
+  follow(wanted, chunk, seal.value_or(FileSeal{}), so_far);
   return chunk;
+}
+
+// A growing trajectory is followed too: it may be final at its last piece.
+void Artifacts::follow(const ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
+                       WholeRead& so_far) const {
+  if (wanted.offset == 0) so_far = {wanted.job, wanted.artifact, chunk.format, 0, {}};
+  if (!continues(so_far, wanted, chunk.format)) return;
+  so_far.hash.add(chunk.bytes);
+  so_far.next += chunk.bytes.size();
+  if (!chunk.final || so_far.next < chunk.size || so_far.hash.hex() == seal.sha256) return;
+  const std::string name = file_name(wanted.artifact, chunk.format);
+  const std::string fault = fault_of(StoredFile::open(folder_, wanted.job, name), seal);
+  if (!fault.empty()) refuse_damaged(wanted.job, name, fault);
+  throw StorageError("the " + wanted.artifact + " of job " + wanted.job + " changed while it was read: read it again");
+}
+
+void Artifacts::refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const {
+  find_job(store_, job);  // it may be gone by now, and its files with it
+  const std::string sentence = "the file " + file + " of job " + job + " is damaged: it " + fault;
+  spdlog::error("job={} {}", job, sentence);
+  if (is_export(file)) {
+    break_seal(folder_, job, file);
+    throw ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
+  }
+  store_.note_damage(job, sentence + ": plan it again with 'sculpt retry " + job + "'");
+  throw ProtocolError("artifact_damaged", sentence + ": plan it again with 'sculpt retry " + job + "'");
 }
 
 bool Artifacts::needs_export(const ArtifactReadParams& wanted) const {
   const std::string format = choose_format(wanted);
   if (wanted.artifact != "trajectory" || format == "ndjson") return false;
-  return !fs::exists(job_folder(wanted.job) / file_name(wanted.artifact, format));
+  return !read_seal(folder_, wanted.job, file_name(wanted.artifact, format));
 }
 
 void Artifacts::make_export(const ArtifactReadParams& wanted) const {
@@ -146,7 +202,9 @@ void Artifacts::make_export(const ArtifactReadParams& wanted) const {
   if (!find_stored(store_.artifacts(job.id), wanted.artifact)) {
     refuse_missing(job, "final trajectory to make " + wanted.format + " from; ndjson can be read while it grows");
   }
-  const fs::path file = job_folder(job.id) / file_name(wanted.artifact, wanted.format);
+  check_whole(job, wanted.artifact);
+  const std::string name = file_name(wanted.artifact, wanted.format);
+  const fs::path file = job_folder(job.id) / name;
   const fs::path draft = file.string() + ".draft";
   std::ifstream in(trajectory(job.id), std::ios::binary);
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);
@@ -156,12 +214,24 @@ void Artifacts::make_export(const ArtifactReadParams& wanted) const {
   sync_to_disk(draft);
   crash_point(CrashPoint::export_synced);
   fs::rename(draft, file);
+  write_seal(folder_, job.id, name);
 }
 
 std::string Artifacts::read_whole(const JobRecord& job, const std::string& artifact) const {
+  ArtifactReadParams all{job.id, artifact, {}, 0, 0};
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) refuse_missing(job, artifact);
-  return read_part(job_folder(job.id) / file_name(artifact, stored->format), 0, stored->size);
+  all.bytes = stored->size;
+  WholeRead whole;
+  return read(all, whole).bytes;
+}
+
+void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) const {
+  const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
+  if (!stored) refuse_missing(job, artifact);
+  const std::string name = file_name(artifact, stored->format);
+  const std::string fault = fault_of(StoredFile::open(folder_, job.id, name), {stored->size, stored->sha256});
+  if (!fault.empty()) refuse_damaged(job.id, name, fault);
 }
 
 }  // namespace sculpt

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <sys/file.h>
 #include <sysexits.h>
 #include <unistd.h>
 
@@ -34,50 +33,25 @@ void remove_drafts(const fs::path& blobs, const fs::path& jobs) {
   for (const fs::directory_entry& job : fs::directory_iterator(jobs, ignored)) remove_drafts_in(job.path());
 }
 
-// The lock is given back at once: the runs of this daemon take it.
-void await_runs(const fs::path& jobs) {
-  const int folder = ::open(jobs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (::flock(folder, LOCK_EX | LOCK_NB) != 0) {
-    spdlog::info("waits for the end of a process that the last daemon ran a job in");
-    while (::flock(folder, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ::close(folder);
-}
-
-}  // namespace
-
-DataFolder::DataFolder(const fs::path& folder) : folder_(folder) {
+fs::path make_folders(const fs::path& folder) {
   std::error_code error;
-  for (const fs::path& needed : {folder_, blobs(), jobs()}) {
+  for (const fs::path& needed : {folder, folder / "blobs", folder / "jobs"}) {
     fs::create_directories(needed, error);
     if (error) {
       throw DataFolderError("cannot create the folder '" + needed.string() + "': " + error.message() +
                             "; name another with --data");
     }
   }
-  const std::string lock_file = folder_ / "lock";
-  lock_ = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (lock_ < 0) {
-    throw DataFolderError("cannot write to the data folder '" + folder_.string() + "': " + std::strerror(errno) +
-                          "; change its rights or name another with --data");
-  }
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(lock_);
-    throw DataFolderError("another sculptd uses the data folder '" + folder_.string() +
-                          "': stop it or name another with --data");
-  }
+  return folder;
+}
+
+}  // namespace
+
+DataFolder::DataFolder(const fs::path& data, std::chrono::milliseconds patience)
+    : FolderPaths{make_folders(data)}, lock_(folder, patience) {
   await_runs(jobs());
+  remove_drafts_in(folder);
   remove_drafts(blobs(), jobs());
-}
-
-DataFolder::~DataFolder() {
-  ::close(lock_);
-}
-
-void hold_until_exit(const fs::path& jobs) {
-  const int folder = ::open(jobs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0 || ::flock(folder, LOCK_SH) != 0) fail_to_store(errno, "cannot lock '" + jobs.string() + "'");
 }
 
 void fail_to_store(int error, const std::string& what) {

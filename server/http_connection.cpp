@@ -163,7 +163,10 @@ void HttpConnection::send_piece(FilePart rest) {
   if (rest.bytes == 0) return end_reply();
   rest.at.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(rest.at.bytes, rest.bytes));
   do_on(
-      services_.disk, [&artifacts = services_.artifacts, at = rest.at] { return artifacts.read(at).bytes; },
+      services_.disk,
+      [&artifacts = services_.artifacts, at = rest.at, so_far = rest.so_far] {
+        return artifacts.read(at, *so_far).bytes;
+      },
       [rest](HttpConnection& self, std::string piece) { self.write_piece(std::move(piece), rest); });
 }
 

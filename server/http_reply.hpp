@@ -1,6 +1,7 @@
 // What an HTTP request is answered with, before it is bytes.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "proto/messages.hpp"
 
 namespace sculpt {
+
+struct WholeRead;
 
 /// What of a request its answer hangs on.
 struct HttpRequest {
@@ -21,6 +24,7 @@ struct HttpRequest {
 struct FilePart {
   ArtifactReadParams at;
   std::uint64_t bytes = 0;
+  std::shared_ptr<WholeRead> so_far = {};
 };
 
 struct HttpReply {

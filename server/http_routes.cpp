@@ -69,7 +69,8 @@ bool names_tag(const std::string& header, const std::string& tag) {
 
 HttpReply artifact_reply(Services& services, ArtifactReadParams wanted, const HttpRequest& request) {
   wanted.bytes = 0;
-  const ArtifactChunk now = services.artifacts.read(wanted);
+  const auto so_far = std::make_shared<WholeRead>();
+  const ArtifactChunk now = services.artifacts.read(wanted, *so_far);
   wanted.format = now.format;
   wanted.bytes = piece_bytes;
   const std::string tag = entity_tag(services.store.artifacts(wanted.job), wanted, now.format);
@@ -86,7 +87,11 @@ HttpReply artifact_reply(Services& services, ArtifactReadParams wanted, const Ht
     reply.headers.emplace_back("Content-Range", "bytes */" + size);
     return reply;
   }
-  reply.part = {wanted, now.size};
+  if (range.kind == ByteRange::Kind::whole && now.size <= piece_bytes) {
+    reply.body = services.artifacts.read(wanted, *so_far).bytes;
+    return reply;
+  }
+  reply.part = {wanted, now.size, so_far};
   if (range.kind == ByteRange::Kind::part) {
     reply.status = 206;
     reply.part->at.offset = range.offset;

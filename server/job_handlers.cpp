@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t room_for_envelope = 200;
 
 Answer replay(Services& services, const JobRecord& job, const std::stop_token& stop) {
+  services.artifacts.check_whole(job, "trajectory");
   const Job planned = to_job(read_stored_spec(job), job.cell_bundle, services.blobs, services.defaults);
   const Replay replay = services.planner.verify(planned, services.artifacts.trajectory(job.id), Watch{stop, {}});
   Json findings = Json::array();

@@ -34,6 +34,18 @@ std::string finished_report(const JobRecord& job, const Ending& ending, const st
   return write_json(report);
 }
 
+// An earlier run's checkpoints and trajectory stay, to go on from; not what was made of its result, and no links.
+void prepare_folder(const fs::path& folder) {
+  if (fs::is_symlink(fs::symlink_status(folder))) fs::remove(folder);
+  fs::create_directories(folder);
+  std::vector<fs::path> stale;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string kind = entry.path().extension();
+    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".seal") stale.push_back(entry.path());
+  }
+  for (const fs::path& file : stale) fs::remove(file);
+}
+
 Ending judged(const PlanFiles& files) {
   if (files.clean) return {JobState::succeeded, {}, {}, {}};
   return {JobState::failed,
@@ -77,7 +89,7 @@ JobSpec read_stored_spec(const JobRecord& job) {
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
   return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
     const fs::path folder = jobs / record.id;
-    fs::create_directories(folder);
+    prepare_folder(folder);
     return run(record, to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults), folder, planner, watch);
   };
 }

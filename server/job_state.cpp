@@ -25,8 +25,8 @@ constexpr std::array moves{
     // cancel
     Move{held, cancelled}, Move{queued, cancelled}, Move{backoff, cancelled}, Move{paused, cancelled},
     Move{running, cancelling}, Move{pausing, cancelling}, Move{cancelling, cancelled},
-    // an operator
-    Move{quarantined, queued}};
+    // an operator: what crashed, and what ended with artifacts that were damaged since
+    Move{quarantined, queued}, Move{succeeded, queued}, Move{failed, queued}};
 
 struct Named {
   JobState state;

@@ -51,6 +51,8 @@ struct StoreRules {
   std::uint64_t memory_bytes = 0;  ///< predicted memory of the jobs that run at once; 0: no bound
   int max_jobs = 100'000;          ///< that have not ended
   int max_jobs_per_owner = 10'000;
+  /// Told after each commit, on the thread that made it, how many changes of jobs there are (JobTable::count_change).
+  std::function<void(std::uint64_t changes)> committed = {};
 };
 
 /// Safe from any thread. A change is on disk when its call returns; with it, in the same transaction, is its event.
@@ -89,7 +91,8 @@ class JobStore {
   virtual JobState pause(const std::string& job) = 0;
   /// Paused -> queued, or held when its time has not come. Fine for a job that is not paused and has not ended.
   virtual JobState resume(const std::string& job) = 0;
-  /// Quarantined -> queued, with its crashes forgotten but for one: it runs in a process of its own.
+  /// Quarantined -> queued, with its crashes forgotten but for one: it runs in a process of its own. The same of a job
+  /// with noted damage: its artifacts are forgotten and planned again.
   virtual JobState retry(const std::string& job) = 0;
 
   /// While the queue is paused nothing is claimed, also after a restart.
@@ -118,6 +121,9 @@ class JobStore {
   virtual std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) = 0;
   virtual std::uint64_t last_event(const std::string& job) = 0;
   virtual std::vector<StoredArtifact> artifacts(const std::string& job) = 0;
+  /// A file of a job that has ended with artifacts is not what was stored: from now on the job says so, as its error
+  /// `artifact_damaged`. Nothing for any other job.
+  virtual void note_damage(const std::string& job, const std::string& sentence) = 0;
 };
 
 /// Throws ProtocolError `not_found`, or `gone` for one that was removed.

@@ -115,6 +115,16 @@ void JobTable::add_event(const JobRow& row, Json data) {
                    "INSERT INTO event(job, seq, time, state, data) "
                    "SELECT ?1, coalesce(max(seq), 0) + 1, ?2, ?3, ?4 FROM event WHERE job = ?1");
   insert.bind(row.number).bind(now()).bind(name(row.job.state)).bind(write_json(data)).run();
+  count_change();
+}
+
+void JobTable::count_change() {
+  Statement(database_, "INSERT INTO meta VALUES('changes', '1') ON CONFLICT(name) DO UPDATE SET value=value+1").run();
+}
+
+std::uint64_t JobTable::changes() {
+  Statement query(database_, "SELECT value FROM meta WHERE name='changes'");
+  return query.step() ? static_cast<std::uint64_t>(query.number(0)) : 0;
 }
 
 }  // namespace sculpt

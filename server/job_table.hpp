@@ -29,6 +29,10 @@ class JobTable {
   /// not as it was read, std::logic_error when the table of moves (job_state.cpp) does not have this one.
   void move(JobRow& row, JobState to, const char* reason);
 
+  /// Every event and every removal of a job is a change: so a store that lost one knows fewer than it had.
+  void count_change();
+  std::uint64_t changes();
+
   std::string now() const { return utc_text(rules_.now_ms()); }
 
  private:

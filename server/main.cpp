@@ -13,6 +13,7 @@
 #include "server/config.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
+#include "server/folder_command.hpp"
 #include "server/isolated_check.hpp"
 #include "server/isolated_run.hpp"
 #include "server/job_store.hpp"
@@ -21,6 +22,7 @@
 #include "server/planner.hpp"
 #include "server/server.hpp"
 #include "server/settings.hpp"
+#include "server/store_mark.hpp"
 #include "server/token_command.hpp"
 
 namespace {
@@ -33,6 +35,7 @@ struct CommandLine {
   ConfigSources sources;
   bool show_config = false, json = false;
   TokenCommand token;
+  FolderCommand folder;
 };
 
 // What is wrong with the text of a setting, or nothing.
@@ -71,6 +74,7 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   config.add_flag("--json", line.json, "Print one JSON document");
   config.callback([&] { line.show_config = true; });
   add_token_command(app, line.token);
+  add_folder_command(app, line.folder);
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -101,6 +105,20 @@ void show(const SettledConfig& settled, bool json) {
   std::cout << (json ? write_json(settings_json(settled)) + "\n" : settings_table(settled));
 }
 
+int run(const CommandLine& line, const SettledConfig& settled) {
+  if (line.folder.verb != FolderCommand::Verb::none) {
+    start_log(settled.config);
+    return run_folder_command(line.folder, settled.config, std::cout);
+  }
+  if (line.show_config)
+    show(settled, line.json);
+  else if (line.token.verb != TokenCommand::Verb::none)
+    run_token_command(line.token, settled.config.tokens, std::cout);
+  else
+    serve(settled.config, line.sources);
+  return EXIT_SUCCESS;
+}
+
 int fail(int code, const char* sentence) {
   std::cerr << "sculptd: " << sentence << "\n";
   return code;
@@ -118,15 +136,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     arm_crash_point(std::getenv("SCULPT_CRASH_AT"));
-    const SettledConfig settled = settle_config(line.sources);
-    if (line.show_config)
-      show(settled, line.json);
-    else if (line.token.verb != TokenCommand::Verb::none)
-      run_token_command(line.token, settled.config.tokens, std::cout);
-    else
-      serve(settled.config, line.sources);
-    return EXIT_SUCCESS;
+    return run(line, settle_config(line.sources));
   } catch (const ConfigError& error) {
+    return fail(EX_CONFIG, error.what());
+  } catch (const StoreLost& error) {
     return fail(EX_CONFIG, error.what());
   } catch (const DataFolderError& error) {
     return fail(EX_CANTCREAT, error.what());

@@ -21,6 +21,7 @@
 #include "server/services.hpp"
 #include "server/settings.hpp"
 #include "server/stage_times.hpp"
+#include "server/store_opening.hpp"
 #include "server/tls.hpp"
 
 namespace sculpt {
@@ -94,7 +95,7 @@ struct Server::Impl {
       : config(wanted),
         planner(std::move(given)),
         folder(config.data),
-        store(open_sqlite_store(folder.database(), store_rules(config))),
+        store(open_store(folder, store_rules(config))),
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
         isolation{config.worker, blobs.folder(), folder.jobs(), job_defaults(config)},

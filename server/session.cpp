@@ -39,7 +39,11 @@ std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
 }  // namespace
 
 Session::Session(std::unique_ptr<Transport> transport, Peer peer, Services& services)
-    : transport_(std::move(transport)), peer_(std::move(peer)), services_(services), reader_(hello_line_bytes) {}
+    : transport_(std::move(transport)),
+      peer_(std::move(peer)),
+      services_(services),
+      reader_(hello_line_bytes),
+      whole_read_(std::make_shared<WholeRead>()) {}
 
 void Session::start(std::string_view first) {
   spdlog::debug("conn={} session", peer_.number);

@@ -18,6 +18,7 @@
 namespace sculpt {
 
 struct Services;
+struct WholeRead;
 
 /// The result of a call, with the chunk that follows it if there is one.
 struct Answer {
@@ -59,6 +60,8 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   std::size_t max_line() const { return max_line_; }
   /// Jobs whose events this connection gets; kept by Streams.
   std::set<std::string>& subscriptions() { return subscriptions_; }
+  /// Where this connection is in an artifact; for the one artifact.read that may be at work.
+  const std::shared_ptr<WholeRead>& whole_read() const { return whole_read_; }
 
  private:
   void read();
@@ -105,6 +108,7 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   bool lingering_ = false;  // everything is sent; what still comes is thrown away, so that the peer gets our last line
   bool input_ended_ = false;
   bool closed_ = false;
+  std::shared_ptr<WholeRead> whole_read_;
 };
 
 }  // namespace sculpt

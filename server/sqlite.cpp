@@ -98,6 +98,7 @@ void Transaction::commit() {
   open_ = false;
   database_->commit_times().add(std::chrono::steady_clock::now() - begun);
   crash_point(CrashPoint::after_commit);
+  database_->committed();
 }
 
 }  // namespace sculpt

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,11 +22,17 @@ class Database {
   sqlite3* get() const { return handle_.get(); }
   /// Of the transactions that were committed.
   Histogram& commit_times() { return commit_times_; }
+  /// Called after each transaction that was committed, on its thread.
+  void on_commit(std::function<void()> told) { on_commit_ = std::move(told); }
+  void committed() const {
+    if (on_commit_) on_commit_();
+  }
   int changes() const { return sqlite3_changes(handle_.get()); }
 
  private:
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> handle_;
   Histogram commit_times_;
+  std::function<void()> on_commit_;
 };
 
 /// A prepared statement; parameters are bound from 1 in the order of the calls.

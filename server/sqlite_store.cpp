@@ -13,6 +13,7 @@ namespace {
 
 using enum JobState;
 
+constexpr const char* damage_code = "artifact_damaged";
 constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
 
 [[noreturn]] void refuse(const JobRecord& job, const std::string& what) {
@@ -35,6 +36,7 @@ class SqliteStore : public JobStore {
     Statement latest(database_, "SELECT max(rank + ? * priority) FROM job");
     latest.bind(ageing()).step();
     last_rank_ms_ = latest.number(0);
+    if (rules_.committed) database_.on_commit([this] { tell_changes(); });
   }
 
   std::string epoch() override { return epoch_; }
@@ -171,8 +173,11 @@ class SqliteStore : public JobStore {
   JobState retry(const std::string& id) override {
     return change(id, [this](JobRow& row) {
       JobRecord& job = row.job;
-      if (job.state != quarantined) refuse(job, "retried: only quarantined jobs are");
-      job.crashes = std::max(1, rules_.max_crashes - 1);
+      const bool damaged = job.error_code == damage_code;
+      if (job.state != quarantined && !damaged)
+        refuse(job, "retried: only quarantined jobs are, and those with a damaged artifact");
+      job.crashes = damaged ? 0 : std::max(1, rules_.max_crashes - 1);
+      Statement(database_, "DELETE FROM artifact WHERE job=?").bind(row.number).run();
       job.failures = 0;
       job.error_code.clear();
       job.error_sentence.clear();
@@ -192,6 +197,14 @@ class SqliteStore : public JobStore {
     return queue_is_paused();
   }
 
+  void note_damage(const std::string& id, const std::string& sentence) override {
+    const std::lock_guard lock(mutex_);
+    Statement update(database_,
+                     "UPDATE job SET error_code=?, error_sentence=? WHERE id=? AND state IN ('succeeded', 'failed') "
+                     "AND EXISTS(SELECT 1 FROM artifact WHERE artifact.job = job.number)");
+    update.bind(damage_code).bind(sentence).bind(id).run();
+  }
+
   void pin(const std::string& id, bool pinned) override {
     const std::lock_guard lock(mutex_);
     Statement update(database_, "UPDATE job SET pinned=? WHERE id=?");
@@ -208,6 +221,7 @@ class SqliteStore : public JobStore {
       Statement(database_, sql).bind(row->number).run();
     }
     Statement(database_, "INSERT INTO removed VALUES(?)").bind(id).run();
+    jobs_.count_change();
     transaction.commit();
     return true;
   }
@@ -301,6 +315,10 @@ class SqliteStore : public JobStore {
   }
 
  private:
+  // What is committed is so, even if the database cannot be asked any more.
+  void tell_changes() try { rules_.committed(jobs_.changes()); } catch (const StorageError&) {
+  }
+
   std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
 
   std::string read_text(const char* sql) {

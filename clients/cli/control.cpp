@@ -60,7 +60,7 @@ void add_resume(CLI::App& app, Invocation& invocation) {
 }
 
 void add_retry(CLI::App& app, Invocation& invocation) {
-  add_order(app, invocation, "retry", "Queue a quarantined job again");
+  add_order(app, invocation, "retry", "Queue a quarantined job again, or one whose result was damaged on disk");
 }
 
 void add_pin(CLI::App& app, Invocation& invocation) {

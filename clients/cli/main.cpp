@@ -22,7 +22,8 @@ int run(const sculpt::Invocation& invocation) try { return invocation.run(); } c
 } catch (const sculpt::ServerUnreachable& error) {
   return complain(sculpt::exit_unreachable, "unreachable", error.what());
 } catch (const sculpt::ServerError& error) {
-  return complain(sculpt::exit_refused, error.code(), error.what());
+  const bool damaged = error.code() == "artifact_damaged";
+  return complain(damaged ? sculpt::exit_failed : sculpt::exit_refused, error.code(), error.what());
 } catch (const sculpt::InputError& error) {
   return complain(sculpt::exit_refused, error.code(), error.what());
 } catch (const sculpt::Cancelled&) {

@@ -18,6 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t upload_bytes = 1 << 20;
+constexpr int damage_number = 4003;                                         // of artifact_damaged
 constexpr std::chrono::milliseconds first_pause{100}, longest_pause{2000};  // between looks for a lost server
 constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an artifact that has not grown
 
@@ -26,6 +27,17 @@ constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an a
   throw ServerError(data.value("code", std::string("internal_error")), error.value("code", 0),
                     data.value("retryable", false), data.value("pointer", std::string()),
                     error.value("message", std::string("the server gave an error without a message")));
+}
+
+// What the artifact's form must hash to, as artifact.list says it; empty: it does not.
+std::string listed_hash(const Json& listed, const std::string& artifact, const std::string& format) {
+  for (const Json& entry : listed.at("artifacts")) {
+    if (entry.at("artifact") != artifact) continue;
+    if (entry.at("formats").at(0) == format) return entry.value("sha256", std::string());
+    for (const Json& made : entry.value("made", Json::array()))
+      if (made.at("format") == format) return made.at("sha256");
+  }
+  return {};
 }
 
 // Asking twice comes to the same as asking once.
@@ -195,6 +207,7 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
   if (!request.format.empty()) params["format"] = request.format;
   std::uint64_t offset = request.offset;
   std::string chunk;
+  ContentHash hash;
   while (true) {
     params["offset"] = offset;
     params["bytes"] = request.chunk_bytes;
@@ -202,14 +215,28 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
     if (crc32_hex(chunk) != result.at("crc32").get<std::string>()) {
       throw ServerUnreachable("a chunk of the artifact was damaged on its way: fetch again");
     }
+    hash.add(chunk);
     out.write(chunk.data(), static_cast<std::streamsize>(chunk.size()));
     if (!out) throw std::runtime_error("cannot write the artifact: check the free space");
     offset += chunk.size();
-    if (result.at("eof").get<bool>()) return offset;
+    if (result.at("eof").get<bool>()) {
+      if (request.offset == 0) expect_hash(request, result.at("format"), hash.hex());
+      return offset;
+    }
     if (!chunk.empty()) continue;
     if (waiting && !waiting()) return offset;
     std::this_thread::sleep_for(growth_pause);
   }
+}
+
+void Client::expect_hash(const ArtifactRequest& request, const std::string& format, const std::string& sha256) {
+  const Json listed = call("artifact.list", {{"job", request.job}});
+  const std::string wanted = listed_hash(listed, request.artifact, format);
+  if (wanted.empty() || wanted == sha256) return;
+  throw ServerError("artifact_damaged", damage_number, false, {},
+                    "the " + request.artifact + " of job " + request.job + " came with the hash " + sha256 +
+                        ", but was stored with " + wanted + ": fetch it again, or plan it again with 'sculpt retry " +
+                        request.job + "'");
 }
 
 void Client::keep(Json event) {

@@ -91,7 +91,8 @@ class Client {
 
   /// Writes the artifact from the offset to its end to `out` and returns the offset behind the last byte. Follows an
   /// artifact that still grows until it is final or the job ended without it; `waiting` (if given) is called when it
-  /// has caught up, and ends the reading by returning false.
+  /// has caught up, and ends the reading by returning false. Read from its start to its end it is held against the hash
+  /// that the server stored: ServerError `artifact_damaged` when it has another.
   std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out,
                               const std::function<bool()>& waiting = {});
 
@@ -112,6 +113,7 @@ class Client {
   void keep(Json event);
   /// The next reply or event; nothing when none came in time.
   std::optional<Json> receive(std::optional<double> timeout_s, std::string* chunk);
+  void expect_hash(const ArtifactRequest& request, const std::string& format, const std::string& sha256);
   void put_chunk(const std::string& sha256, std::uint64_t size, std::uint64_t& offset, std::string_view chunk);
 
   std::string server_, name_;

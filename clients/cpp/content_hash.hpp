@@ -1,12 +1,27 @@
-// SHA-256 of content: the name of a blob.
+// SHA-256 of content: the name of a blob, and what an artifact must have.
 #pragma once
 
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;
+
 namespace sculpt {
+
+/// Of what is added piece by piece. Throws std::runtime_error where OpenSSL fails.
+class ContentHash {
+ public:
+  ContentHash();
+  void add(std::string_view bytes);
+  /// 64 lower-case hex digits. Once, at the end.
+  std::string hex();
+
+ private:
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+};
 
 /// 64 lower-case hex digits.
 std::string content_hash(std::string_view bytes);

@@ -51,7 +51,7 @@ class Lost(Failure):
 
 
 class Client:
-    """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED).
+    """One connection to sculptd, not shared between threads. Raises Failure (UNREACHABLE or REFUSED; FAILED for a damaged artifact).
 
     `server` is HOST:PORT, tls:HOST:PORT or unix:PATH. Without `token` it is SCULPT_TOKEN, or stands in the file SCULPT_TOKEN_FILE;
     SCULPT_TLS_CA, SCULPT_TLS_CERT and SCULPT_TLS_KEY name the PEM files for TLS.
@@ -141,7 +141,8 @@ class Client:
                 break
         if "error" in message:
             error = message["error"]
-            raise Failure(REFUSED, error.get("data", {}).get("code", "refused"), error["message"])
+            code = error.get("data", {}).get("code", "refused")
+            raise Failure(FAILED if code == "artifact_damaged" else REFUSED, code, error["message"])
         result = message["result"]
         return (result, self._read_chunk(result)) if method == "artifact.read" else result
 
@@ -193,18 +194,30 @@ class Client:
         return self.call("job.get", job=job)
 
     def read_artifact(self, job, artifact="trajectory", **form):
-        """Yields the bytes of an artifact; of a trajectory that still grows until the job has ended."""
-        offset = 0
+        """Yields the bytes of an artifact; of a trajectory that still grows until the job has ended.
+
+        Raises Failure (FAILED, artifact_damaged) at the end if they do not have the hash that the server stored.
+        """
+        offset, digest = 0, hashlib.sha256()
         while True:
             result, chunk = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=CHUNK, **form)
             yield chunk
             offset += len(chunk)
+            digest.update(chunk)
             if result["eof"]:
-                return
+                return self._expect_hash(job, artifact, result["format"], digest.hexdigest())
             if not chunk and self.call("job.wait", job=job, timeout_s=1)["state"] in FINAL and not result["final"]:
                 result, _ = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=1, **form)
                 if not result["final"]:
                     return
+
+    def _expect_hash(self, job, artifact, form, digest):
+        entry = next(entry for entry in self.call("artifact.list", job=job)["artifacts"] if entry["artifact"] == artifact)
+        own = {"format": entry["formats"][0], "sha256": entry.get("sha256", digest)}
+        wanted = next((made["sha256"] for made in [own, *entry.get("made", [])] if made["format"] == form), digest)
+        if wanted != digest:
+            raise Failure(FAILED, "artifact_damaged", f"the {artifact} of job {job} came with the hash {digest}, but was stored with {wanted}: "
+                          f"fetch it again, or plan it again with 'sculpt retry {job}'")
 
     def _read_line(self):
         try:
@@ -734,7 +747,7 @@ def parse_command_line(arguments):
     command("cancel", order("cancel"), "stop a job, waiting or running, for good")
     command("pause", order("pause"), "stop a job, waiting or running, until it is resumed")
     command("resume", order("resume"), "queue a paused job again")
-    command("retry", order("retry"), "queue a quarantined job again")
+    command("retry", order("retry"), "queue a quarantined job again, or one whose result was damaged on disk")
     pin = command("pin", run_pin, "keep a job and its results for ever")
     pin.add_argument("--off", action="store_true", help="keep it no longer than others")
     queue = command("queue", run_queue, "let no more jobs start, or let them start again", job=False)

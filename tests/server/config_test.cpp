@@ -71,7 +71,7 @@ TEST(DataFolder, BelongsToOneDaemonAtATime) {
   const TempFolder folder;
   {
     const DataFolder first(folder.path());
-    EXPECT_THROW(DataFolder second(folder.path()), DataFolderError);
+    EXPECT_THROW(DataFolder second(folder.path(), std::chrono::milliseconds(20)), DataFolderError);
   }
   EXPECT_NO_THROW(DataFolder third(folder.path()));
 }

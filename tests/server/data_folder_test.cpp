@@ -41,7 +41,32 @@ TEST_F(DataFolderTest, DraftsOfADaemonThatDiedAreRemoved) {
 
 TEST_F(DataFolderTest, ASecondDaemonIsRefused) {
   const DataFolder first(folder.path());
-  EXPECT_THROW(DataFolder(folder.path()), DataFolderError);
+  EXPECT_THROW(DataFolder(folder.path(), std::chrono::milliseconds(20)), DataFolderError);
+}
+
+// What a daemon was about to start when it was killed: 2 of 150 restarts at once were refused.
+TEST_F(DataFolderTest, TheLockOfADaemonThatIsGoneIsWaitedForWhileAChildHasACopyOfIt) {
+  std::array<int, 2> go{};
+  ASSERT_EQ(::pipe(go.data()), 0);
+  pid_t child = 0;
+  {
+    const DataFolder killed(folder.path());
+    child = ::fork();  // with all descriptors, as before an exec
+    if (child == 0) {
+      char byte = 0;
+      ::close(go[1]);
+      static_cast<void>(::read(go[0], &byte, 1));
+      ::_exit(0);
+    }
+  }
+  EXPECT_THROW(DataFolder(folder.path(), std::chrono::milliseconds(20)), DataFolderError);
+  auto next = std::async(std::launch::async,
+                         [this] { return std::make_unique<DataFolder>(folder.path(), std::chrono::hours(1)); });
+  EXPECT_EQ(next.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
+  ::close(go[0]);
+  ::close(go[1]);
+  EXPECT_NO_THROW(next.get());
+  ::waitpid(child, nullptr, 0);
 }
 
 // A process of a killed daemon that is still about to make a draft: found once by torture/protocol_model.py, seed 12.

@@ -19,7 +19,8 @@ TEST(JobState, EveryStateHasAName) {
 TEST(JobState, AFinalStateIsLeftOnlyByRetryingAQuarantinedJob) {
   for (const JobState from : job_states) {
     for (const JobState to : job_states) {
-      const bool retry = from == JobState::quarantined && to == JobState::queued;
+      const bool retry = to == JobState::queued &&
+                         (from == JobState::quarantined || from == JobState::succeeded || from == JobState::failed);
       EXPECT_EQ(is_final(from) && may_move(from, to), retry) << name(from) << " " << name(to);
     }
   }

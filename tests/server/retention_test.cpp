@@ -99,6 +99,20 @@ TEST_F(RetentionTest, ACrashBetweenRowAndFilesLeavesNothingForLong) {
   EXPECT_FALSE(fs::exists(jobs() / job));
 }
 
+// An emptied database once took all results with it, without a word.
+TEST_F(RetentionTest, AFolderOfNoKnownJobIsPutAsideAndNeverDeleted) {
+  const std::string known = add_finished(10);
+  for (int time = 0; time < 2; ++time) {
+    fs::create_directories(jobs() / "01M7XRMDB8NWM1BF9DPP1KFA0R");
+    std::ofstream(jobs() / "01M7XRMDB8NWM1BF9DPP1KFA0R" / "trajectory.ndjson") << "a result";
+    sweep(generous);
+  }
+  EXPECT_TRUE(fs::exists(jobs() / known));
+  EXPECT_FALSE(fs::exists(jobs() / "01M7XRMDB8NWM1BF9DPP1KFA0R"));
+  EXPECT_TRUE(fs::exists(folder.path() / "jobs.orphaned/01M7XRMDB8NWM1BF9DPP1KFA0R/trajectory.ndjson"));
+  EXPECT_TRUE(fs::exists(folder.path() / "jobs.orphaned/01M7XRMDB8NWM1BF9DPP1KFA0R.2/trajectory.ndjson"));
+}
+
 TEST_F(RetentionTest, BlobsStayWhileAJobNeedsThemOrTheyWereJustUsed) {
   const std::string job = add(10);
   const std::string stray = blobs.add("nobody needs this");

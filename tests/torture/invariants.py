@@ -14,11 +14,12 @@ import fcntl
 import hashlib
 import json
 import pathlib
+import re
 import sqlite3
 import sys
 
 ACTIVE = {"running", "pausing", "cancelling"}
-FINAL = {"succeeded", "failed", "expired", "cancelled"}  # for good: a quarantined job can be retried
+FINAL = {"succeeded", "failed", "expired", "cancelled"}  # a job that crashed or whose result was damaged can be retried
 # From each state, for which reason, to which (PROTOCOL.md, "The life of a job").
 MOVES = {None: {"submitted": {"held", "queued"}},
          "held": {"due": {"queued"}, "start_by_passed": {"expired"}, "pause_requested": {"paused"}, "cancel_requested": {"cancelled"}},
@@ -30,8 +31,9 @@ MOVES = {None: {"submitted": {"held", "queued"}},
          "paused": {"resumed": {"queued", "held"}, "cancel_requested": {"cancelled"}},
          "backoff": {"due": {"queued"}, "pause_requested": {"paused"}, "cancel_requested": {"cancelled"}},
          "cancelling": {"finished": {"cancelled"}},
-         "quarantined": {"retried": {"queued"}}}
+         "quarantined": {"retried": {"queued"}}, "succeeded": {"retried": {"queued"}}, "failed": {"retried": {"queued"}}}
 STATES = (MOVES.keys() - {None}) | FINAL
+MARK = re.compile(r"sculptd-mark 1 store (\w+) changes (\d+) check [0-9a-f]{8}\n")
 
 
 class DaemonRuns(Exception):
@@ -48,7 +50,7 @@ def breaches(data, acked=(), killed=False):
             raise DaemonRuns(f"a daemon uses {data}: stop it first") from None
         with contextlib.closing(sqlite3.connect(data / "sculptd.db")) as database:
             database.row_factory = sqlite3.Row
-            return [*check_database(database), *check_jobs(database, killed), *check_events(database), *check_artifacts(database, data),
+            return [*check_database(database), *check_mark(database, data), *check_jobs(database, killed), *check_events(database), *check_artifacts(database, data),
                     *check_acked(database, acked), *check_blobs(database, data), *check_files(data, killed)]
 
 
@@ -58,6 +60,19 @@ def check_database(database):
         yield f"integrity_check: {verdict}"
     if list(database.execute("PRAGMA foreign_key_check")):
         yield "foreign_key_check: rows without the job that they belong to"
+
+
+def check_mark(database, data):
+    """The mark names this store, and knows no more than it."""
+    lines = MARK.findall((data / "sculptd.mark").read_text())
+    if not lines:
+        yield "sculptd.mark cannot be read"
+        return
+    facts = dict(database.execute("SELECT name, value FROM meta"))
+    if {store for store, _ in lines} != {facts["epoch"]}:
+        yield f"sculptd.mark is of another store: {lines}"
+    if max(int(changes) for _, changes in lines) > int(facts.get("changes", 0)):
+        yield f"the database knows fewer changes than sculptd.mark: {facts.get('changes')}, {lines}"
 
 
 def check_jobs(database, killed):
@@ -92,7 +107,7 @@ def check_events(database):
             data = json.loads(event["data"])
             if data.get("from") != state or data["to"] != event["state"]:
                 yield f"job {job['id']}: event {event['seq']} goes from {data.get('from')} to {data['to']} in the state {state}"
-            if state in FINAL:
+            if state in FINAL and data.get("reason") != "retried":
                 yield f"job {job['id']}: it ended as {state}, and then event {event['seq']} made it {data['to']}"
             elif data["to"] not in MOVES.get(state, {}).get(data.get("reason"), ()):
                 yield f"job {job['id']}: event {event['seq']} makes it {data['to']} from {state} because it is {data.get('reason')}"

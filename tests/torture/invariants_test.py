@@ -42,6 +42,16 @@ class Invariants(unittest.TestCase):
     def test_a_good_folder_is_clean(self):
         self.assertEqual(self.found([self.acked]), "")
 
+    def test_a_database_that_knows_less_than_its_mark(self):
+        self.change("UPDATE meta SET value='1' WHERE name='changes'")
+        self.assertIn("knows fewer changes", self.found())
+
+    def test_a_mark_of_another_store(self):
+        self.change("UPDATE meta SET value='other' WHERE name='epoch'")
+        self.assertIn("of another store", self.found())
+        (self.data / "sculptd.mark").write_text("nothing")
+        self.assertIn("cannot be read", self.found())
+
     def test_a_lost_job(self):
         self.assertIn("is lost", self.found([{"job": "01M7XRMDB8NWM1BF9DPP1KFA0R"}]))
 
