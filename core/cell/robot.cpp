@@ -291,11 +291,24 @@ void resolve_mimics(Robot& robot, const std::map<std::string, urdf::JointMimicSh
   }
 }
 
+/// A follower with multiplier 0 stands at its offset, wherever its leader is.
+void require_resting_place(const Joint& joint) {
+  if (joint.mimic_offset >= joint.lower && joint.mimic_offset <= joint.upper) return;
+  std::ostringstream text;
+  text << joint_named(joint.name) << " mimics with multiplier 0, so it stands at its offset " << joint.mimic_offset
+       << ", outside its limits of " << joint.lower << " to " << joint.upper
+       << ": change the offset or the limits, or make it fixed";
+  refuse(text.str());
+}
+
 /// A joint may only go where all its followers can go with it. Continuous followers can go anywhere.
 void narrow_limits_to_followers(Robot& robot, const urdf::ModelInterface& model) {
   for (const Joint& joint : robot.joints) {
-    if (joint.mimic < 0 || joint.mimic_multiplier == 0) continue;
-    if (model.getJoint(joint.name)->type == urdf::Joint::CONTINUOUS) continue;
+    if (joint.mimic < 0 || model.getJoint(joint.name)->type == urdf::Joint::CONTINUOUS) continue;
+    if (joint.mimic_multiplier == 0) {
+      require_resting_place(joint);
+      continue;
+    }
     Joint& leader = robot.joints[static_cast<std::size_t>(joint.mimic)];
     const double a = (joint.lower - joint.mimic_offset) / joint.mimic_multiplier;
     const double b = (joint.upper - joint.mimic_offset) / joint.mimic_multiplier;

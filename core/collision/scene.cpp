@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/collision/clearance.hpp"
 #include "core/collision/margins.hpp"
@@ -28,7 +29,26 @@ Scene::Impl::Impl(const Cell& cell, const Grid& where, const VoxelSet& standing)
   turn_rates = chain.turn_rates();
   radii = {tool.ball_radius_m / h, tool.shank_radius_m / h};
   for (const Joint& joint : cell.robot.joints) has_mimic = has_mimic || joint.mimic >= 0;
+  bounds = find_bounds();
   find_free_ranges();
+}
+
+/// Turns are the same at any angle; what is shifted far out moves fast when it is turned.
+JointBox Scene::Impl::find_bounds() const {
+  const double anywhere = std::numeric_limits<double>::max();
+  JointBox box{Configuration::Constant(chain.dof(), -anywhere), Configuration::Constant(chain.dof(), anywhere)};
+  const std::vector<Joint>& joints = chain.robot().joints;
+  for (int c = 0; c < chain.dof(); ++c) {
+    const int leader = chain.joints()[static_cast<std::size_t>(c)];
+    const bool shifts = std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+      const bool moves = joint.mimic == leader || &joint == &joints[static_cast<std::size_t>(leader)];
+      return moves && joint.kind == JointKind::prismatic;
+    });
+    if (!shifts) continue;
+    box.low[c] = chain.lower()[c];
+    box.high[c] = chain.upper()[c];
+  }
+  return box;
 }
 
 ToolLine Scene::Impl::tool_line(const ToolPose& pose) const {

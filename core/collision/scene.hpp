@@ -55,12 +55,12 @@ class Scene {
   /// Those that bubbles are about: links with the material, the room and each other, and the tool with links that can
   /// move against the stock. Not tool with material or with what stands still in the stock's frame.
   Pairs pairs() const;
-  /// Of these, those that may touch somewhere in `box`.
+  /// Of these, those that may touch somewhere in `box`; of which the same part counts as for `bubble`.
   Pairs pairs_in(const JointBox& box) const;
 
-  /// Of the configurations in `box`, those at which surely none of `pairs` touch; limits are not looked at. `q`: in the
-  /// box. Pairs that touch nowhere in the box are taken out: its parts need not ask for them. Stays true while material
-  /// is removed.
+  /// Of the configurations in `box`, those at which surely none of `pairs` touch; beyond the limits of what shifts
+  /// none, other limits are not looked at. `q`: in the box. Pairs that touch nowhere in the box are taken out: its
+  /// parts need not ask for them. Stays true while material is removed.
   Bubble bubble(const Configuration& q, const JointBox& box, Pairs& pairs) const;
 
   /// Is the box [low_m, high_m] of the stock's frame clear of all links that stand still in that frame?

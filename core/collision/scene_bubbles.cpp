@@ -153,15 +153,19 @@ Scene::Pairs Scene::pairs() const {
 
 Scene::Pairs Scene::pairs_in(const JointBox& box) const {
   Pairs open;
+  const JointBox bounded = impl_->bounded(box);
+  if ((bounded.low.array() > bounded.high.array()).any()) return open;
   for (std::size_t at : pairs()) {
     const Impl::Pair& pair = impl_->pairs[at];
     int checks_left = pair.joints() <= few_joints ? most_checks : 1;
-    if (!impl_->is_free_in(pair, box, checks_left)) open.push_back(at);
+    if (!impl_->is_free_in(pair, bounded, checks_left)) open.push_back(at);
   }
   return open;
 }
 
-Bubble Scene::bubble(const Configuration& q, const JointBox& box, Pairs& pairs) const {
+Bubble Scene::bubble(const Configuration& q, const JointBox& wanted, Pairs& pairs) const {
+  const JointBox box = impl_->bounded(wanted);
+  if (!box.holds(q)) return {};
   impl_->count_check();
   std::vector<Frame> at;
   impl_->chain.link_poses(q, at);

@@ -59,6 +59,8 @@ struct Scene::Impl {
   bool tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const;
   /// Could the two come within `reach_m`, with the links at these poses?
   bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const;
+  /// Of a box, the part where the motion bounds hold: within the limits of what shifts something.
+  JointBox bounded(const JointBox& box) const { return {box.low.cwiseMax(bounds.low), box.high.cwiseMin(bounds.high)}; }
   /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const;
@@ -88,6 +90,7 @@ struct Scene::Impl {
   Configuration tool_speed;  ///< voxel edges per unit of each coordinate, for the shank's whole length
   Configuration turn_rates;  ///< rad per unit of each coordinate
   ToolRadii radii;           ///< voxel edges
+  JointBox bounds;           ///< where the motion bounds hold
   bool has_mimic = false;
   mutable std::atomic<std::uint64_t> checks = 0;
 
@@ -102,6 +105,7 @@ struct Scene::Impl {
   int body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes);
   void find_free_ranges();
   void add_free_ranges(Pair& pair, double low, double high) const;
+  JointBox find_bounds() const;
 };
 
 }  // namespace sculpt

@@ -185,6 +185,19 @@ TEST(Robot, MimicsThatLeadNowhereAreRefused) {
   expect_refused(pair("type='prismatic'><axis xyz='0 0 1'/>" + limits, "<mimic joint='lead'/>"), "no range");
 }
 
+TEST(Robot, FollowerThatStandsOutsideItsOwnLimitsIsRefused) {
+  const auto follower = [](const std::string& offset) {
+    return "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+           "<joint name='lead' type='prismatic'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>" +
+           limits + "</joint><joint name='follow' type='prismatic'><parent link='b'/><child link='c'/>" +
+           "<axis xyz='0 0 1'/><limit lower='-0.1' upper='0.1' velocity='1' effort='1'/>" +
+           "<mimic joint='lead' multiplier='0' offset='" + offset + "'/></joint></robot>";
+  };
+  expect_refused(follower("0.5"), "offset 0.5, outside its limits of -0.1 to 0.1");
+  expect_refused(follower("-0.11"), "'follow'");
+  EXPECT_EQ(parse_plain(follower("0.1")).joints[1].mimic_offset, 0.1);
+}
+
 TEST(Robot, ShapesWithoutASizeAreRefused) {
   expect_refused(with_shape("<box size='1 0 1'/>"), "'a'");
   expect_refused(with_shape("<box size='1 -1 1'/>"), "'a'");

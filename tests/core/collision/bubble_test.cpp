@@ -67,6 +67,50 @@ TEST(Bubble, WhatThePandasBubblesHoldIsFree) {
   expect_held_is_free(shipped_cell("panda-turntable"), 300, 0.15);
 }
 
+/// A boom that swings, and on it a slide that ends short of a post.
+Cell make_slide_cell() {
+  CellFiles files;
+  files.name = "slide";
+  files.cell_json = R"({"urdf": "slide.urdf",
+    "stock": {"link": "base", "size_m": 0.1, "origin_m": [-1, -0.05, 0]},
+    "tool": {"link": "nose", "stickout_m": 0.1, "ball_radius_voxels": 0.45, "shank_radius_voxels": 0.4},
+    "home": {"swing": 0, "slide": 0.2}})";
+  files.files["slide.urdf"] = R"(<robot name="slide">
+    <link name="base"><collision><origin xyz="0.7 0 0"/><geometry><sphere radius="0.02"/></geometry></collision></link>
+    <link name="boom"/>
+    <joint name="swing" type="revolute"><parent link="base"/><child link="boom"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    <link name="nose"><collision><geometry><sphere radius="0.03"/></geometry></collision></link>
+    <joint name="slide" type="prismatic"><parent link="boom"/><child link="nose"/><axis xyz="1 0 0"/>
+      <limit lower="0.1" upper="0.5" effort="1" velocity="1"/></joint>
+  </robot>)";
+  return parse_cell(files);
+}
+
+// Bounds on a motion take a slide to be within its limits: farther out the same turn carries it faster.
+TEST(Bubble, SaysNothingBeyondTheLimitsOfASlide) {
+  const Cell cell = make_slide_cell();
+  const Scene scene(cell, cell.grid(8), VoxelSet(8, true));
+  const auto box = [](double low, double high) {
+    return JointBox{Configuration{{-0.01, low}}, Configuration{{0.01, high}}};
+  };
+  Scene::Pairs pairs = scene.pairs();
+  const Bubble bubble = scene.bubble(Configuration{{0, 0.45}}, box(0.4, 0.6), pairs);
+  EXPECT_TRUE(bubble.holds(Configuration{{0, 0.5}}));
+  EXPECT_FALSE(bubble.holds(Configuration{{0, 0.51}}));
+}
+
+TEST(Bubble, WhatTouchesOnlyBeyondTheLimitsOfASlideIsNoPair) {
+  const Cell cell = make_slide_cell();
+  const Scene scene(cell, cell.grid(8), VoxelSet(8, true));
+  const auto box = [](double low, double high) {
+    return JointBox{Configuration{{-0.1, low}}, Configuration{{0.1, high}}};
+  };
+  EXPECT_EQ(scene.pairs().size(), 2u) << "the nose with the post, and with the material";
+  EXPECT_TRUE(scene.pairs_in(box(0.1, 0.9)).empty());
+  EXPECT_TRUE(scene.pairs_in(box(0.6, 0.9)).empty());
+}
+
 TEST(Bubble, AnEmptyOneHoldsNothing) {
   EXPECT_TRUE(Bubble().empty());
   EXPECT_FALSE(Bubble().holds(Configuration::Zero(3)));
