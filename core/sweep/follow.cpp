@@ -16,6 +16,7 @@ namespace {
 // Edges, in voxel edges. A cut has a voxel at least.
 constexpr double longest_edge = 64, shortest_move = 0.1, first_edge = 8;
 constexpr double intended_share = 0.95;  // of what the tool may stray
+constexpr double shorter = 0.98;         // than an edge that strays too far; more than the root of the intended share
 
 /// A place on the way along strokes. Strokes without length are passed over.
 class Place {
@@ -77,16 +78,17 @@ struct Stop {
   double ball_off = 0, top_off = 0;  ///< from where ball and shank's end should be (voxel edges)
 };
 
-/// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off, what
-/// its bend in the middle does (it grows with the square of the edge's length), and what the bend changes along the edge
-/// (with the cube and more).
+/// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off,
+/// what its bend in the middle does (it grows with the square of the edge's length), and what the bend changes along
+/// the edge (with the cube and more).
 struct EndStrayed {
   double off, bow, change;
 
   double all() const { return off + bow + change; }
   /// How much longer an edge like this may be, about, to use that room: the x with bow x^2 + change x^3 = room - off.
   double stretch(double room, double most) const {
-    const double left = std::max(0.0, room - off);
+    const double left = room - off;
+    if (!(left > 0)) return 0;
     double x = std::min(std::sqrt(left / (bow + change)), most);
     for (int step = 0; step < 2; ++step) {
       const double excess = x * x * (bow + change * x) - left;
@@ -219,8 +221,8 @@ class Follower {
   }
 
   /// Goes to the end of the next piece if the edge there is certified. A function with the second and third derivative
-  /// b and c in the middle, and a fourth that is at most d, has the second derivative b + c u + r at 1/2 + u, where r is
-  /// at most d u^2 / 2. It leaves its chord by what these three do: b / 8, c / (72 sqrt 3) and d / 384 at most.
+  /// b and c in the middle, and a fourth that is at most d, has the second derivative b + c u + r at 1/2 + u, where r
+  /// is at most d u^2 / 2. It leaves its chord by what these three do: b / 8, c / (72 sqrt 3) and d / 384 at most.
   bool take(const Piece& piece, std::size_t lane) {
     longest_next_ = piece.length / 2;
     if (!ahead_.solved(static_cast<int>(lane))) return false;
@@ -235,7 +237,7 @@ class Follower {
         strayed_by(std::max(here_.top_off, next.top_off), edges_.top_bend_m[lane], edges_.top_change_m[lane])};
     known_[direction_of(piece.from.along())] = strayed;
     if (!(strayed.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
-      longest_next_ = longest_edge;  // what was learnt makes it short enough
+      longest_next_ = shorter * piece.length;  // what was learnt makes it shorter yet, as a rule
       return false;
     }
     if (!field_.links_are_free(here_.cell, here_.q, next.cell, next.q, held_)) return false;
