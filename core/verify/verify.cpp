@@ -12,8 +12,10 @@
 #include <thread>
 
 #include "core/trajectory/trajectory.hpp"
+#include "core/verify/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
+#include "core/verify/urdf_differences.hpp"
 
 namespace sculpt {
 namespace {
@@ -172,13 +174,14 @@ class Replay {
 
   // False where a replay would mean nothing.
   bool header_fits() {
+    for (const std::string& difference : urdf_differences(cell_)) find(difference);
     std::vector<std::string> names;
     for (int joint : joints_) names.push_back(cell_.robot.joints[static_cast<std::size_t>(joint)].name);
     if (header().joints != names) find("the header's joints are not those between the cell's stock and tool links");
     if (header().grid.n != voxels_.n())
       find("the header's resolution is " + std::to_string(header().grid.n) + ", the material's " +
            std::to_string(voxels_.n()));
-    if (found_.collisions > 0) return false;
+    if (header().joints != names || header().grid.n != voxels_.n()) return false;
     const Grid grid = cell_.grid(voxels_.n());
     if (std::abs(header().grid.voxel_m - grid.voxel_m) > length_slack_m ||
         (header().grid.origin_m - grid.origin_m).norm() > length_slack_m)
@@ -200,6 +203,8 @@ class Replay {
 
   void replay_keyframes() {
     const ReplayScene scene(cell_, voxels_, header(), joints_);
+    verdict_.exempt_pairs = scene.pairs.exempt;
+    for (const std::string& contact : scene.pairs.contacts) find(contact);
     find_broken_limits(scene, header().home, reader_.line(), found_);
     Crew crew(reader_, scene, watch_, std::max(1, threads_), std::move(done_), note_);
     crew.run();
@@ -218,7 +223,7 @@ class Replay {
     const auto step = [this] {
       if (watch_.stop.stop_requested()) throw Cancelled{};
     };
-    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_unheld(voxels_), step)) {
+    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_never_held(voxels_), step)) {
       verdict_.freed += piece.voxels;
       if (turns && piece.unforeseen > 0)
         found_.find(piece.line, "voxel (" + std::to_string(piece.removed.i) + ", " + std::to_string(piece.removed.j) +
