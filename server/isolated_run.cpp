@@ -41,11 +41,21 @@ Ending read_ending(const Json& json) {
 }
 
 Json to_json(const Progress& progress) {
-  return {static_cast<int>(progress.stage), progress.done, progress.total, progress.loose_keep};
+  const Doubts& doubts = progress.doubts;
+  return {static_cast<int>(progress.stage),
+          progress.done,
+          progress.total,
+          doubts.keep,
+          doubts.loose_keep,
+          doubts.ambiguous,
+          doubts.ambiguous_at_mm};
 }
 
 Progress read_progress(const Json& json) {
-  return {static_cast<Stage>(json.at(0).get<int>()), json.at(1), json.at(2), json.at(3)};
+  return {static_cast<Stage>(json.at(0).get<int>()),
+          json.at(1),
+          json.at(2),
+          {json.at(3), json.at(4), json.at(5), json.at(6)}};
 }
 
 // What a child has said.

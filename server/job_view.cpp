@@ -13,7 +13,15 @@ std::string expiry(const JobRecord& job, std::chrono::milliseconds keep) {
 
 Json progress_view(const Progress& progress) {
   Json view{{"stage", name(progress.stage)}, {"done", progress.done}, {"total", progress.total}};
-  if (progress.loose_keep > 0) view["loose_keep"] = progress.loose_keep;
+  const Doubts& doubts = progress.doubts;
+  if (doubts.loose_keep > 0) {
+    view["loose_keep"] = doubts.loose_keep;
+    view["keep"] = doubts.keep;
+  }
+  if (doubts.ambiguous > 0) {
+    view["ambiguous"] = doubts.ambiguous;
+    view["ambiguous_at_mm"] = doubts.ambiguous_at_mm;
+  }
   return view;
 }
 

@@ -44,6 +44,18 @@ Ending overdue(const JobRecord& job) {
                                          ": submit it with more, or with a lower resolution");
 }
 
+/// Once, when they are known.
+void log_doubts(const JobRecord& job, const Doubts& doubts) {
+  if (doubts.loose_keep > 0)
+    spdlog::log(doubts.is_much_loose() ? spdlog::level::warn : spdlog::level::info,
+                "job={} {} of {} voxels of the target hang on nothing", job.id, doubts.loose_keep, doubts.keep);
+  const auto& [x, y, z] = doubts.ambiguous_at_mm;
+  if (doubts.ambiguous > 0)
+    spdlog::warn(
+        "job={} its mesh does not say for sure whether {} voxels around ({:.1f}, {:.1f}, {:.1f}) mm are inside", job.id,
+        doubts.ambiguous, x, y, z);
+}
+
 void log_ending(const JobRecord& job, const std::optional<Ending>& ending) {
   if (!ending) {
     spdlog::info("job={} attempt={} let go", job.id, job.attempt);
@@ -194,8 +206,7 @@ void Scheduler::run_one(const JobRecord& job, Run& run) {
   spdlog::info("job={} attempt={} running", job.id, job.attempt);
   const Watch watch{run.stop.get_token(), [&run, &job](const Progress& progress) {
                       const std::lock_guard lock(run.mutex);
-                      if (progress.loose_keep > 0 && (!run.progress || run.progress->loose_keep == 0))
-                        spdlog::warn("job={} {} voxels of the target hang on nothing", job.id, progress.loose_keep);
+                      if (!run.progress || run.progress->doubts.keep == 0) log_doubts(job, progress.doubts);
                       run.progress = progress;
                     }};
   std::optional<Ending> ending;

@@ -8,6 +8,16 @@
 
 namespace sculpt {
 
+namespace {
+
+/// As `server/job_view` writes them.
+Doubts read_doubts(const Json& progress) {
+  return {progress.value("keep", std::uint64_t{0}), progress.value("loose_keep", std::uint64_t{0}),
+          progress.value("ambiguous", std::uint64_t{0}), progress.value("ambiguous_at_mm", std::array<double, 3>{})};
+}
+
+}  // namespace
+
 Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
   client.when_lost([&progress](const std::string& sentence) { progress.say(sentence); });
   client.subscribe(job);
@@ -18,8 +28,9 @@ Json follow_job(Client& client, const std::string& job, ProgressLine& progress) 
     if (event.value("job", "") != job || !event.contains("data")) continue;
     const Json& data = event["data"];
     if (type == "progress") {
-      const auto loose = data.value("loose_keep", std::uint64_t{0});
-      if (loose > 0 && !std::exchange(warned, true)) progress.say(loose_keep_warning(loose));
+      const std::vector<std::string> lines = doubt_lines(read_doubts(data));
+      if (!lines.empty() && !std::exchange(warned, true))
+        for (const std::string& line : lines) progress.say(line);
       progress.tell(data.value("stage", ""), data.value("done", std::uint64_t{0}),
                     data.value("total", std::uint64_t{0}));
     } else if (type == "state") {

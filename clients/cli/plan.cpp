@@ -42,9 +42,9 @@ int run_plan(const PlanOptions& options) {
   ProgressLine progress(STDERR_FILENO, PlainLines::each_second);
   bool warned = false;
   const Watch watch{stop.get_token(), [&](const Progress& at) {
-                      if (at.loose_keep > 0 && !std::exchange(warned, true)) {
+                      if (at.doubts.keep > 0 && !std::exchange(warned, true)) {
                         progress.clear();
-                        std::cerr << "sculpt: " << loose_keep_warning(at.loose_keep) << "\n";
+                        for (const std::string& line : doubt_lines(at.doubts)) std::cerr << "sculpt: " << line << "\n";
                       }
                       progress.tell(name(at.stage), at.done, at.total);
                     }};

@@ -39,10 +39,18 @@ void voxel_rows(std::string& table, const Json& report) {
   if (!report.contains("voxels")) return;
   const Json& voxels = report["voxels"];
   rows(table, voxels, {{"total", "voxels"}, {"air", "  air"}, {"keep", "  keep"}, {"remove", "  remove"}});
-  if (const auto loose = voxels.value("loose_keep", std::uint64_t{0}); loose > 0)
+  const Doubts doubts{voxels.value("keep", std::uint64_t{0}),
+                      voxels.value("loose_keep", std::uint64_t{0}),
+                      voxels.value("ambiguous", std::uint64_t{0}),
+                      {}};
+  if (doubts.loose_keep > 0)
     row(table, "  loose keep",
-        std::to_string(loose) + "  (warning: hangs on nothing once all around it is gone; pieces: " +
-            voxels.value("loose_keep_pieces", Json()).dump() + ")");
+        std::to_string(doubts.loose_keep) + (doubts.is_much_loose() ? "  (warning: " : "  (") +
+            "hangs on nothing once all around it is gone; pieces: " + voxels.value("loose_keep_pieces", Json()).dump() +
+            ")");
+  if (doubts.ambiguous > 0)
+    row(table, "  ambiguous",
+        std::to_string(doubts.ambiguous) + "  (warning: the mesh does not say for sure whether they are inside)");
   if (const auto freed = voxels.value("freed", std::uint64_t{0}); freed > 0)
     row(table, "  freed", std::to_string(freed) + "  (warning: comes loose while it is carved, and will fall)");
   if (!voxels.contains("removed") || !voxels.contains("residue") || !voxels.contains("remove")) return;
@@ -98,9 +106,19 @@ void run_rows(std::string& table, const Json& report) {
 
 }  // namespace
 
-std::string loose_keep_warning(std::uint64_t voxels) {
-  return "warning: " + std::to_string(voxels) +
-         " voxels of the target hang on nothing once all around them is gone: make them reach the floor of the stock";
+std::vector<std::string> doubt_lines(const Doubts& doubts) {
+  std::vector<std::string> lines;
+  if (doubts.loose_keep > 0)
+    lines.push_back((doubts.is_much_loose() ? "warning: " : "note: ") + std::to_string(doubts.loose_keep) + " of " +
+                    std::to_string(doubts.keep) + " voxels of the target hang on nothing once all around them is gone" +
+                    (doubts.is_much_loose() ? ": make them reach the floor of the stock" : ""));
+  const auto& [x, y, z] = doubts.ambiguous_at_mm;
+  if (doubts.ambiguous > 0)
+    lines.push_back("warning: of " + std::to_string(doubts.ambiguous) +
+                    " voxels the mesh does not say for sure whether they are inside (around " + fixed(x, 1, ", ") +
+                    fixed(y, 1, ", ") + fixed(z, 1, " mm in the stock's frame") +
+                    "): look at `sculpt voxelize`, and turn the surfaces of cavities inwards, all others outwards");
+  return lines;
 }
 
 std::string report_table(const Json& report) {

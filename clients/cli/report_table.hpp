@@ -3,13 +3,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "core/base/watch.hpp"
 #include "proto/json.hpp"
 
 namespace sculpt {
 
-/// What is said before planning where `voxels` of the target, more than none, hang on nothing.
-std::string loose_keep_warning(std::uint64_t voxels);
+/// What is said before planning, a line each; none where there is nothing to doubt.
+std::vector<std::string> doubt_lines(const Doubts& doubts);
 
 /// `report`: the object of `report --json`; fields that are missing are left out of the table.
 std::string report_table(const Json& report);

@@ -10,6 +10,7 @@
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/progress_line.hpp"
+#include "clients/cli/report_table.hpp"
 #include "core/material/binvox.hpp"
 
 namespace sculpt {
@@ -47,9 +48,11 @@ int run_voxelize(const VoxelizeOptions& options) {
   output.finish();
   const auto total = static_cast<std::uint64_t>(grid.n) * grid.n * grid.n;
   const std::uint64_t stock = voxels.stock.size(), keep = voxels.keep.size();
+  for (const std::string& line : doubt_lines(find_doubts(voxels, grid))) std::cerr << "sculpt: " << line << "\n";
   if (options.json)
     std::cout << "{\"resolution\":" << grid.n << ",\"voxels\":{\"total\":" << total << ",\"air\":" << total - stock
-              << ",\"keep\":" << keep << ",\"remove\":" << stock - keep << "}}\n";
+              << ",\"keep\":" << keep << ",\"remove\":" << stock - keep << ",\"ambiguous\":" << voxels.ambiguous.voxels
+              << "}}\n";
   else
     std::cout << options.output << ": " << keep << " voxels to keep, " << stock - keep << " to remove, of " << total
               << "\n";

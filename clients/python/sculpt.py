@@ -642,6 +642,18 @@ def run_verify(options):
 
 # What commands share
 
+def doubt_lines(progress):
+    """What is said before planning, a line each: of how much `progress` says that it is loose or ambiguous."""
+    lines, loose, keep = [], progress.get("loose_keep", 0), progress.get("keep", 0)
+    if loose:
+        word = "warning" if loose >= 1000 or 50 * loose >= keep else "note"
+        lines.append(f"{word}: {loose} of {keep} voxels of the target hang on nothing once all around them is gone")
+    if progress.get("ambiguous"):
+        place = ", ".join(f"{mm:.1f}" for mm in progress["ambiguous_at_mm"])
+        lines.append(f"warning: of {progress['ambiguous']} voxels the mesh does not say for sure whether they are inside (around {place} mm in the stock's frame)")
+    return lines
+
+
 def follow(client, job, out, plain):
     """Shows a job live until it has ended: a bar on a terminal, else (if `plain`) lines; gives the job."""
     bar, shown, warned = out.isatty(), None, False
@@ -660,8 +672,9 @@ def follow(client, job, out, plain):
         elif event["type"] == "progress":
             share = data["done"] / data["total"] if data["total"] else 0
             counts = f"{data['stage']:9} {data['done']}/{data['total']}"
-            if data.get("loose_keep") and not warned:
-                print(f"warning: {data['loose_keep']} voxels of the target hang on nothing once all around them is gone", file=sys.stderr, flush=True)
+            lines = doubt_lines(data)
+            if lines and not warned:
+                print("\n".join(lines), file=sys.stderr, flush=True)
                 warned = True
             if bar:
                 cells = int(30 * share)

@@ -4,6 +4,7 @@
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
+#include "core/material/loose_pieces.hpp"
 #include "core/material/voxelize.hpp"
 #include "core/motion/random_configuration.hpp"
 #include "core/plan/plan.hpp"
@@ -46,11 +47,11 @@ VoxelSet read_voxels(const MeshFile& file, int n) {
   return voxels;
 }
 
-VoxelSet make_target(const Job& job, const Grid& grid, const Watch& watch) {
-  if (job.mesh.extension == "binvox") return read_voxels(job.mesh, grid.n);
+Solid make_target(const Job& job, const Grid& grid, const Watch& watch) {
+  if (job.mesh.extension == "binvox") return {read_voxels(job.mesh, grid.n), {}};
   const Mesh mesh = load_mesh(job.mesh.bytes, job.mesh.extension, job.memory_cap_bytes, watch);
   watch.step(Stage::load, 1, 1);
-  return voxelize(place_mesh(mesh, job.placement, grid), grid, watch);
+  return find_solid(place_mesh(mesh, job.placement, grid), grid, watch);
 }
 
 VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
@@ -101,16 +102,24 @@ void check_reach(const Cell& cell, const Grid& grid) {
 }  // namespace
 
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
-  VoxelGrid voxels{make_stock(job, grid, watch), make_target(job, grid, watch)};
+  VoxelSet stock = make_stock(job, grid, watch);
+  Solid target = make_target(job, grid, watch);
+  VoxelGrid voxels{std::move(stock), std::move(target.inside), target.ambiguous};
   for (std::size_t w = 0; w < voxels.keep.words().size(); ++w) voxels.keep.words()[w] &= voxels.stock.words()[w];
   return voxels;
+}
+
+Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid) {
+  Doubts doubts{voxels.keep.size(), find_loose(voxels.keep).size(), voxels.ambiguous.voxels, {}};
+  const Vec3 middle_mm = 500 * (grid.centre(voxels.ambiguous.low) + grid.centre(voxels.ambiguous.high));
+  if (doubts.ambiguous > 0) doubts.ambiguous_at_mm = {middle_mm.x(), middle_mm.y(), middle_mm.z()};
+  return doubts;
 }
 
 std::uint64_t predict_memory(const Job& job) {
   const double n = job.resolution;
   const auto voxels = static_cast<std::uint64_t>(bytes_a_voxel * n * n * n);
-  return voxels +
-         (job.mesh.extension == "binvox" ? 0 : predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
+  return voxels + (job.mesh.extension == "binvox" ? 0 : predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
 }
 
 void check_job(const Job& job, const Watch& watch) {

@@ -123,16 +123,16 @@ TrajectoryHeader make_header(const Job& job, const std::string& search, const Ce
   return header;
 }
 
-void count_voxels(Report& report, const VoxelGrid& voxels, const Octree& octree) {
+void count_voxels(Report& report, const VoxelGrid& voxels, const Doubts& doubts, const Octree& octree) {
   const auto n = static_cast<std::uint64_t>(voxels.n());
   const std::uint64_t stock = voxels.stock.size();
   report.voxels.total = n * n * n;
   report.voxels.air = report.voxels.total - stock;
   report.voxels.keep = voxels.keep.size();
   report.voxels.remove = stock - report.voxels.keep;
-  const VoxelSet loose = find_loose(voxels.keep);
-  report.voxels.loose_keep = loose.size();
-  report.voxels.loose_keep_pieces = count_pieces(loose);
+  report.voxels.loose_keep = doubts.loose_keep;
+  if (doubts.loose_keep > 0) report.voxels.loose_keep_pieces = count_pieces(find_loose(voxels.keep));
+  report.voxels.ambiguous = doubts.ambiguous;
   report.octree.leaves = octree.leaves.size();
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) ++report.octree.remove_leaves;
@@ -266,8 +266,8 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
 
   Stopwatch building;
   const Octree octree = build_octree(result.voxels, watch);
-  count_voxels(report, result.voxels, octree);
-  watch.loose_keep = report.voxels.loose_keep;
+  watch.doubts = find_doubts(result.voxels, result.grid);
+  count_voxels(report, result.voxels, watch.doubts, octree);
   watch.step(Stage::plan, 0, report.voxels.remove);
   report.seconds.octree = building.seconds();
 

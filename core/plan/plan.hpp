@@ -53,6 +53,7 @@ struct Report {
     std::uint64_t loose_keep = 0;         ///< of keep: what hangs on nothing once all around it is gone
     std::uint64_t loose_keep_pieces = 0;  ///< in how many pieces
     std::uint64_t freed = 0;              ///< came loose from the table while it was carved, as the replay counts it
+    std::uint64_t ambiguous = 0;          ///< the mesh does not say for sure whether they are inside
   } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
   struct {
@@ -101,6 +102,9 @@ void check_job(const Job& job, const Watch& watch);
 
 /// Mesh (or .binvox) to labelled voxels; used by planning, `voxelize` and `verify FILE`. Throws InputError, Cancelled.
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
+
+/// What is loose or ambiguous of the target; told with every step of `run_job` from the first of `plan` on.
+Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid);
 
 enum class TrajectoryForm { text, binary };  // .ndjson, .sct
 

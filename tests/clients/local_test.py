@@ -58,12 +58,18 @@ class Voxelize(ClientTest):
 
     def test_a_box_fills_its_share_of_the_grid(self):
         voxels, binvox = self.voxelize(shapes.steps())
-        self.assertEqual(voxels, {"total": 4096, "air": 0, "keep": 16 * 16 * 8 + 8 * 8 * 8, "remove": 4096 - 2560})
+        self.assertEqual(voxels, {"total": 4096, "air": 0, "keep": 16 * 16 * 8 + 8 * 8 * 8, "remove": 4096 - 2560, "ambiguous": 0})
         self.assertTrue(binvox.startswith(b"#binvox 1\ndim 16 16 16\n"), binvox[:60])
 
     def test_a_ball_has_the_volume_of_a_ball(self):
         voxels, _ = self.voxelize(shapes.ball(24))
         self.assertAlmostEqual(voxels["keep"] / (math.pi / 6 * 4096), 1, delta=0.05)
+
+    def test_what_the_mesh_leaves_in_doubt_is_counted_and_told(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.box((0, 0, 0), (16, 16, 16)) + shapes.box((4, 4, 4), (12, 12, 12)))
+        done = self.run_client("voxelize", mesh, "--resolution", 16, "-o", "mesh.binvox", "--json")
+        self.assertEqual(json.loads(done.stdout)["voxels"]["ambiguous"], 8 ** 3)
+        self.assertRegex(done.stderr, r"warning: of 512 voxels .* \(around 500\.0, 500\.0, 500\.0 mm")
 
     def test_placement_is_metres_and_degrees(self):
         quarter, _ = self.voxelize(shapes.box((0, 0, 0), (1, 2, 4)), "--scale", "0.25", "--rotate", "0,90,0")
@@ -112,7 +118,7 @@ class Plan(ClientTest):
         fields = {"mesh", "robot", "search", "seed", "resolution", "voxels", "residue", "octree", "path", "seconds", "peak_memory_bytes",
                   "threads", "plan_sha256", "verify"}
         self.assertLessEqual(fields, set(report))
-        self.assertEqual(set(report["voxels"]), {"total", "air", "keep", "remove", "removed", "residue", "loose_keep", "loose_keep_pieces", "freed"})
+        self.assertEqual(set(report["voxels"]), {"total", "air", "keep", "remove", "removed", "residue", "loose_keep", "loose_keep_pieces", "freed", "ambiguous"})
         self.assertLessEqual({"keyframes", "rows", "transits", "cut_m", "travel_m", "joint_travel_rad"}, set(report["path"]))
         self.assertLessEqual({"load", "voxelize", "octree", "plan", "verify", "total"}, set(report["seconds"]))
         self.assertEqual((report["mesh"], report["seed"], report["resolution"]), ("steps.stl", 7, 8))

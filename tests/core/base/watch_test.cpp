@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace sculpt {
@@ -41,6 +42,19 @@ TEST(Watch, CopiesShareTheStop) {
   const Watch copy = watch;
   source.request_stop();
   EXPECT_THROW(copy.step(Stage::load, 0, 1), Cancelled);
+}
+
+TEST(Watch, OneLooseVoxelIsANoteAndManyAreAWarning) {
+  for (const auto& [loose, keep, is_much] : {std::tuple(0, 0, false),
+                                             {1, 551, false},
+                                             {10, 551, false},
+                                             {12, 551, true},
+                                             {999, 1000000, false},
+                                             {1000, 1000000, true},
+                                             {2496, 300000, true}}) {
+    const Doubts doubts{static_cast<std::uint64_t>(keep), static_cast<std::uint64_t>(loose), 0, {}};
+    EXPECT_EQ(doubts.is_much_loose(), is_much) << loose << " of " << keep;
+  }
 }
 
 TEST(Stage, EveryStageHasItsOwnName) {

@@ -113,9 +113,9 @@ TEST(Held, WhatHangsOnNothingIsToldBeforePlanning) {
   const Watch watch{{}, [&](const Progress& progress) {
                       if (told == 0 && progress.stage == Stage::plan) {
                         EXPECT_EQ(progress.done, 0u);
-                        EXPECT_GT(progress.loose_keep, 0u);
+                        EXPECT_GT(progress.doubts.loose_keep, 0u);
                       }
-                      told = std::max(told, progress.loose_keep);
+                      told = std::max(told, progress.doubts.loose_keep);
                     }};
   const ScratchFile file;
   const JobResult result = run_job(job, file.path(), watch);

@@ -1,6 +1,8 @@
 // What is refused before any planning, with a code and a cure.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {
@@ -24,6 +26,16 @@ std::string with(std::string text, const std::string& from, const std::string& t
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
+}
+
+/// A cube, outwards: x and y from `low` to `low + edge`, z from `floor`.
+std::string obj_box(int low, int floor, int edge) {
+  std::ostringstream text;
+  for (int corner = 0; corner < 8; ++corner)
+    text << "v " << low + (corner & 1 ? edge : 0) << ' ' << low + (corner & 2 ? edge : 0) << ' '
+         << floor + (corner & 4 ? edge : 0) << '\n';
+  text << "f -8 -4 -2 -6\nf -7 -5 -1 -3\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -6 -5 -7\nf -4 -3 -1 -2\n";
+  return text.str();
 }
 
 TEST(Intake, ASoundJobPasses) {
@@ -88,6 +100,20 @@ TEST(Intake, RefusesLinksAndUrdfsThatAreNotThere) {
   job = sound_job();
   job.cell.files.begin()->second = "<robot";
   expect_refused(job, "urdf_invalid", "");
+}
+
+TEST(Intake, WhatTheMeshLeavesInDoubtIsCountedWithItsPlace) {
+  Job job = sound_job();
+  job.mesh = {obj_box(0, 0, 8) + obj_box(2, 4, 3), "obj", "nested.obj"};
+  const Grid grid = parse_cell(job.cell).grid(8);
+  const VoxelGrid voxels = make_voxels(job, grid, {});
+  const Doubts doubts = find_doubts(voxels, grid);
+  EXPECT_EQ(doubts.keep, 512u);
+  EXPECT_EQ(doubts.loose_keep, 0u);
+  EXPECT_EQ(doubts.ambiguous, 3u * 3 * 3);
+  const Vec3 middle_mm = 1000 * (grid.origin_m + grid.voxel_m * Vec3(3.5, 3.5, 5.5));
+  EXPECT_TRUE(
+      Vec3(doubts.ambiguous_at_mm[0], doubts.ambiguous_at_mm[1], doubts.ambiguous_at_mm[2]).isApprox(middle_mm));
 }
 
 TEST(Intake, KeepOutsideTheStockIsAir) {

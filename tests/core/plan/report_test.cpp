@@ -22,6 +22,7 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"loose_keep\":",
                             "\"loose_keep_pieces\":",
                             "\"freed\":",
+                            "\"ambiguous\":",
                             "\"residue\":[{\"reason\":\"tool cannot reach\",\"voxels\":3}]",
                             "\"octree\":{\"leaves\":",
                             "\"remove_leaves\":",
