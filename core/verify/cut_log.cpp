@@ -1,5 +1,9 @@
 #include "core/verify/cut_log.hpp"
 
+#include <algorithm>
+
+#include "core/verify/held_voxels.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -24,13 +28,22 @@ bool CutLog::removes_each_once(const VoxelSet& stock, const VoxelSet& left) cons
 
 std::vector<FreedPiece> CutLog::find_freed(const VoxelSet& stock, const VoxelSet& may_fall,
                                            const std::function<void()>& step) const {
-  const auto line_of = [&](std::size_t cut) {
-    if (cut % cuts_a_step == 0) step();
-    return VoxelLine{voxel(cuts_[cut].first), voxel(cuts_[cut].last)};
-  };
+  VoxelSet left = stock;
+  for (const Cut& cut : cuts_) left.erase(voxel(cut.first), voxel(cut.last));
+  HeldVoxels held(left);
   std::vector<FreedPiece> pieces;
-  for (const Loosening& each : find_loose_pieces(stock, may_fall, cuts_.size(), line_of).loosenings)
-    pieces.push_back({cuts_[each.line].line, each.removed, each.freed, each.unforeseen});
+  for (std::size_t at = cuts_.size(); at-- > 0;) {
+    if (at % cuts_a_step == 0) step();
+    const Voxel first = voxel(cuts_[at].first), last = voxel(cuts_[at].last);
+    const Voxel way = first - last,
+                back{(way.i > 0) - (way.i < 0), (way.j > 0) - (way.j < 0), (way.k > 0) - (way.k < 0)};
+    for (int part = 0; part <= l1(first, last); ++part) {
+      const Voxel removed = last + back * part;
+      const HeldVoxels::Gain gain = held.put_back(removed, may_fall);
+      if (gain.all > 0) pieces.push_back({cuts_[at].line, removed, gain.all, gain.unforeseen});
+    }
+  }
+  std::reverse(pieces.begin(), pieces.end());
   return pieces;
 }
 

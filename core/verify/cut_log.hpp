@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/material/loose_pieces.hpp"
+#include "core/material/voxel_set.hpp"
 #include "core/trajectory/trajectory.hpp"
 
 namespace sculpt {

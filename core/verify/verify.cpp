@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/trajectory/trajectory.hpp"
+#include "core/verify/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
 
@@ -218,7 +219,7 @@ class Replay {
     const auto step = [this] {
       if (watch_.stop.stop_requested()) throw Cancelled{};
     };
-    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_unheld(voxels_), step)) {
+    for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_never_held(voxels_), step)) {
       verdict_.freed += piece.voxels;
       if (turns && piece.unforeseen > 0)
         found_.find(piece.line, "voxel (" + std::to_string(piece.removed.i) + ", " + std::to_string(piece.removed.j) +
