@@ -41,6 +41,7 @@ forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/m
 fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
 forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
+forbid "TinyXML-2 only in verify/urdf_text.cpp" "$(include 'tinyxml2')" "$(door 'verify/urdf_text\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
 forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_]+\.[ch]pp')" -- core server clients

@@ -24,6 +24,7 @@ struct CellFiles {
 
 struct Cell {
   std::string name;
+  std::string urdf;                          ///< the text that `robot` was read from; empty for a cell made in code
   Robot robot;
   int stock_link = -1;
   int tool_link = -1;

@@ -355,8 +355,8 @@ Cell parse_cell(const CellFiles& files) {
   cell.stock_size_m = stock.at("size_m").number_from(1e-6);
   cell.stock_origin_m = stock.at("origin_m").vector();
   cell.tool = parse_tool(tool);
-  const std::string urdf_name = top.at("urdf").text();
-  cell.robot = parse_urdf(file_named(files, urdf_name),
+  cell.urdf = file_named(files, top.at("urdf").text());
+  cell.robot = parse_urdf(cell.urdf,
                           [&](const std::string& reference) { return file_named(files, reference); });
   cell.stock_link = find_link(cell.robot, stock.at("link"));
   cell.tool_link = find_link(cell.robot, tool.at("link"));

@@ -203,7 +203,9 @@ Shape to_shape(const urdf::Collision& collision, const std::string& owner, MeshS
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(*collision.geometry);
       shape.kind = ShapeKind::mesh;
-      shape.mesh = meshes.get(mesh.filename, to_vector(mesh.scale), owner);
+      shape.mesh_file = mesh.filename;
+      shape.mesh_scale = to_vector(mesh.scale);
+      shape.mesh = meshes.get(shape.mesh_file, shape.mesh_scale, owner);
       break;
     }
   }

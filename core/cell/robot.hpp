@@ -21,6 +21,8 @@ struct Shape {
   double radius_m = 0;                    ///< sphere, cylinder
   double length_m = 0;                    ///< cylinder
   std::shared_ptr<const Mesh> mesh;       ///< mesh: in metres (URDF scale applied)
+  std::string mesh_file;                  ///< mesh: its reference as the URDF writes it
+  Vec3 mesh_scale = Vec3::Ones();         ///< mesh: the URDF's scale, applied already
 };
 
 struct Link {

@@ -15,6 +15,7 @@
 #include "core/verify/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
+#include "core/verify/urdf_differences.hpp"
 
 namespace sculpt {
 namespace {
@@ -173,13 +174,14 @@ class Replay {
 
   // False where a replay would mean nothing.
   bool header_fits() {
+    for (const std::string& difference : urdf_differences(cell_)) find(difference);
     std::vector<std::string> names;
     for (int joint : joints_) names.push_back(cell_.robot.joints[static_cast<std::size_t>(joint)].name);
     if (header().joints != names) find("the header's joints are not those between the cell's stock and tool links");
     if (header().grid.n != voxels_.n())
       find("the header's resolution is " + std::to_string(header().grid.n) + ", the material's " +
            std::to_string(voxels_.n()));
-    if (found_.collisions > 0) return false;
+    if (header().joints != names || header().grid.n != voxels_.n()) return false;
     const Grid grid = cell_.grid(voxels_.n());
     if (std::abs(header().grid.voxel_m - grid.voxel_m) > length_slack_m ||
         (header().grid.origin_m - grid.origin_m).norm() > length_slack_m)
