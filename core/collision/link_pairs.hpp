@@ -35,9 +35,6 @@ struct LinkPairs {
 /// Shapes that are more than 0.02 mm apart at home are never left out. Deterministic.
 LinkPairs find_link_pairs(const Cell& cell);
 
-/// Pairs of links that did not touch in each of 300 random configurations; what the replay still asks.
-std::vector<LinkPair> find_link_pairs(const Robot& robot);
-
 /// Group of each link: links joined by fixed joints share one (the index of their topmost link).
 std::vector<int> rigid_groups(const Robot& robot);
 

@@ -24,15 +24,12 @@ bool joined_rigidly(const Robot& robot, int a, int b) {
 }  // namespace
 
 LinkReplay::LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
-                       const std::vector<std::pair<int, int>>& link_pairs, const StandingVoxels& material,
-                       double voxel_mm)
+                       const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart,
+                       const StandingVoxels& material, double voxel_mm)
     : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(voxel_mm) {
   for (const SolidBody& body : bodies)
     if (!joined_rigidly(cell.robot, cell.stock_link, body.link)) add_pair(body, nullptr);
-  for (const auto& [a, b] : link_pairs)
-    for (const SolidBody& first : bodies)
-      for (const SolidBody& second : bodies)
-        if (first.link == a && second.link == b) add_pair(first, &second);
+  for (const auto& [first, second] : apart) add_pair(*first, second);
 }
 
 void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
@@ -45,8 +42,6 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
     pairs_.push_back({&first, nullptr, {motion_, around, {cell_.stock_link, Vec3::Zero(), -1}}, first_is_mesh});
     return;
   }
-  if (motion_.joints_between(second->link, first.link).empty())
-    return;  // they never move against each other: the cell's matter, not the plan's
   const Around other{second->link, second->pose.translation(), second->radius};
   pairs_.push_back({&first, second, {motion_, around, other}, first_is_mesh});
 }

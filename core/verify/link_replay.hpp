@@ -15,9 +15,10 @@ namespace sculpt {
 /// shrink between motions.
 class LinkReplay {
  public:
-  /// All arguments but `link_pairs` (what must be kept apart) must outlive the replay.
+  /// All arguments but `apart` (what must be kept apart, apart from the material) must outlive the replay.
   LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
-             const std::vector<std::pair<int, int>>& link_pairs, const StandingVoxels& material, double voxel_mm);
+             const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart, const StandingVoxels& material,
+             double voxel_mm);
 
   /// Tells at most one contact a pair. Certified between its ends, except between two meshes and between a mesh and the
   /// material where their covers overlap: there they are tried each quarter of a voxel.

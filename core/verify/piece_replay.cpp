@@ -4,8 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/collision/link_pairs.hpp"
-
 namespace sculpt {
 namespace {
 
@@ -44,7 +42,7 @@ ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, cons
       tool(make_tool(cell.tool, grid.voxel_m)),
       motion(cell.robot, joints, cell.rest, cell.stock_link),
       bodies(make_solid_bodies(cell.robot)),
-      link_pairs(find_link_pairs(cell.robot)) {}
+      pairs(choose_pairs(cell, joints, motion, bodies)) {}
 
 void PieceFindings::find(std::uint64_t line, std::string sentence) {
   ++collisions;
@@ -73,7 +71,7 @@ PieceReplay::PieceReplay(const ReplayScene& scene)
       voxel_mm_(1000 * scene.grid.voxel_m),
       material_(scene.voxels.stock, voxel_mm_),
       tool_(scene.cell, scene.tool, scene.motion, scene.bodies, material_, voxel_mm_),
-      links_(scene.cell, scene.motion, scene.bodies, scene.link_pairs, material_, voxel_mm_) {}
+      links_(scene.cell, scene.motion, scene.bodies, scene.pairs.checked, material_, voxel_mm_) {}
 
 void PieceReplay::skip(const TrajectoryPiece& piece) {
   for (const Keyframe& keyframe : piece.keyframes)

@@ -1,10 +1,10 @@
 // A piece of a trajectory -> what is wrong with it. Internal to verify/.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
+#include "core/verify/checked_pairs.hpp"
 #include "core/verify/link_replay.hpp"
 #include "core/verify/tool_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
@@ -24,7 +24,7 @@ struct ReplayScene {
   Tool tool;
   LinkMotion motion;
   std::vector<SolidBody> bodies;
-  std::vector<std::pair<int, int>> link_pairs;
+  CheckedPairs pairs;
 };
 
 /// Finds the joints of `q` outside their limits.

@@ -203,6 +203,8 @@ class Replay {
 
   void replay_keyframes() {
     const ReplayScene scene(cell_, voxels_, header(), joints_);
+    verdict_.exempt_pairs = scene.pairs.exempt;
+    for (const std::string& contact : scene.pairs.contacts) find(contact);
     find_broken_limits(scene, header().home, reader_.line(), found_);
     Crew crew(reader_, scene, watch_, std::max(1, threads_), std::move(done_), note_);
     crew.run();

@@ -10,6 +10,7 @@
 #include "core/base/watch.hpp"
 #include "core/cell/cell.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/verify/exempt_pair.hpp"
 
 namespace sculpt {
 
@@ -20,11 +21,12 @@ struct Finding {
 
 struct Verdict {
   bool clean = false;
-  std::uint64_t collisions = 0;      ///< all findings, also those not listed
-  std::uint64_t voxels_checked = 0;  ///< voxels whose removal was replayed
-  std::uint64_t freed = 0;           ///< voxels that came loose from the table, counted when they did
-  VoxelSet left;                     ///< material that still stands at the end
-  std::vector<Finding> findings;     ///< the first 100
+  std::uint64_t collisions = 0;          ///< all findings, also those not listed
+  std::uint64_t voxels_checked = 0;      ///< voxels whose removal was replayed
+  std::uint64_t freed = 0;               ///< voxels that came loose from the table, counted when they did
+  VoxelSet left;                         ///< material that still stands at the end
+  std::vector<Finding> findings;         ///< the first 100
+  std::vector<ExemptPair> exempt_pairs;  ///< links with shapes that were not kept apart
 };
 
 /// Findings of one piece of a trajectory, or of several.

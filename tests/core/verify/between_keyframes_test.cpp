@@ -61,9 +61,9 @@ Cell hinged_cell() {
   const int table = add_link(cell.robot, "table", -1);
   cell.robot.links[0].shapes.push_back(box_shape(Vec3(0, 0, -0.05), Vec3(2, 2, 0.1)));
   const int upper = add_link(cell.robot, "upper_arm", table, hinge("shoulder", Vec3(0, 0, 0.3)));
-  cell.robot.links.back().shapes.push_back(box_shape(Vec3(0.14, 0, 0), Vec3(0.28, 0.03, 0.03)));
+  cell.robot.links.back().shapes.push_back(box_shape(Vec3(0.14, 0, 0), Vec3(0.28, 0.01, 0.03)));
   const int lower = add_link(cell.robot, "lower_arm", upper, hinge("elbow", Vec3(0.3, 0, 0)));
-  cell.robot.links.back().shapes.push_back(box_shape(Vec3(0.15, 0, 0), Vec3(0.26, 0.03, 0.03)));
+  cell.robot.links.back().shapes.push_back(box_shape(Vec3(0.145, 0, 0), Vec3(0.25, 0.01, 0.03)));
   Joint wrist = hinge("wrist", Vec3(0.3, 0, 0));
   wrist.origin.linear() = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitX()).toRotationMatrix();
   cell.tool_link = add_link(cell.robot, "spindle", lower, wrist);
@@ -172,8 +172,10 @@ TEST(BetweenKeyframes, RandomSwingsAreFoundExactlyWhenTheyHit) {
 TEST(BetweenKeyframes, AFoldedArmThatMeetsItselfIsFound) {
   Cell cell = hinged_cell();
   // The spindle turns about the elbow into the upper arm's root.
-  const Verdict verdict = swing(cell, no_material(8), {{-1, 2.0, 0}, {-1, 3.0, 0}});
+  const Verdict verdict = swing(cell, no_material(8), {{-1, 2.0, 0}, {-1, 2.6, 0}});
   EXPECT_TRUE(verdict.clean) << sentences(verdict);
+  const Verdict neighbours = swing(cell, no_material(8), {{-1, 3.0, 0}});
+  EXPECT_TRUE(found(neighbours, {"upper_arm", "lower_arm"})) << sentences(neighbours);
   for (Joint& joint : cell.robot.joints) joint.upper = 3.2;
   const Verdict folded = swing(cell, no_material(8), {{-1, 3.141, 0}});
   EXPECT_TRUE(found(folded, {"upper_arm", "spindle"})) << sentences(folded);
