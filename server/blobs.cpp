@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t read_bytes = 1 << 20;
 
 void write_at(const fs::path& path, std::uint64_t offset, std::string_view bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   bool fine = file >= 0;
   while (fine && !bytes.empty()) {
     const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -38,6 +38,13 @@ void write_at(const fs::path& path, std::uint64_t offset, std::string_view bytes
   const int error = errno;
   if (file >= 0) ::close(file);
   if (!fine) fail_to_store(error, "cannot write '" + path.string() + "'");
+}
+
+// Of a file that is not there: none.
+std::uint64_t size_of(const fs::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
 }
 
 std::string file_hash(const fs::path& path) {
@@ -68,11 +75,24 @@ fs::path Blobs::place(const std::string& sha256) const {
   return folder_ / sha256.substr(0, 2) / sha256;
 }
 
+fs::path Blobs::part(const std::string& sha256, std::uint64_t size) const {
+  return folder_ / (sha256 + "." + std::to_string(size) + ".part");
+}
+
+std::uint64_t Blobs::only_part_bytes(const std::string& sha256) const {
+  std::vector<std::uint64_t> sizes;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored)) {
+    if (entry.path().filename().string().starts_with(sha256 + ".") && entry.path().extension() == ".part")
+      sizes.push_back(size_of(entry.path()));
+  }
+  return sizes.size() == 1 ? sizes.front() : 0;
+}
+
 BlobState Blobs::state(const std::string& sha256) const {
   std::error_code error;
   if (const std::uintmax_t size = fs::file_size(place(sha256), error); !error) return {size, true};
-  const std::uintmax_t size = fs::file_size(part(sha256), error);
-  return {error ? 0 : size, false};
+  return {only_part_bytes(sha256), false};
 }
 
 BlobState Blobs::use(const std::string& sha256) const {
@@ -98,23 +118,24 @@ void Blobs::remove_unused(const std::set<std::string>& needed, std::chrono::seco
 }
 
 BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes) {
-  const BlobState before = use(sha256);
-  if (before.complete) return before;
+  if (const BlobState before = use(sha256); before.complete) return before;
   if (size > max_bytes_) {
     throw ProtocolError("too_large",
                         "a blob of " + std::to_string(size) + " bytes is over this server's limit of " +
                             std::to_string(max_bytes_) + ": send a smaller mesh or raise blob_limit_bytes",
                         "/params/size");
   }
-  if (offset > before.have) {
+  const fs::path file = part(sha256, size);
+  const std::uint64_t before = size_of(file);
+  if (offset > before) {
     throw ProtocolError("offset_mismatch",
-                        "the server has " + std::to_string(before.have) + " bytes of this blob: go on there, not at " +
-                            std::to_string(offset),
+                        "the server has " + std::to_string(before) + " bytes of this blob, uploaded as one of " +
+                            std::to_string(size) + " bytes: go on there, not at " + std::to_string(offset),
                         "/params/offset");
   }
-  write_at(part(sha256), offset, bytes);
+  write_at(file, offset, bytes);
   crash_point(CrashPoint::blob_written);
-  const std::uint64_t have = std::max(before.have, offset + bytes.size());
+  const std::uint64_t have = std::max<std::uint64_t>(before, offset + bytes.size());
   if (have >= size) {
     complete(sha256, size);
     return {size, true};
@@ -123,7 +144,7 @@ BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_
 }
 
 void Blobs::complete(const std::string& sha256, std::uint64_t size) {
-  const fs::path file = part(sha256);
+  const fs::path file = part(sha256, size);
   std::error_code error;
   if (fs::file_size(file, error) != size || file_hash(file) != sha256) {
     fs::remove(file, error);

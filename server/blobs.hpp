@@ -1,4 +1,5 @@
-// Files by content: blobs/ab/abcdef..., uploaded in pieces into blobs/HASH.part.
+// Files by content: blobs/ab/abcdef..., uploaded in pieces into blobs/HASH.SIZE.part. So nobody who lies about a size
+// touches what another client has uploaded.
 #pragma once
 
 #include <chrono>
@@ -23,6 +24,7 @@ class Blobs {
   Blobs(std::filesystem::path folder, std::uint64_t max_bytes) : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
   const std::filesystem::path& folder() const { return folder_; }
+  /// Of an upload: the only one there is, of whatever size; nothing where there are several.
   BlobState state(const std::string& sha256) const;
   /// The same; the blob counts as used now, as by `put`, `add` and `read`.
   BlobState use(const std::string& sha256) const;
@@ -38,7 +40,8 @@ class Blobs {
 
  private:
   std::filesystem::path place(const std::string& sha256) const;
-  std::filesystem::path part(const std::string& sha256) const { return folder_ / (sha256 + ".part"); }
+  std::filesystem::path part(const std::string& sha256, std::uint64_t size) const;
+  std::uint64_t only_part_bytes(const std::string& sha256) const;
   void complete(const std::string& sha256, std::uint64_t size);
 
   std::filesystem::path folder_;

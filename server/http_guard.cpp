@@ -14,14 +14,22 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+// Nothing, or a colon with digits or nothing behind it.
+bool is_port(std::string_view text) {
+  constexpr std::size_t most_digits = 5;
+  if (text.empty()) return true;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return text.front() == ':' && text.size() <= 1 + most_digits && std::ranges::all_of(text.substr(1), is_digit);
+}
+
 }  // namespace
 
 std::string host_of(std::string_view authority) {
-  if (authority.starts_with('[')) {
-    const std::size_t end = authority.find(']');
-    return end == std::string_view::npos ? std::string() : lower(authority.substr(1, end - 1));
-  }
-  return lower(authority.substr(0, authority.find(':')));
+  const bool v6 = authority.starts_with('[');
+  const std::size_t end = std::min(authority.find(v6 ? ']' : ':'), authority.size());
+  if (v6 && end == authority.size()) return {};
+  const std::string_view host = v6 ? authority.substr(1, end - 1) : authority.substr(0, end);
+  return is_port(authority.substr(v6 ? end + 1 : end)) ? lower(host) : std::string();
 }
 
 bool host_allowed(std::string_view host_header, const std::vector<std::string>& names) {

@@ -7,7 +7,7 @@
 
 namespace sculpt {
 
-/// The host of "HOST[:PORT]" or "[V6][:PORT]", in lower case.
+/// The host of "HOST[:PORT]" or "[V6][:PORT]", in lower case; empty where the text is neither.
 std::string host_of(std::string_view authority);
 
 /// Whether a request may name this host: localhost, a loopback address, one of `names`. A name that an attacker pointed

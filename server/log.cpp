@@ -20,6 +20,52 @@ struct LogField {
   std::string_view name, value;
 };
 
+struct CodePoint {
+  std::size_t bytes = 0;  // of UTF-8; 0: the text does not begin with any
+  char32_t value = 0;
+};
+
+CodePoint first_code_point(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return {1, byte(0)};
+  const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < bytes) return {};
+  char32_t value = byte(0) & (0x7fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return {};
+    value = value << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = value >= 0xd800 && value < 0xe000;
+  return value < least[bytes] || surrogate || value > 0x10ffff ? CodePoint{} : CodePoint{bytes, value};
+}
+
+// What moves the cursor, ends a line or turns the direction of writing: for some reader of the log it may.
+bool is_tricky(char32_t point) {
+  return point < 0x20 || (point >= 0x7f && point < 0xa0) || point == 0xad || point == 0x61c ||
+         (point >= 0x200b && point <= 0x200f) || (point >= 0x2028 && point <= 0x202e) ||
+         (point >= 0x2060 && point <= 0x206f) || point == 0xfeff;
+}
+
+// With \x0a for control characters and bytes that are no UTF-8, \u202e for other tricky ones. JSON text, which holds
+// none of the former, stays JSON.
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const CodePoint point = first_code_point(text);
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (point.bytes == 0 || byte < 0x20) {
+      out += fmt::format("\\x{:02x}", byte);
+    } else if (is_tricky(point.value)) {
+      out += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(point.value));
+    } else {
+      out += text.substr(0, point.bytes);
+    }
+    text.remove_prefix(std::max<std::size_t>(point.bytes, 1));
+  }
+  return out;
+}
+
 // Takes "name=value " off the front of the message if the name is a field's.
 std::optional<LogField> take_field(std::string_view& message) {
   const std::string_view word = message.substr(0, message.find(' '));
@@ -42,16 +88,11 @@ std::string json_line(const std::string& time, std::string_view level, std::stri
   while (const std::optional<LogField> field = take_field(message))
     line[std::string(field->name)] = field_value(field->value);
   line["message"] = message;
-  return write_json(line);
+  return printable(write_json(line));
 }
 
 std::string text_line(const std::string& time, std::string_view level, std::string_view message) {
-  std::string line = time + " " + std::string(level) + " ";
-  for (const char c : message) {
-    const auto byte = static_cast<unsigned char>(c);
-    line += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return line;
+  return time + " " + std::string(level) + " " + printable(message);
 }
 
 std::string_view view(const spdlog::string_view_t& text) {

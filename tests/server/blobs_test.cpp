@@ -62,6 +62,22 @@ TEST_F(BlobsTest, BytesWithAnotherHashAreDropped) {
   EXPECT_TRUE(blobs.put(hash, content.size(), 0, content).complete);
 }
 
+TEST_F(BlobsTest, ALieAboutTheSizeHarmsNoOtherUpload) {
+  blobs.put(hash, content.size(), 0, content.substr(0, 7));
+  EXPECT_EQ(error_of([&] { blobs.put(hash, 7, 0, "xxxxxxx"); }), "blob_mismatch");
+  blobs.put(hash, 900, 0, std::string(500, 'x'));
+  EXPECT_EQ(error_of([&] { blobs.put(hash, 7, 7, ""); }), "offset_mismatch");
+  EXPECT_TRUE(blobs.put(hash, content.size(), 7, content.substr(7)).complete);
+  EXPECT_EQ(blobs.read(hash, ""), content);
+}
+
+TEST_F(BlobsTest, OfSeveralUploadsNoneIsOfferedToGoOnWith) {
+  blobs.put(hash, content.size(), 0, content.substr(0, 7));
+  EXPECT_EQ(blobs.state(hash).have, 7u);
+  blobs.put(hash, 900, 0, "x");
+  EXPECT_EQ(blobs.state(hash).have, 0u);
+}
+
 TEST_F(BlobsTest, AHoleIsRefused) {
   EXPECT_EQ(error_of([&] { blobs.put(hash, content.size(), 3, "x"); }), "offset_mismatch");
 }

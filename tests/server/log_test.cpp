@@ -38,5 +38,24 @@ TEST(Log, StrangersCannotForgeFieldsOrLines) {
   EXPECT_NE(line(LogForm::text, hostile).find("job=01J\\x0aerror"), std::string::npos);
 }
 
+// C1 control, next line, zero width, line separator, right-to-left override, isolate, byte order mark.
+TEST(Log, WhatMovesTheCursorOrTurnsTheWritingIsShownAsItsNumber) {
+  for (const auto& [tricky, shown] : std::vector<std::pair<std::string, std::string>>{{"\u0080", "\\u0080"},
+                                                                                      {"\u009b", "\\u009b"},
+                                                                                      {"\u200b", "\\u200b"},
+                                                                                      {"\u2028", "\\u2028"},
+                                                                                      {"\u202e", "\\u202e"},
+                                                                                      {"\u2066", "\\u2066"},
+                                                                                      {"\ufeff", "\\ufeff"},
+                                                                                      {"\x7f", "\\u007f"}}) {
+    const std::string message = "mesh=a" + tricky + "b";
+    EXPECT_TRUE(line(LogForm::text, message).ends_with("mesh=a" + shown + "b\n")) << shown;
+    const std::string json = line(LogForm::json, message);
+    EXPECT_NE(json.find("a" + shown + "b"), std::string::npos) << json;
+    EXPECT_EQ(parse_json(json)["message"], message);
+  }
+  EXPECT_TRUE(line(LogForm::text, "\x9bK caf\xe9 \u00e9 \u5b57").ends_with("\\x9bK caf\\xe9 \u00e9 \u5b57\n"));
+}
+
 }  // namespace
 }  // namespace sculpt
