@@ -1,11 +1,14 @@
 // A cell as blobs: what `robot: {"cell": {"blob": HASH}}` of a job refers to (proto/PROTOCOL.md, job.submit).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 
 namespace sculpt {
+
+inline constexpr std::uint64_t max_cell_bundle_bytes = 8u << 20;  ///< of the bundle's own JSON
 
 struct CellBundle {
   std::string name;

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "core/base/sha256.hpp"
@@ -171,15 +170,20 @@ std::string Blobs::add(std::string_view bytes) {
   return sha256;
 }
 
-std::string Blobs::read(const std::string& sha256, const std::string& pointer) const {
-  use(sha256);
-  std::ifstream in(place(sha256), std::ios::binary);
-  if (!in) {
+std::uint64_t Blobs::size(const std::string& sha256, const std::string& pointer) const {
+  const BlobState blob = use(sha256);
+  if (!blob.complete) {
     throw ProtocolError("blob_missing",
                         "the blob " + sha256 + " is not (completely) uploaded: send it with blob.put first", pointer);
   }
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) throw StorageError("cannot read the blob " + sha256);
+  return blob.have;
+}
+
+std::string Blobs::read(const std::string& sha256, const std::string& pointer) const {
+  std::string bytes(size(sha256, pointer), '\0');
+  std::ifstream in(place(sha256), std::ios::binary);
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    throw StorageError("cannot read the blob " + sha256);
   return bytes;
 }
 

@@ -35,7 +35,8 @@ class Blobs {
   void remove_unused(const std::set<std::string>& needed, std::chrono::seconds age);
   /// Stores content made here and returns its hash.
   std::string add(std::string_view bytes);
-  /// Throws ProtocolError `blob_missing` with `pointer`.
+  // Both throw ProtocolError `blob_missing` with `pointer`; the blob counts as used now.
+  std::uint64_t size(const std::string& sha256, const std::string& pointer) const;
   std::string read(const std::string& sha256, const std::string& pointer) const;
 
  private:

@@ -15,6 +15,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "server/confinement.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -61,8 +63,9 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::stri
   const SpawnFiles files(ends[1]);
   std::string name = program, option = argument;
   std::array<char*, 3> arguments{name.data(), option.data(), nullptr};
-  const int error =
-      ::posix_spawn(&process_, name.c_str(), &files.actions, &attributes.attributes, arguments.data(), environ);
+  char* nothing = nullptr;
+  const int error = ::posix_spawn(&process_, name.c_str(), &files.actions, &attributes.attributes, arguments.data(),
+                                  under_sanitizer ? environ : &nothing);
   ::close(ends[1]);
   if (error != 0) {
     ::close(socket_);

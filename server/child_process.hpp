@@ -15,7 +15,8 @@ namespace sculpt {
 /// Belongs to one thread, which must live as long as the child. The destructor kills and reaps.
 class ChildProcess {
  public:
-  /// The child inherits standard error and no other file. Throws std::system_error.
+  /// The child inherits standard error, no other file and no environment (but for a sanitizer's options). Throws
+  /// std::system_error.
   ChildProcess(const std::filesystem::path& program, const std::string& argument);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;

@@ -31,7 +31,7 @@ struct Config {
   std::uint64_t keep_bytes = 20ull << 30;                  ///< of all finished jobs; the oldest go first
   int max_jobs = 100'000;                                  ///< that have not ended
   int max_jobs_per_owner = 10'000;
-  bool isolate = false;                             ///< run every job in a process of its own, not only suspects
+  bool isolate = true;                              ///< run every job in a process of its own, not only suspects
   std::chrono::milliseconds retry_backoff{10000};   ///< before the second try of a job that failed for a passing reason
   std::filesystem::path worker = "/proc/self/exe";  ///< the program that runs a job with --run-job; not a setting
   std::uint64_t reply_limit_bytes = 32u << 20;   ///< unsent bytes of one connection; above it the connection is closed

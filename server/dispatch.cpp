@@ -107,23 +107,27 @@ void answer(const Call& call, Json result) {
   call.session->answer(call.id, {std::move(result), std::nullopt});
 }
 
+void answer_with(Services& services, std::shared_ptr<Call> call, const std::function<Answer()>& work) {
+  std::variant<Answer, Json> outcome;
+  try {
+    outcome = work();
+  } catch (...) {
+    outcome = current_error();
+  }
+  // Moved, so that the last owner of a session is always the I/O thread.
+  net::post(services.io, [waiting = std::move(call), outcome = std::move(outcome)] {
+    if (const Answer* answer = std::get_if<Answer>(&outcome)) {
+      waiting->session->answer(waiting->id, *answer);
+    } else {
+      waiting->session->refuse(waiting->id, std::get<Json>(outcome));
+    }
+  });
+}
+
 void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work) {
   auto shared = std::make_shared<Call>(std::move(call));
-  queue.add([&services, shared = std::move(shared), work = std::move(work)](std::stop_token stop) mutable {
-    std::variant<Answer, Json> outcome;
-    try {
-      outcome = work(std::move(stop));
-    } catch (...) {
-      outcome = current_error();
-    }
-    // Moved, so that the last owner of a session is always the I/O thread.
-    net::post(services.io, [waiting = std::move(shared), outcome = std::move(outcome)] {
-      if (const Answer* answer = std::get_if<Answer>(&outcome)) {
-        waiting->session->answer(waiting->id, *answer);
-      } else {
-        waiting->session->refuse(waiting->id, std::get<Json>(outcome));
-      }
-    });
+  queue.add([&services, shared = std::move(shared), work = std::move(work)](const std::stop_token& stop) mutable {
+    answer_with(services, std::move(shared), [&] { return work(stop); });
   });
 }
 

@@ -1,6 +1,7 @@
 #include "server/isolated_run.hpp"
 
 #include <signal.h>
+#include <sysexits.h>
 
 #include <cstdio>
 #include <iostream>
@@ -17,6 +18,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_every{50};
 constexpr std::chrono::milliseconds tell_every{100};
+constexpr std::size_t longest_line = 1 << 20;
+const std::string failed_sync = "exit code " + std::to_string(EX_IOERR);
 
 Json to_json(const Ending& ending) {
   Json artifacts = Json::array();
@@ -51,11 +54,12 @@ Json to_json(const Progress& progress) {
           doubts.ambiguous_at_mm};
 }
 
+// What a process says that has read strangers' files is not believed either.
 Progress read_progress(const Json& json) {
-  return {static_cast<Stage>(json.at(0).get<int>()),
-          json.at(1),
-          json.at(2),
-          {json.at(3), json.at(4), json.at(5), json.at(6)}};
+  const int stage = json.at(0);
+  if (stage < 0 || stage > static_cast<int>(Stage::write))
+    throw CrashError("the process that planned it speaks of a stage that is none");
+  return {static_cast<Stage>(stage), json.at(1), json.at(2), {json.at(3), json.at(4), json.at(5), json.at(6)}};
 }
 
 // What a child has said.
@@ -72,6 +76,7 @@ struct Conversation {
       if (line.contains("ending")) ending = read_ending(line["ending"]);
       if (line.contains("let_go")) let_go = true;
     }
+    if (unread.size() > longest_line) throw CrashError("the process that planned it says things that make no sense");
   }
 };
 
@@ -97,9 +102,16 @@ class Stopper {
   Clock::time_point kill_at_ = Clock::time_point::max();
 };
 
+// Nobody knows what of its files is on disk: none of them may be gone on from.
+[[noreturn]] void start_over_after_failed_sync(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  throw StorageError("the disk failed to sync the files of the run, which starts over: check the disk");
+}
+
 Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watch& watch) {
   ChildProcess child(isolation.worker, run_job_option);
-  child.send(describe({job.spec, job.cell_bundle, job.id}, isolation));
+  child.send(describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s}, isolation));
   Conversation heard;
   Stopper stopper(watch.stop, isolation.cancel_grace);
   for (bool open = true; open;) {
@@ -111,6 +123,7 @@ Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watc
   }
   const std::string end = child.wait();
   if (heard.ending) return std::move(*heard.ending);
+  if (end == failed_sync) start_over_after_failed_sync(isolation.jobs / job.id);
   remove_drafts_in(isolation.jobs / job.id);
   if (heard.let_go || stopper.asked()) throw Cancelled{};
   throw CrashError("the process that planned it ended with " + (end.empty() ? "exit code 0 and no result" : end));
@@ -176,13 +189,15 @@ RunJob make_isolated_run(Isolation isolation) {
 }
 
 int run_isolated_job(const Planner& planner) {
-  const DescribedJob described = take_description(std::cin);
-  const Blobs blobs(described.blobs, 0);
   Voice voice;
-  const Watch watch{stop_on_signal(), [&voice](const Progress& progress) { voice.tell(progress); }};
+  const std::optional<DescribedJob> described = take_description(std::cin);
+  if (!described) return EXIT_FAILURE;
   std::optional<Ending> ending;
   try {
-    ending = make_run_job(planner, blobs, described.jobs, described.defaults)(described.job, watch);
+    prepare_job_folder(described->folder());
+    const Job job = load_and_confine(*described, FolderUse::write);
+    const Watch watch{stop_on_signal(), [&voice](const Progress& progress) { voice.tell(progress); }};
+    ending = run_in_folder(described->job, job, described->folder(), planner, watch);
   } catch (...) {
     ending = caught_ending();
   }

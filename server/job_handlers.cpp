@@ -1,5 +1,5 @@
 #include "server/handlers.hpp"
-#include "server/job_run.hpp"
+#include "server/isolated_replay.hpp"
 #include "server/job_view.hpp"
 #include "server/session.hpp"
 
@@ -11,8 +11,7 @@ constexpr std::size_t room_for_envelope = 200;
 
 Answer replay(Services& services, const JobRecord& job, const std::stop_token& stop) {
   services.artifacts.check_whole(job, "trajectory");
-  const Job planned = to_job(read_stored_spec(job), job.cell_bundle, services.blobs, services.defaults);
-  const Replay replay = services.planner.verify(planned, services.artifacts.trajectory(job.id), Watch{stop, {}});
+  const Replay replay = replay_in_child({job.spec, job.cell_bundle, job.id}, services.isolation, stop);
   Json findings = Json::array();
   for (const Finding& finding : replay.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});

@@ -34,18 +34,6 @@ std::string finished_report(const JobRecord& job, const Ending& ending, const st
   return write_json(report);
 }
 
-// An earlier run's checkpoints and trajectory stay, to go on from; not what was made of its result, and no links.
-void prepare_folder(const fs::path& folder) {
-  if (fs::is_symlink(fs::symlink_status(folder))) fs::remove(folder);
-  fs::create_directories(folder);
-  std::vector<fs::path> stale;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string kind = entry.path().extension();
-    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".seal") stale.push_back(entry.path());
-  }
-  for (const fs::path& file : stale) fs::remove(file);
-}
-
 Ending judged(const PlanFiles& files) {
   if (files.clean) return {JobState::succeeded, {}, {}, {}};
   return {JobState::failed,
@@ -55,8 +43,10 @@ Ending judged(const PlanFiles& files) {
           {}};
 }
 
-Ending run(const JobRecord& record, const Job& job, const fs::path& folder, const Planner& planner,
-           const Watch& watch) {
+}  // namespace
+
+Ending run_in_folder(const JobRecord& record, const Job& job, const fs::path& folder, const Planner& planner,
+                     const Watch& watch) {
   const fs::path trajectory = folder / "trajectory.ndjson";
   const PlanFiles files = planner.run(job, trajectory, watch);
   crash_point(CrashPoint::trajectory_planned);
@@ -66,7 +56,6 @@ Ending run(const JobRecord& record, const Job& job, const fs::path& folder, cons
   write_durably(folder / "report.json", finished_report(record, ending, files.report_json));
   sync_to_disk(trajectory);
   sync_to_disk(folder);
-  sync_to_disk(folder.parent_path());
   crash_point(CrashPoint::artifacts_synced);
   ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
@@ -75,7 +64,17 @@ Ending run(const JobRecord& record, const Job& job, const fs::path& folder, cons
   return ending;
 }
 
-}  // namespace
+void prepare_job_folder(const fs::path& folder) {
+  if (fs::is_symlink(fs::symlink_status(folder))) fs::remove(folder);
+  fs::create_directories(folder);
+  std::vector<fs::path> stale;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string kind = entry.path().extension();
+    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".seal") stale.push_back(entry.path());
+  }
+  for (const fs::path& file : stale) fs::remove(file);
+  sync_to_disk(folder.parent_path());
+}
 
 JobSpec read_stored_spec(const JobRecord& job) {
   try {
@@ -89,8 +88,9 @@ JobSpec read_stored_spec(const JobRecord& job) {
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
   return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
     const fs::path folder = jobs / record.id;
-    prepare_folder(folder);
-    return run(record, to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults), folder, planner, watch);
+    prepare_job_folder(folder);
+    const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
+    return run_in_folder(record, job, folder, planner, watch);
   };
 }
 

@@ -15,6 +15,7 @@
 #include "server/data_folder.hpp"
 #include "server/folder_command.hpp"
 #include "server/isolated_check.hpp"
+#include "server/isolated_replay.hpp"
 #include "server/isolated_run.hpp"
 #include "server/job_store.hpp"
 #include "server/listener.hpp"
@@ -130,6 +131,7 @@ int main(int argc, char** argv) {
   const std::string_view mode = argc == 2 ? argv[1] : "";
   if (mode == run_job_option) return run_isolated_job(make_planner({}));
   if (mode == check_job_option) return run_isolated_check(make_planner({}));
+  if (mode == replay_job_option) return run_isolated_replay(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.

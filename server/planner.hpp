@@ -33,7 +33,7 @@ struct Planner {
   std::function<CellFiles(const std::string& name)> read_cell;
   std::function<void(const Job&, const Watch&)> check;
   /// Bytes that a job needs.
-  std::function<std::uint64_t(const Job&)> predict_memory;
+  std::function<std::uint64_t(const JobSizes&)> predict_memory;
   /// Goes on where a run of the job with the same trajectory file was stopped or killed. Leaves its checkpoints beside
   /// the trajectory.
   std::function<PlanFiles(const Job&, const std::filesystem::path& trajectory, const Watch&)> run;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <thread>
 
+#include "server/confinement.hpp"
 #include "server/counters.hpp"
 #include "server/crash_point.hpp"
 #include "server/data_folder.hpp"
@@ -30,6 +31,7 @@ namespace {
 constexpr std::chrono::milliseconds tick_time{250};
 constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
+constexpr int least_checks_at_once = 4;
 
 int cores() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -66,6 +68,14 @@ RunJob choose_run(RunJob here, RunJob isolated) {
   };
 }
 
+void log_confinement() {
+  const std::vector<std::string> missing = missing_confinement();
+  if (missing.empty()) return;
+  spdlog::warn(
+      "the system refuses parts of what confines the processes that read clients' files: {}; see docs/server.md",
+      fmt::join(missing, ", "));
+}
+
 // For the service manager's status line.
 std::string queue_sentence(JobStore& store) try {
   const auto counts = store.counts();
@@ -98,6 +108,7 @@ struct Server::Impl {
         store(open_store(folder, store_rules(config))),
         blobs(folder.blobs(), config.blob_limit_bytes),
         artifacts(folder.jobs(), *store, planner),
+        passed(config.data / "checked"),
         isolation{config.worker, blobs.folder(), folder.jobs(), job_defaults(config)},
         scheduler(*store,
                   with_stage_times(choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
@@ -174,8 +185,8 @@ struct Server::Impl {
   net::io_context io{1};
   Blobs blobs;
   Artifacts artifacts;
+  PassedChecks passed;
   Isolation isolation;
-  KnownFiles known_files;
   Counters counters;
   Scheduler scheduler;
   Streams streams;
@@ -183,7 +194,8 @@ struct Server::Impl {
   Retention retention;
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, probes{Pace::prompt};
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt};
+  CheckDesk checks{std::max(least_checks_at_once, cores())};
   TaskQueue replays{Pace::background}, exports{Pace::background};
   Services services{io,
                     config,
@@ -200,11 +212,11 @@ struct Server::Impl {
                     connections,
                     disk,
                     admission,
-                    probes,
+                    checks,
                     replays,
                     exports,
                     isolation,
-                    known_files,
+                    passed,
                     counters,
                     std::chrono::steady_clock::now()};
   Listener listener;
@@ -228,6 +240,7 @@ std::uint16_t Server::port() const {
 }
 
 void Server::run() {
+  log_confinement();
   impl_->scheduler.start(impl_->services.workers);
   impl_->listener.start();
   if (impl_->unix_listener) impl_->unix_listener->start();
@@ -237,8 +250,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->probes, &impl_->replays, &impl_->exports})
-    queue->stop();
+  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports}) queue->stop();
+  impl_->checks.stop();
 }
 
 void Server::stop() {

@@ -5,12 +5,14 @@
 
 #include "server/artifacts.hpp"
 #include "server/blobs.hpp"
+#include "server/check_desk.hpp"
 #include "server/config.hpp"
 #include "server/connection.hpp"
 #include "server/counters.hpp"
-#include "server/isolated_check.hpp"
+#include "server/job_description.hpp"
 #include "server/job_store.hpp"
 #include "server/net.hpp"
+#include "server/passed_checks.hpp"
 #include "server/planner.hpp"
 #include "server/scheduler.hpp"
 #include "server/streams.hpp"
@@ -35,12 +37,12 @@ struct Services {
   Access& access;            // I/O thread only
   Connections& connections;  // I/O thread only
   TaskQueue& disk;           ///< chunks in and out
-  TaskQueue& admission;      ///< checks of submitted jobs
-  TaskQueue& probes;         ///< the same, of those with files that nobody has read yet
+  TaskQueue& admission;      ///< of submitted jobs, but for what takes long
+  CheckDesk& checks;         ///< that: the check of those that are not known to pass it
   TaskQueue& replays;        ///< job.verify
   TaskQueue& exports;        ///< csv and binary trajectories
   const Isolation& isolation;
-  KnownFiles& known_files;
+  PassedChecks& passed;
   Counters& counters;
   std::chrono::steady_clock::time_point started;
 

@@ -194,7 +194,7 @@ const std::vector<Setting>& settings() {
       integer("max_jobs_per_owner", &Config::max_jobs_per_owner, 1, max_open_jobs, at_start,
               "that have not ended, of one token, certificate or user"),
       flag("isolate", &Config::isolate, at_start,
-           "run every job in a process of its own, not only those that are suspected"),
+           "every job runs in a confined process of its own; false: in the daemon, unless it is suspected"),
       seconds("retry_backoff_s", &Config::retry_backoff, at_start,
               "before the second try of a job that failed for a reason that may pass; doubled for the third"),
       bytes("reply_limit_bytes", &Config::reply_limit_bytes, at_reload,

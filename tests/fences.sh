@@ -49,6 +49,7 @@ forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/po
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
   "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.
 forbid "no header of core names fcl::, ompl::, octomap:: or ai..." '\b(fcl|ompl|octomap|urdf)::|\bai(Scene|Mesh|Node|Vector3D)\b' "\.cpp$|$(door "($fcl_headers)\.hpp")" -- core

@@ -36,6 +36,7 @@ expect_breach core/plan/plan.cpp '#include <nlohmann/json.hpp>'
 expect_breach core/trajectory/trajectory.hpp '#include <nlohmann/json.hpp>'
 expect_breach core/collision/scene.hpp 'std::unique_ptr<fcl::CollisionObjectd> object_;'
 expect_breach core/motion/transit.cpp '#include "core/collision/fcl_shape.hpp"'
+expect_breach server/confinement.cpp '#include <seccomp.h>'
 expect_breach server/jobs.cpp '#include "core/verify/solid_body.hpp"'
 printf '#include "core/base/error.hpp"\n' >"$tree/core/plan/plan.cpp"
 "$here/fences.sh" "$tree"

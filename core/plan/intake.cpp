@@ -15,6 +15,8 @@ namespace {
 constexpr int smallest_resolution = 8, largest_resolution = 1024;
 /// Per voxel: bit sets of stock, keep and standing material, their pyramid of counts, and the search's own marks.
 constexpr double bytes_a_voxel = 1.6;
+/// Of a cell's files: read, loaded as the densest kind of mesh (.obj), and made shapes of.
+constexpr std::uint64_t memory_a_cell_byte = 14;
 constexpr int coarse_resolution = 32;
 constexpr int reach_seeds = 24;
 
@@ -25,17 +27,12 @@ void check_resolution(int n) {
         "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");
 }
 
-std::string mib(double bytes) {
-  return std::to_string(static_cast<std::uint64_t>(bytes / (1 << 20)) + 1) + " MiB";
+std::string mib(std::uint64_t bytes) {
+  return std::to_string((bytes >> 20) + 1) + " MiB";
 }
 
-void check_memory(const Job& job) {
-  const auto bytes = static_cast<double>(predict_memory(job));
-  if (bytes > static_cast<double>(job.memory_cap_bytes))
-    throw InputError("memory_cap",
-                     "the job needs about " + mib(bytes) + ", over the cap of " +
-                         mib(static_cast<double>(job.memory_cap_bytes)) +
-                         ": use a mesh with fewer triangles, a smaller resolution, or raise the memory cap");
+std::uint64_t predict_file_memory(const JobSizes::File& file) {
+  return file.extension == "binvox" ? file.bytes : predict_mesh_memory(file.bytes, file.extension);
 }
 
 VoxelSet read_voxels(const MeshFile& file, int n) {
@@ -116,19 +113,33 @@ Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid) {
   return doubts;
 }
 
-std::uint64_t predict_memory(const Job& job) {
-  const double n = job.resolution;
-  const auto voxels = static_cast<std::uint64_t>(bytes_a_voxel * n * n * n);
-  return voxels + (job.mesh.extension == "binvox" ? 0 : predict_mesh_memory(job.mesh.bytes.size(), job.mesh.extension));
+JobSizes sizes_of(const Job& job) {
+  JobSizes sizes{job.resolution, {job.mesh.bytes.size(), job.mesh.extension}, {}, job.cell.cell_json.size()};
+  if (job.stock.mesh) sizes.stock = {job.stock.mesh->bytes.size(), job.stock.mesh->extension};
+  for (const auto& [name, bytes] : job.cell.files) sizes.cell_bytes += bytes.size();
+  return sizes;
+}
+
+std::uint64_t predict_memory(const JobSizes& sizes) {
+  const double n = sizes.resolution;
+  return static_cast<std::uint64_t>(bytes_a_voxel * n * n * n) + memory_a_cell_byte * sizes.cell_bytes +
+         predict_file_memory(sizes.mesh) + (sizes.stock ? predict_file_memory(*sizes.stock) : 0);
+}
+
+void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes) {
+  check_resolution(sizes.resolution);
+  if (const std::uint64_t bytes = predict_memory(sizes); bytes > memory_cap_bytes)
+    throw InputError("memory_cap", "the job needs about " + mib(bytes) + ", over the cap of " + mib(memory_cap_bytes) +
+                                       ": use a mesh (or a cell with meshes) of fewer triangles, a smaller "
+                                       "resolution, or raise the memory cap");
 }
 
 void check_job(const Job& job, const Watch& watch) {
-  check_resolution(job.resolution);
+  check_sizes(sizes_of(job), job.memory_cap_bytes);
   if (job.search != "octree" && job.search != "voxel" && job.search != "sweep")
     throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree, sweep or voxel");
   if (job.threads < 1)
     throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
-  check_memory(job);
   const Cell cell = parse_cell(job.cell);
   const Grid grid = cell.grid(job.resolution);
   make_tool(cell.tool, grid.voxel_m, grid.n);
@@ -136,10 +147,9 @@ void check_job(const Job& job, const Watch& watch) {
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");
   check_reach(cell, grid);
-  Job coarse = job;
-  if (job.mesh.extension != "binvox" && !(job.stock.mesh && job.stock.mesh->extension == "binvox"))
-    coarse.resolution = std::min(job.resolution, coarse_resolution);
-  make_voxels(coarse, cell.grid(coarse.resolution), watch);
+  const bool given_as_voxels =
+      job.mesh.extension == "binvox" || (job.stock.mesh && job.stock.mesh->extension == "binvox");
+  make_voxels(job, cell.grid(given_as_voxels ? job.resolution : std::min(job.resolution, coarse_resolution)), watch);
 }
 
 }  // namespace sculpt

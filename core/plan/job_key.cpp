@@ -34,7 +34,7 @@ class Key {
   Sha256 hash_;
 };
 
-std::string program_hash() {
+std::string hash_program() {
   std::ifstream in("/proc/self/exe", std::ios::binary);
   Sha256 hash;
   std::vector<char> buffer(1 << 20);
@@ -45,10 +45,14 @@ std::string program_hash() {
 
 }  // namespace
 
+const std::string& program_hash() {
+  static const std::string hash = hash_program();
+  return hash;
+}
+
 std::string job_key(const Job& job) {
-  static const std::string program = program_hash();
   Key key;
-  key.add(program);
+  key.add(program_hash());
   key.add(job.mesh);
   key.add(job.cell.name);
   key.add(job.cell.cell_json);

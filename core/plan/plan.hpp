@@ -92,8 +92,25 @@ struct JobResult {
   std::vector<Residue> residue;
 };
 
-/// What the job is expected to need at most, meshes and voxels together.
-std::uint64_t predict_memory(const Job& job);
+/// What can be known of a job before its files are read.
+struct JobSizes {
+  struct File {
+    std::uint64_t bytes = 0;
+    std::string extension;
+  };
+  int resolution = 0;
+  File mesh;
+  std::optional<File> stock;
+  std::uint64_t cell_bytes = 0;  ///< of all files of the cell
+};
+JobSizes sizes_of(const Job& job);
+
+/// Bytes of memory that the job is expected to need at most: its files, what reading makes of them, and voxels. Throws
+/// InputError `mesh_unreadable` for a kind of mesh that is not known.
+std::uint64_t predict_memory(const JobSizes& sizes);
+
+/// Throws InputError for what can be refused by that alone: `resolution_invalid`, `memory_cap`.
+void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes);
 
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
 /// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual

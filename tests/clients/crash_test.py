@@ -128,13 +128,13 @@ class Crash(ClientTest):
 
 
 class Poison(ClientTest):
-    """A job that ran when its daemon was killed runs in a process of its own from then on."""
+    """Where jobs run in the daemon: one that ran when it was killed runs in a process of its own from then on."""
 
     def setUp(self):
         super().setUp()
         self.data = self.scratch / "data"
         mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
-        daemon = Daemon(self.data, "--workers", "2")
+        daemon = Daemon(self.data, "--workers", "2", "--isolate", "false")
         self.server = daemon.address
         self.job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable", "--search", "octree").strip()
         self.wait_for("running", 1)
@@ -157,7 +157,7 @@ class Poison(ClientTest):
                     return found
 
     def test_its_second_crash_puts_it_into_quarantine_and_the_daemon_lives_on(self):
-        with Daemon(self.data, "--workers", "2") as daemon:
+        with Daemon(self.data, "--workers", "2", "--isolate", "false") as daemon:
             self.server = daemon.address
             os.kill(self.worker(daemon), signal.SIGKILL)
             data = self.wait_for("quarantined", 2)
@@ -174,14 +174,14 @@ class Poison(ClientTest):
 
     def test_a_daemon_that_is_killed_takes_the_process_with_it_and_the_job_is_not_blamed(self):
         for attempt in range(2, 5):
-            daemon = Daemon(self.data, "--workers", "2")
+            daemon = Daemon(self.data, "--workers", "2", "--isolate", "false")
             self.server = daemon.address
             worker = self.worker(daemon)
             self.wait_for("running", attempt)
             daemon.kill()
             while parent_of(worker) is not None:
                 pass
-        with Daemon(self.data) as daemon:
+        with Daemon(self.data, "--isolate", "false") as daemon:
             self.server = daemon.address
             self.worker(daemon)
             self.wait_for("running", 5)

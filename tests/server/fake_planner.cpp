@@ -1,7 +1,11 @@
 #include "tests/server/fake_planner.hpp"
 
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -25,6 +29,30 @@ void Gate::pass(std::stop_token stop) {
   if (!opened_.wait(lock, std::move(stop), [this] { return open_; })) throw Cancelled{};
 }
 
+namespace {
+
+// What a run gets hold of that is none of its business.
+std::string spy(const std::filesystem::path& trajectory) {
+  const std::filesystem::path data = trajectory.parent_path().parent_path().parent_path();
+  std::string found;
+  if (std::ifstream(data / "tokens.json")) found += " tokens";
+  if (std::ofstream(data / "jobs" / "new")) found += " other folders";
+  std::error_code refused;
+  const std::filesystem::directory_iterator blobs(data / "blobs", refused);
+  if (!refused) found += " blobs";
+  if (::environ != nullptr && *::environ != nullptr) found += " the environment";
+  if (::socket(AF_INET, SOCK_STREAM, 0) >= 0) found += " the network";
+  if (::kill(::getppid(), 0) == 0) found += " the daemon";
+  struct stat own {
+  }, other{};
+  ::stat(trajectory.c_str(), &own);
+  for (int file = STDERR_FILENO + 1; file < 64; ++file)
+    if (::fstat(file, &other) == 0 && S_ISREG(other.st_mode) && other.st_ino != own.st_ino) found += " an open file";
+  return found.empty() ? "nothing" : found;
+}
+
+}  // namespace
+
 PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
   ++runs;
   const std::string& wish = job.mesh.bytes;
@@ -34,11 +62,12 @@ PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajecto
   watch.step(Stage::plan, 1, 2);
   if (wish == "hold") gate.pass(watch.stop);
   if (wish == "fails") throw InputError("no_transit", "there is no way");
+  if (wish == "spies") throw InputError("spied", spy(trajectory));
   if (wish == "throws") throw std::runtime_error("a fault");
   if (wish == "no memory") throw std::bad_alloc();
   if (wish == "segfault") {
-    std::signal(SIGSEGV, SIG_DFL);  // a sanitizer would make an exit code of it
-    std::raise(SIGSEGV);
+    ::signal(SIGSEGV, SIG_DFL);  // a sanitizer would make an exit code of it
+    ::raise(SIGSEGV);
   }
   if (wish == "abort") std::abort();
   if (wish == "exit") std::_Exit(0);
@@ -72,7 +101,7 @@ Planner FakePlanner::planner() {
     if (job.mesh.bytes == "has no end") std::this_thread::sleep_for(std::chrono::hours(24));
     if (job.mesh.bytes == "bad input") throw InputError("mesh_unreadable", "the file is no mesh");
   };
-  planner.predict_memory = [](const Job& job) { return job.mesh.bytes.size(); };
+  planner.predict_memory = [](const JobSizes& sizes) { return sizes.mesh.bytes; };
   planner.run = [this](const Job& job, const std::filesystem::path& path, const Watch& watch) {
     return run(job, path, watch);
   };

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "core/base/sha256.hpp"
 #include "tests/server/live_server.hpp"
 
 namespace sculpt {
@@ -34,27 +37,48 @@ TEST(IsolatedCheck, WhatTheCheckSaysIsWhatTheClientHears) {
 TEST(IsolatedCheck, OneWhoseReaderHasNoEndDoesNotKeepOthersWaiting) {
   LiveServer server;
   Client client = server.connect(), other = server.connect();
-  submit(client, "plain");
   std::jthread hung([&] { EXPECT_THROW(submit(other, "has no end"), std::runtime_error); });  // when the server stops
   EXPECT_EQ(final_state(client, submit(client, "plain")), "succeeded");
+  EXPECT_EQ(final_state(client, submit(client, "big")), "succeeded");
   server.stop();
 }
 
-TEST(KnownFiles, AreThoseOfMeshStockAndUploadedCell) {
-  KnownFiles known;
-  JobSpec spec;
-  spec.mesh = {"a", "a.stl"};
-  EXPECT_FALSE(known.has(spec));
-  known.add(spec);
-  spec.resolution = 512;
-  EXPECT_TRUE(known.has(spec));
-  for (const auto& change : std::vector<std::function<void(JobSpec&)>>{
-           [](JobSpec& other) { other.mesh.sha256 = "b"; }, [](JobSpec& other) { other.mesh.name = "a.ply"; },
-           [](JobSpec& other) { other.stock_mesh = other.mesh; }, [](JobSpec& other) { other.cell_bundle = "c"; }}) {
-    JobSpec other = spec;
-    change(other);
-    EXPECT_FALSE(known.has(other));
+TEST(IsolatedCheck, WhatPassedOnceIsNotReadAgainAlsoByTheNextDaemon) {
+  LiveServer server;
+  {
+    Client client = server.connect();
+    submit(client, "plain");
   }
+  server.restart([](Config& config) { config.worker = "/nowhere/sculptd"; });
+  Client client = server.connect();
+  EXPECT_EQ(final_state(client, submit(client, "plain")), "succeeded");
+  EXPECT_EQ(refused(client, "new"), "internal_error") << "it is read in a process, and there can be none";
+}
+
+// A file that nobody could read into memory, and that takes no room on the disk.
+std::string huge_blob(const LiveServer& server, const std::string& content) {
+  const std::string sha256 = sha256_hex(content);
+  const std::filesystem::path file = server.data() / "blobs" / sha256.substr(0, 2) / sha256;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << content;
+  std::filesystem::resize_file(file, 1ull << 40);
+  return sha256;
+}
+
+TEST(IsolatedCheck, AMeshIsRefusedByItsSizeBeforeItIsRead) {
+  LiveServer server;
+  Client client = server.connect();
+  const Json mesh{{"blob", huge_blob(server, "mesh")}, {"name", "huge.stl"}};
+  EXPECT_EQ(refusal(client, "job.submit", {{"spec", {{"mesh", mesh}, {"robot", "gantry"}, {"resolution", 8}}}}),
+            "memory_cap");
+}
+
+TEST(IsolatedCheck, ACellBundleIsRefusedByItsSizeBeforeItIsRead) {
+  LiveServer server;
+  Client client = server.connect();
+  Json spec = make_spec(client, "plain");
+  spec["robot"] = {{"cell", {{"blob", huge_blob(server, "bundle")}}}};
+  EXPECT_EQ(refusal(client, "job.submit", {{"spec", spec}}), "too_large");
 }
 
 }  // namespace

@@ -6,6 +6,10 @@
 #include <mutex>
 
 #include "server/blobs.hpp"
+#include "server/child_process.hpp"
+#include "server/confinement.hpp"
+#include "server/isolated_check.hpp"
+#include "server/isolated_replay.hpp"
 #include "server/job_run.hpp"
 #include "tests/server/fake_planner.hpp"
 #include "tests/server/live_server.hpp"
@@ -94,6 +98,50 @@ TEST_F(IsolatedRunTest, AStopIsHeardAndTheDeafAreKilled) {
                       }};
     EXPECT_THROW(run(wish, watch), Cancelled) << wish;
   }
+}
+
+// A process that somebody has taken over can say and do what it likes.
+TEST_F(IsolatedRunTest, AProcessThatTalksNonsenseIsACrash) {
+  const auto run_script = [&](const std::string& line) {
+    const std::filesystem::path script = folder.path() / "worker";
+    std::ofstream(script) << "#!/bin/sh\ncat >/dev/null\n" << line << "\n";
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    make_isolated_run({script, blobs.folder(), folder.path() / "jobs", {}})(job("plain"), {});
+  };
+  EXPECT_THROW(run_script("echo '{\"progress\":[77,0,0,0]}'"), CrashError);
+  EXPECT_THROW(run_script("echo '{\"progress\":[-1,0,0,0]}'"), CrashError);
+  EXPECT_THROW(run_script("head -c 3000000 /dev/zero; sleep 1000"), CrashError);
+  EXPECT_THROW(run_script("echo no JSON"), std::runtime_error);
+}
+
+TEST_F(IsolatedRunTest, AfterASyncThatFailedTheRunStartsOver) {
+  const std::filesystem::path script = folder.path() / "worker", files = folder.path() / "jobs" / "JOB";
+  std::ofstream(script) << "#!/bin/sh\ncat >/dev/null\nexit 74\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  std::filesystem::create_directories(files);
+  std::ofstream(files / "checkpoint-0") << "lines that may not be on disk";
+  EXPECT_THROW(make_isolated_run({script, blobs.folder(), folder.path() / "jobs", {}})(job("plain"), {}), StorageError);
+  EXPECT_FALSE(std::filesystem::exists(files));
+}
+
+// Some died of an exception in their hands.
+TEST_F(IsolatedRunTest, AProcessWhoseParentIsGoneEndsInOrder) {
+  for (const char* option : {run_job_option, check_job_option, replay_job_option}) {
+    for (const std::string said : {"", "{\"daemon\":1"}) {
+      ChildProcess child(FAKE_WORKER, option);
+      child.send(said);
+      EXPECT_EQ(child.wait(), "exit code 1") << option << " after '" << said << "'";
+    }
+  }
+}
+
+TEST_F(IsolatedRunTest, AProcessReachesNothingButTheFilesOfItsJob) {
+  const std::vector<std::string> missing = missing_confinement();
+  if (under_sanitizer || !missing.empty()) GTEST_SKIP() << "the system does not offer all that confines a process";
+  std::ofstream(folder.path() / "tokens.json") << "{}";
+  ASSERT_EQ(::setenv("SCULPT_TOKEN", "secret", 1), 0);
+  EXPECT_EQ(run("spies").error_sentence, "nothing");
+  ::unsetenv("SCULPT_TOKEN");
 }
 
 TEST_F(IsolatedRunTest, AProgramThatIsNotThereIsSaidSo) {

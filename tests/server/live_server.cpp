@@ -10,6 +10,7 @@ LiveServer::LiveServer(const std::function<void(Config&)>& change) {
   config_.workers = 2;
   config_.data = folder_.path();
   config_.worker = FAKE_WORKER;
+  config_.isolate = false;  // so that `fake` plans
   if (change) change(config_);
   start();
 }
@@ -26,8 +27,9 @@ void LiveServer::stop() {
   server_.reset();
 }
 
-void LiveServer::restart() {
+void LiveServer::restart(const std::function<void(Config&)>& change) {
   stop();
+  if (change) change(config_);
   start();
 }
 

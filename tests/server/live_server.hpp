@@ -26,7 +26,7 @@ class LiveServer {
   const std::filesystem::path& data() const { return folder_.path(); }
   void stop();
   /// The same data folder under a new server.
-  void restart();
+  void restart(const std::function<void(Config&)>& change = {});
 
  private:
   void start();

@@ -27,15 +27,15 @@ struct Quiet {
   Blobs blobs{data.blobs(), config.blob_limit_bytes};
   Artifacts artifacts{data.jobs(), *store, planner};
   Isolation isolation;
-  KnownFiles known_files;
+  PassedChecks passed{folder.path() / "checked"};
   Counters counters;
   Scheduler scheduler{*store, {}, {}};
   Streams streams{*store, scheduler};
   Waits waits{io, *store};
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, probes{Pace::prompt}, replays{Pace::prompt},
-      exports{Pace::prompt};
+  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, replays{Pace::prompt}, exports{Pace::prompt};
+  CheckDesk checks{2};
   Services services{io,          config,
                     planner,     {},
                     2,           *store,
@@ -43,9 +43,9 @@ struct Quiet {
                     scheduler,   streams,
                     waits,       access,
                     connections, disk,
-                    admission,   probes,
+                    admission,   checks,
                     replays,     exports,
-                    isolation,   known_files,
+                    isolation,   passed,
                     counters,    std::chrono::steady_clock::now()};
 };
 

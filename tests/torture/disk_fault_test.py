@@ -21,7 +21,7 @@ def faulty_daemon(data, **fault):
     before = dict(os.environ)
     os.environ.update(settings)
     try:
-        daemon = kit.Daemon(data, "--workers", "1")
+        daemon = kit.Daemon(data, "--workers", "1", "--isolate", "false")  # a process of its own would get no such library
     finally:
         os.environ.clear()
         os.environ.update(before)

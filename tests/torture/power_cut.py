@@ -26,7 +26,7 @@ def run_with_cut(data, session, cut_at, tear, lies=False):
     before = dict(os.environ)
     os.environ.update(fault)
     try:
-        daemon = kit.Daemon(data, "--workers", "2")
+        daemon = kit.Daemon(data, "--workers", "2", "--isolate", "false")
     except AssertionError:
         daemon = None  # the power was cut before it could say where it listens
     finally:

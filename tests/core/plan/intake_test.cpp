@@ -75,6 +75,40 @@ TEST(Intake, RefusesAMeshThatWouldNotFitInMemoryBeforeReadingIt) {
   expect_refused(job, "memory_cap", "cap");
 }
 
+// Files of the stock and of the cell count like the mesh.
+TEST(Intake, RefusesBySizesAlone) {
+  const std::uint64_t cap = 100 << 20;
+  const auto refused = [&](const JobSizes& sizes) -> std::string {
+    try {
+      check_sizes(sizes, cap);
+      return "accepted";
+    } catch (const InputError& error) {
+      return error.code();
+    }
+  };
+  const JobSizes small{64, {1 << 20, "stl"}, JobSizes::File{1 << 20, "obj"}, 1 << 20};
+  EXPECT_EQ(refused(small), "accepted");
+  JobSizes sizes = small;
+  sizes.resolution = 24;
+  EXPECT_EQ(refused(sizes), "resolution_invalid");
+  sizes.resolution = 512;
+  EXPECT_EQ(refused(sizes), "memory_cap");
+  sizes = small;
+  sizes.mesh = {600u << 20, "stl"};
+  EXPECT_EQ(refused(sizes), "memory_cap");
+  sizes.mesh.extension = "binvox";
+  EXPECT_EQ(refused(sizes), "memory_cap");
+  sizes = small;
+  sizes.stock->bytes = 20 << 20;
+  EXPECT_EQ(refused(sizes), "memory_cap");
+  sizes = small;
+  sizes.cell_bytes = 1000ull * (20 << 20);
+  EXPECT_EQ(refused(sizes), "memory_cap");
+  sizes = small;
+  sizes.mesh.extension = "doc";
+  EXPECT_EQ(refused(sizes), "mesh_unreadable");
+}
+
 TEST(Intake, RefusesAToolThatDoesNotFitAVoxel) {
   Job job = make_job(shipped_cell("gantry"), random_target(16, 1));
   job.cell.cell_json = with(job.cell.cell_json, "\"ball_radius_voxels\": 0.45", "\"ball_radius_m\": 0.0063");
