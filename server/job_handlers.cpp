@@ -15,11 +15,15 @@ Answer replay(Services& services, const JobRecord& job, const std::stop_token& s
   Json findings = Json::array();
   for (const Finding& finding : replay.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});
+  Json exempt = Json::array();
+  for (const ExemptPair& pair : replay.exempt_pairs)
+    exempt.push_back({{"links", {pair.first, pair.second}}, {"why", pair.why}});
   return {{{"job", job.id},
            {"clean", replay.clean},
            {"collisions", replay.collisions},
            {"voxels_checked", replay.voxels_checked},
-           {"findings", std::move(findings)}},
+           {"findings", std::move(findings)},
+           {"exempt_pairs", std::move(exempt)}},
           std::nullopt};
 }
 

@@ -40,7 +40,8 @@ Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
   if (!in) throw InputError("trajectory_invalid", "the stored trajectory of the job cannot be read");
   Verdict verdict = verify_trajectory(in, cell, voxels, watch, job.threads);
-  return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings)};
+  return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings),
+          std::move(verdict.exempt_pairs)};
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Replay {
   bool clean = false;
   std::uint64_t collisions = 0, voxels_checked = 0;
   std::vector<Finding> findings;
+  std::vector<ExemptPair> exempt_pairs;
 };
 
 /// All throw InputError, and Cancelled where they take a watch; all are called from several threads at once.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -33,6 +34,17 @@ struct VerifyOptions {
   PlacementOptions placement;
 };
 
+/// A line for each reason.
+void print_exempt(const Json& pairs) {
+  std::map<std::string, std::string> links;
+  for (const Json& pair : pairs) {
+    std::string& list = links[pair.at("why").get<std::string>()];
+    list += (list.empty() ? "" : ", ") + pair.at("links").at(0).get<std::string>() + " and " +
+            pair.at("links").at(1).get<std::string>();
+  }
+  for (const auto& [why, list] : links) std::cout << "  may touch (" << why << "): " << list << "\n";
+}
+
 int print_verdict(const VerifyOptions& options, const Json& verdict) {
   if (options.json) {
     std::cout << write_json(verdict) << "\n";
@@ -42,6 +54,7 @@ int print_verdict(const VerifyOptions& options, const Json& verdict) {
               << " voxels checked, " << verdict.at("collisions") << " findings\n";
     for (const Json& finding : verdict.value("findings", Json::array()))
       std::cout << "  line " << finding.at("line") << ": " << finding.at("sentence").get<std::string>() << "\n";
+    print_exempt(verdict.value("exempt_pairs", Json::array()));
   }
   return verdict.at("clean").get<bool>() ? exit_fine : exit_failed;
 }
@@ -50,9 +63,16 @@ Json to_json(const VerifyOptions& options, const Verdict& verdict) {
   Json findings = Json::array();
   for (const Finding& finding : verdict.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});
-  return {{"file", options.subject},          {"clean", verdict.clean},
-          {"collisions", verdict.collisions}, {"voxels_checked", verdict.voxels_checked},
-          {"freed", verdict.freed},           {"findings", findings}};
+  Json exempt = Json::array();
+  for (const ExemptPair& pair : verdict.exempt_pairs)
+    exempt.push_back({{"links", {pair.first, pair.second}}, {"why", pair.why}});
+  return {{"file", options.subject},
+          {"clean", verdict.clean},
+          {"collisions", verdict.collisions},
+          {"voxels_checked", verdict.voxels_checked},
+          {"freed", verdict.freed},
+          {"findings", findings},
+          {"exempt_pairs", exempt}};
 }
 
 /// A plan of a fine block is long: it is read from the file as it is needed.

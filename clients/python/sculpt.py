@@ -637,6 +637,8 @@ def run_verify(options):
               f"{verdict['collisions']} findings")
         for finding in verdict["findings"]:
             print(f"  line {finding['line']}: {finding['sentence']}")
+        for pair in verdict.get("exempt_pairs", []):
+            print(f"  may touch ({pair['why']}): {pair['links'][0]} and {pair['links'][1]}")
     return FINE if verdict["clean"] else FAILED
 
 

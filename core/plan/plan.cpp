@@ -171,7 +171,7 @@ void replay(Report& report, const std::filesystem::path& trajectory, const Cell&
     log.save_if_due();
   };
   const Verdict verdict = verify_trajectory(in, cell, voxels, watch, report.threads, log.now.replayed, note);
-  report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked};
+  report.verify = {verdict.clean, verdict.collisions, verdict.voxels_checked, verdict.exempt_pairs};
   report.voxels.freed = verdict.freed;
   for (const Finding& finding : verdict.findings)
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);

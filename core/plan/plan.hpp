@@ -12,6 +12,7 @@
 #include "core/material/placement.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/motion/residue.hpp"
+#include "core/verify/exempt_pair.hpp"
 
 namespace sculpt {
 
@@ -81,6 +82,7 @@ struct Report {
   struct {
     bool clean = false;
     std::uint64_t collisions = 0, voxels_checked = 0;
+    std::vector<ExemptPair> exempt_pairs;  ///< links with shapes that the replay lets touch
   } verify;
   std::vector<std::string> findings;  ///< first sentences of an unclean replay
 };

@@ -11,6 +11,9 @@ std::string report_json(const Report& report) {
   Json unchecked = Json::array();
   for (const auto& [first, second, why] : report.unchecked_links)
     unchecked.push_back({{"links", {first, second}}, {"why", why}});
+  Json exempt = Json::array();
+  for (const ExemptPair& pair : report.verify.exempt_pairs)
+    exempt.push_back({{"links", {pair.first, pair.second}}, {"why", pair.why}});
   const auto& v = report.voxels;
   const auto& p = report.path;
   const auto& q = report.quality;
@@ -61,7 +64,8 @@ std::string report_json(const Report& report) {
                    {{"clean", report.verify.clean},
                     {"collisions", report.verify.collisions},
                     {"voxels_checked", report.verify.voxels_checked},
-                    {"findings", report.findings}}}};
+                    {"findings", report.findings},
+                    {"exempt_pairs", exempt}}}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -141,6 +141,7 @@ TEST(Live, AnUncleanPlanIsAFailureThatCanBeLookedAt) {
   const Json verdict = client.call("job.verify", {{"job", job}});
   EXPECT_FALSE(verdict.at("clean"));
   EXPECT_EQ(verdict.at("findings")[0].at("line"), 2);
+  EXPECT_EQ(verdict.at("exempt_pairs"), parse_json(R"([{"links": ["base", "arm"], "why": "a bearing"}])"));
 }
 
 TEST(Live, ARepeatedSubmitGivesTheSameJob) {

@@ -10,6 +10,7 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
   report.mesh = "a \"quoted\" name\xff.stl";
   report.residue = {{Reason::tool_cannot_reach, 3}};
   report.unchecked_links = {{"fore", "nose", "ignore_pairs"}};
+  report.verify.exempt_pairs = {{"base", "arm", "a bearing"}};
   const std::string json = report_json(report);
   EXPECT_EQ(json.find('\n'), std::string::npos);
   for (const char* field : {"\"mesh\":",
@@ -39,7 +40,8 @@ TEST(Report, IsOneLineWithTheFieldsThatChecksRelyOn) {
                             "\"plan_sha256\":",
                             "\"verify\":{\"clean\":false",
                             "\"collisions\":",
-                            "\"voxels_checked\":"})
+                            "\"voxels_checked\":",
+                            "\"exempt_pairs\":[{\"links\":[\"base\",\"arm\"],\"why\":\"a bearing\"}]"})
     EXPECT_NE(json.find(field), std::string::npos) << field << "\n" << json;
 }
 
