@@ -8,15 +8,20 @@ namespace {
 Json to_json(const Replay& replay) {
   Json findings = Json::array();
   for (const Finding& finding : replay.findings) findings.push_back({finding.line, finding.sentence});
+  Json exempt = Json::array();
+  for (const ExemptPair& pair : replay.exempt_pairs) exempt.push_back({pair.first, pair.second, pair.why});
   return {{"clean", replay.clean},
           {"collisions", replay.collisions},
           {"voxels_checked", replay.voxels_checked},
-          {"findings", std::move(findings)}};
+          {"findings", std::move(findings)},
+          {"exempt_pairs", std::move(exempt)}};
 }
 
 Replay read_replay(const Json& said) {
-  Replay replay{said.at("clean"), said.at("collisions"), said.at("voxels_checked"), {}};
+  Replay replay{said.at("clean"), said.at("collisions"), said.at("voxels_checked"), {}, {}};
   for (const Json& finding : said.at("findings")) replay.findings.push_back({finding.at(0), finding.at(1)});
+  for (const Json& pair : said.at("exempt_pairs"))
+    replay.exempt_pairs.push_back({pair.at(0), pair.at(1), pair.at(2)});
   return replay;
 }
 
