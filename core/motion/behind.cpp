@@ -83,10 +83,46 @@ class Behind {
   VoxelSet standing_;
 };
 
+/// Behind for a robot that only shifts its tool: what no air is beside waits for what is beside it.
+void find_shut_in(std::vector<Residue>& residue, const Scene& scene) {
+  const VoxelSet& solid = scene.material().solid();
+  const Grid bounds{solid.n(), 1, Vec3::Zero()};
+  const auto residue_at = [&](Voxel v) {
+    return std::lower_bound(residue.begin(), residue.end(), v,
+                            [&](const Residue& left, Voxel at) { return comes_before(solid, left.voxel, at); });
+  };
+  VoxelSet shut_in(solid.n());
+  for (const Residue& left : residue) {
+    const bool open = std::any_of(face_steps.begin(), face_steps.end(), [&](Voxel step) {
+      const Voxel beside = left.voxel + step;
+      return beside.k >= 0 && !(bounds.contains(beside) && solid.contains(beside));
+    });
+    if (left.reason == Reason::no_transit && !open) shut_in.insert(left.voxel);
+  }
+  for (const auto& [reason, behind_it] : in_the_way) {
+    std::vector<Voxel> next;
+    for (const Residue& left : residue)
+      if (left.reason == reason && !shut_in.contains(left.voxel)) next.push_back(left.voxel);
+    while (!next.empty()) {
+      const Voxel here = next.back();
+      next.pop_back();
+      for (const Voxel step : face_steps) {
+        const Voxel beside = here + step;
+        if (!bounds.contains(beside) || !shut_in.contains(beside)) continue;
+        shut_in.erase(beside);
+        residue_at(beside)->reason = behind_it;
+        next.push_back(beside);
+      }
+    }
+  }
+  for_each_voxel(shut_in, [&](Voxel v) { residue_at(v)->reason = Reason::tool_cannot_reach; });
+}
+
 }  // namespace
 
 void find_behind(std::vector<Residue>& residue, const Scene& scene, const ToolRoom& room, const Helpers& helpers,
                  const Watch& watch) {
+  if (scene.chain().translating()) return find_shut_in(residue, scene);
   const VoxelSet& solid = scene.material().solid();
   std::vector<Voxel> wanted;
   for (const Residue& left : residue)

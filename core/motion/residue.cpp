@@ -35,7 +35,24 @@ Reason explain_axis(const Scene& scene, const ToolRoom& room, Voxel voxel, const
   return farthest;
 }
 
+/// Of a robot that only shifts its tool, and so comes to every voxel in one way.
+Reason explain_shifted(const Scene& scene, const Support& support, Voxel voxel, const Configuration& middle) {
+  const IkGoal goal{scene.grid().centre(voxel), {}};
+  const auto q = solve_ik(scene.chain(), goal, middle);
+  if (!q) {
+    IkSettings beyond_limits;
+    beyond_limits.respect_limits = false;
+    return solve_ik(scene.chain(), goal, middle, beyond_limits) ? Reason::joint_limits : Reason::out_of_reach;
+  }
+  const Contact contact = scene.contact_at(*q, voxel);
+  if (contact == Contact::tool_material) return Reason::tool_cannot_reach;
+  if (contact != Contact::none) return Reason::link_collision;
+  return support.frees(voxel) ? Reason::loose_piece : Reason::no_transit;
+}
+
 Reason explain(const Scene& scene, const Support& support, const ToolRoom& room, Voxel voxel, std::uint64_t seed) {
+  if (scene.chain().translating())
+    return explain_shifted(scene, support, voxel, (scene.chain().lower() + scene.chain().upper()) / 2);
   Random random(mix(seed, scene.material().solid().index(voxel)));
   std::vector<Configuration> seeds;
   for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
