@@ -88,6 +88,7 @@ JobSpec read_job_spec(Fields fields) {
   if (fields.has("search")) spec.search = fields.text("search", max_name_bytes);
   if (fields.has("seed")) spec.seed = fields.count("seed");
   if (fields.has("threads")) spec.threads = static_cast<int>(fields.integer("threads", 1, max_threads));
+  if (fields.has("allow_freed")) spec.allow_freed = fields.flag("allow_freed");
   if (fields.has("placement")) spec.placement = read_placement(fields.object("placement"));
   if (fields.has("stock")) read_stock(fields.object("stock"), spec);
   fields.done();
@@ -102,6 +103,7 @@ Json to_json(const JobSpec& spec) {
   if (spec.search) json["search"] = *spec.search;
   if (spec.seed != 0) json["seed"] = spec.seed;
   if (spec.threads) json["threads"] = *spec.threads;
+  if (spec.allow_freed) json["allow_freed"] = true;
   if (Json placement = to_json(spec.placement); !placement.empty()) json["placement"] = std::move(placement);
   if (spec.stock_box) {
     json["stock"] = Json{{"box", {{"min_m", spec.stock_box->min_m}, {"max_m", spec.stock_box->max_m}}}};

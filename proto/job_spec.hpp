@@ -35,6 +35,7 @@ struct JobSpec {
   std::optional<std::string> search;
   std::uint64_t seed = 0;
   std::optional<int> threads;
+  bool allow_freed = false;
   PlacementSpec placement;
   std::optional<BoxSpec> stock_box;
   std::optional<BlobRef> stock_mesh;

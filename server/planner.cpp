@@ -1,8 +1,8 @@
 #include "server/planner.hpp"
 
 #include <fstream>
-#include <set>
 
+#include "core/cell/shipped_cells.hpp"
 #include "core/material/binvox.hpp"
 #include "core/trajectory/export.hpp"
 
@@ -10,17 +10,6 @@ namespace sculpt {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> cell_names(const std::vector<fs::path>& folders) {
-  std::set<std::string> names;
-  for (const fs::path& folder : folders) {
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
-    }
-  }
-  return {names.begin(), names.end()};
-}
 
 PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
   const JobResult result = resume_job(job, trajectory, {trajectory.parent_path()}, watch);

@@ -78,6 +78,7 @@ Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blo
   if (spec.search) job.search = *spec.search;
   job.seed = spec.seed;
   job.threads = spec.threads.value_or(defaults.threads);
+  job.allow_freed = spec.allow_freed;
   job.placement.scale_m = spec.placement.scale_m;
   job.placement.rotation_rad = to_vector(spec.placement.rotation_rad);
   job.placement.offset_m = to_vector(spec.placement.offset_m);

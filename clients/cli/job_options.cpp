@@ -96,6 +96,8 @@ void add_job_options(CLI::App& command, JobOptions& options) {
       ->type_name("K")
       ->check(seed_number)
       ->capture_default_str();
+  command.add_flag("--allow-freed", options.allow_freed,
+                   "Let pieces come loose while a translating robot carves; arms never do");
   add_placement_options(command, options.placement);
 }
 
@@ -146,6 +148,7 @@ Job read_job(const JobOptions& options) {
   job.resolution = options.resolution;
   if (!options.search.empty()) job.search = options.search;
   job.seed = options.seed;
+  job.allow_freed = options.allow_freed;
   job.placement = to_placement(options.placement);
   job.memory_cap_bytes = options.placement.memory_cap_bytes;
   return job;

@@ -27,13 +27,14 @@ struct JobOptions {
   int resolution = 0;
   std::string search;  ///< empty: the default of whoever plans
   std::uint64_t seed = 0;
+  bool allow_freed = false;
   PlacementOptions placement;
 };
 
 void add_placement_options(CLI::App& command, PlacementOptions& options);
 /// For what is planned in this process: a server has its own cap.
 void add_memory_cap(CLI::App& command, std::uint64_t& bytes);
-/// MESH, --resolution, --robot, --search, --seed and the placement.
+/// MESH, --resolution, --robot, --search, --seed, --allow-freed and the placement.
 void add_job_options(CLI::App& command, JobOptions& options);
 
 Placement to_placement(const PlacementOptions& options);

@@ -10,7 +10,12 @@ namespace sculpt {
 
 namespace {
 
-constexpr int bar_cells = 12;
+/// How the columns share a line.
+struct Layout {
+  int mesh, resolution, bar;
+};
+constexpr Layout wide{20, 5, 12}, narrow{13, 4, 0};
+constexpr int wide_columns = 103;  ///< that the wide layout takes; the narrow one takes 80
 
 bool stands_still(const Json& job) {
   return !job.contains("progress");
@@ -22,24 +27,34 @@ std::string text(const Json& object, const char* field) {
   return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-std::string progress_text(const Json& job) {
+std::string progress_text(const Json& job, int bar_cells) {
   if (stands_still(job)) return "";
   const Json& progress = job["progress"];
   const auto done = progress.value("done", std::uint64_t{0}), total = progress.value("total", std::uint64_t{0});
   const int share = total == 0 ? 0 : static_cast<int>(100 * std::min(done, total) / total);
-  const int full = share * bar_cells / 100;
-  char line[96];
-  std::snprintf(line, sizeof line, "[%s%s] %3d%% %.16s", std::string(full, '#').c_str(),
-                std::string(bar_cells - full, '.').c_str(), share, text(progress, "stage").c_str());
+  std::string bar;
+  if (bar_cells > 0) {
+    const int full = share * bar_cells / 100;
+    bar = "[" + std::string(static_cast<std::size_t>(full), '#') +
+          std::string(static_cast<std::size_t>(bar_cells - full), '.') + "] ";
+  }
+  char line[64];
+  std::snprintf(line, sizeof line, "%3d%% %.8s", share, text(progress, "stage").c_str());
+  return bar + line;
+}
+
+std::string line_of(const Layout& layout, const std::string& job, const std::string& state, const std::string& priority,
+                    const std::string& mesh, const std::string& resolution, const std::string& progress) {
+  char line[512];
+  std::snprintf(line, sizeof line, "%-26.26s  %-10.10s  %4.4s  %-*.*s  %*.*s  %s", job.c_str(), state.c_str(),
+                priority.c_str(), layout.mesh, layout.mesh, mesh.c_str(), layout.resolution, layout.resolution,
+                resolution.c_str(), progress.c_str());
   return line;
 }
 
-std::string job_line(const Json& job) {
-  char line[512];
-  std::snprintf(line, sizeof line, "%-26.26s  %-10.10s  %4.4s  %-20.20s  %5.5s  %s", text(job, "job").c_str(),
-                text(job, "state").c_str(), text(job, "priority").c_str(), text(job, "mesh").c_str(),
-                text(job, "resolution").c_str(), progress_text(job).c_str());
-  return line;
+std::string job_line(const Json& job, const Layout& layout) {
+  return line_of(layout, text(job, "job"), text(job, "state"), text(job, "priority"), text(job, "mesh"),
+                 text(job, "resolution"), progress_text(job, layout.bar));
 }
 
 std::string uptime_text(std::uint64_t seconds) {
@@ -50,14 +65,33 @@ std::string uptime_text(std::uint64_t seconds) {
   return text;
 }
 
-std::vector<std::string> head_lines(const Json& server) {
-  std::string counts;
-  for (const auto& [state, count] : server.at("jobs").items())
-    if (count != 0) counts += (counts.empty() ? "" : ", ") + count.dump() + " " + state;
-  return {text(server, "server") + ", up " + uptime_text(server.at("uptime_s")) + ", " + text(server, "workers") +
-              " workers",
-          "jobs: " + (counts.empty() ? "none" : counts), "",
-          "JOB                         STATE        PRIO  MESH                      N  PROGRESS"};
+/// The counts of all states, on as many lines as they take.
+std::vector<std::string> count_lines(const Json& counts, int columns) {
+  std::vector<std::string> lines{"jobs: "};
+  for (const auto& [state, count] : counts.items()) {
+    if (count == 0) continue;
+    const std::string word = count.dump() + " " + state;
+    const bool first = lines.back() == "jobs: ";
+    if (!first) lines.back() += ",";
+    const bool fits = columns <= 0 || lines.back().size() + 1 + word.size() + 1 <= static_cast<std::size_t>(columns);
+    if (first)
+      lines.back() += word;
+    else if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back("      " + word);
+  }
+  if (lines.back() == "jobs: ") lines.back() += "none";
+  return lines;
+}
+
+std::vector<std::string> head_lines(const Json& server, const Layout& layout, int columns) {
+  std::vector<std::string> lines{text(server, "server") + ", up " + uptime_text(server.at("uptime_s")) + ", " +
+                                 text(server, "workers") + " workers"};
+  for (std::string& line : count_lines(server.at("jobs"), columns)) lines.push_back(std::move(line));
+  lines.emplace_back();
+  lines.push_back(line_of(layout, "JOB", "STATE", "PRIO", "MESH", "N", "PROGRESS"));
+  return lines;
 }
 
 }  // namespace
@@ -101,8 +135,9 @@ Json read_queue(Client& client, OpenJobs& jobs) {
 }
 
 std::string queue_text(const Json& queue, int columns, int rows) {
-  std::vector<std::string> lines = head_lines(queue.at("server"));
-  for (const Json& job : queue.at("jobs")) lines.push_back(job_line(job));
+  const Layout& layout = columns > 0 && columns < wide_columns ? narrow : wide;
+  std::vector<std::string> lines = head_lines(queue.at("server"), layout, columns);
+  for (const Json& job : queue.at("jobs")) lines.push_back(job_line(job, layout));
   if (rows > 0 && lines.size() > static_cast<std::size_t>(rows)) {
     const std::size_t left_out = lines.size() - static_cast<std::size_t>(rows) + 1;
     lines.resize(static_cast<std::size_t>(rows) - 1);

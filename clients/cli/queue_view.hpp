@@ -26,8 +26,8 @@ class OpenJobs {
 /// {"server": result of server.info, "jobs": the open ones}
 Json read_queue(Client& client, OpenJobs& jobs);
 
-/// Plain lines, none longer than `columns`; at most `rows` of them, of which the last says how many jobs are left out.
-/// 0: no bound.
+/// Plain lines, none longer than `columns`, with nothing cut off from 80 on; at most `rows` of them, of which the last
+/// says how many jobs are left out. 0: no bound.
 std::string queue_text(const Json& queue, int columns, int rows);
 
 }  // namespace sculpt

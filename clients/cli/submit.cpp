@@ -66,6 +66,7 @@ Json make_spec(Client& client, const JobOptions& options, const Inputs& inputs) 
   spec["resolution"] = options.resolution;
   if (!options.search.empty()) spec["search"] = options.search;
   spec["seed"] = options.seed;
+  if (options.allow_freed) spec["allow_freed"] = true;
   spec["placement"] = placement_of(options.placement);
   if (inputs.stock.box)
     spec["stock"]["box"] = {{"min_m", triple(inputs.stock.box->min_m)}, {"max_m", triple(inputs.stock.box->max_m)}};

@@ -506,6 +506,8 @@ def run_submit(options):
                 "robot": client.upload_cell(options.robot) if is_path else options.robot}
         if options.search:
             spec["search"] = options.search
+        if options.allow_freed:
+            spec["allow_freed"] = True
         spec["placement"] = {"rotation_rad": [math.radians(degrees) for degrees in options.rotate],
                              "offset_m": options.offset, "margin_m": options.margin}
         if options.scale is not None:
@@ -784,6 +786,7 @@ def add_submit_options(submit):
     submit.add_argument("--robot", required=True, metavar="CELL", help="name of a cell on the server, or a cell file here")
     submit.add_argument("--search", metavar="NAME", help="the planner; default is the server's")
     submit.add_argument("--seed", type=int, default=0, metavar="K")
+    submit.add_argument("--allow-freed", action="store_true", help="let pieces come loose while a translating robot carves")
     submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
     submit.add_argument("--not-before", metavar="TIME", help="hold it until then, UTC: 2026-01-31T12:00:00Z")
     submit.add_argument("--start-by", metavar="TIME", help="let it expire if it has not started by then")

@@ -1,6 +1,7 @@
 #include "core/cell/shipped_cells.hpp"
 
 #include <cstdlib>
+#include <set>
 
 namespace sculpt {
 
@@ -13,6 +14,16 @@ std::vector<std::filesystem::path> shipped_cell_folders() {
       for (const char* place : {"config/cells", "share/sculptd/cells"})
         if (fs::is_directory(at / place, failed)) return {at / place};
   return {};
+}
+
+std::vector<std::string> cell_names(const std::vector<std::filesystem::path>& folders) {
+  std::set<std::string> names;
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+  }
+  return {names.begin(), names.end()};
 }
 
 }  // namespace sculpt

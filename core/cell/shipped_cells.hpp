@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace sculpt {
@@ -10,5 +11,8 @@ namespace sculpt {
 /// in a folder above this program (source tree or installed) or above the working folder; none if there is no such
 /// folder.
 std::vector<std::filesystem::path> shipped_cell_folders();
+
+/// The names of the cells in these folders, sorted.
+std::vector<std::string> cell_names(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace sculpt

@@ -1,64 +1,76 @@
 #include "core/motion/gantry.hpp"
 
-#include <string>
-
 #include "core/base/error.hpp"
 #include "core/motion/line.hpp"
+#include "core/motion/transit.hpp"
 
 namespace sculpt {
 namespace {
 
-int sign(int x) {
-  return (x > 0) - (x < 0);
-}
+/// Of the search for a way in, where the straight one is not free.
+constexpr int most_iterations = 2000;
+constexpr double longest_edge_m = 0.1;
 
 Voxel direction(Voxel from, Voxel to) {
+  const auto sign = [](int x) { return (x > 0) - (x < 0); };
   return {sign(to.i - from.i), sign(to.j - from.j), sign(to.k - from.k)};
-}
-
-std::string text(Voxel v) {
-  return "(" + std::to_string(v.i) + ", " + std::to_string(v.j) + ", " + std::to_string(v.k) + ")";
 }
 
 }  // namespace
 
-Gantry::Gantry(Scene& scene, const Configuration& home, Voxel entry, Emit emit, std::uint64_t known)
-    : scene_(scene), home_(home), q_(home), at_(entry), emit_(std::move(emit)), known_(known) {}
+Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit,
+               std::vector<Refusal>& refusals, std::uint64_t known, std::function<void()> caught_up)
+    : scene_(scene),
+      home_(home),
+      q_(home),
+      seed_(seed),
+      stop_(std::move(stop)),
+      emit_(std::move(emit)),
+      refusals_(refusals),
+      known_(known),
+      caught_up_(std::move(caught_up)) {}
 
-Contact Gantry::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
-  return known_ > 0 ? Contact::none : scene_.certify(from, to, exempt);
+bool Gantry::is_free(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
+  return emitted_ < known_ || scene_.certify(from, to, exempt) == Contact::none;
+}
+
+const Refusal* Gantry::known_refusal() const {
+  const bool is_next = refused_ < refusals_.size() && refusals_[refused_].keyframes == emitted_;
+  return is_next ? &refusals_[refused_] : nullptr;
+}
+
+Refusal Gantry::note_refusal(Voxel from, Voxel to) {
+  const Refusal refusal{emitted_, from, to};
+  if (refused_ == refusals_.size()) refusals_.push_back(refusal);
+  ++refused_;
+  return refusal;
 }
 
 void Gantry::emit(const Keyframe& keyframe) {
-  if (known_ == 0) return emit_(keyframe);
-  --known_;
+  if (++emitted_ > known_) return emit_(keyframe);
+  if (emitted_ == known_) caught_up_();
 }
 
-Configuration Gantry::configuration_at(Voxel voxel) const {
-  const auto q = solve_rounded(scene_.chain(), {scene_.grid().centre(voxel), {}}, q_);
-  if (!q)
-    throw InputError("stock_out_of_reach",
-                     "the joints do not reach voxel " + text(voxel) +
-                         " (one beside the stock counts): widen the joint limits of the cell or move the stock");
-  return *q;
+std::optional<Configuration> Gantry::configuration_at(Voxel voxel) const {
+  return solve_rounded(scene_.chain(), {scene_.grid().centre(voxel), {}}, q_);
 }
 
 void Gantry::move(const Configuration& q) {
-  if (certify(q_, q) != Contact::none)
-    throw InputError("no_transit", "a straight travel near voxel " + text(at_) +
-                                       " is not free of the room: keep one voxel around the stock clear of fixtures");
   emit({q, false, {}, {}});
   q_ = q;
 }
 
+void Gantry::enter() {
+  const auto q = configuration_at(at_);
+  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {most_iterations, longest_edge_m}).path;
+  if (stop_.stop_requested()) throw Cancelled{};
+  if (way_in_.empty()) throw note_refusal(at_, at_);
+  for (std::size_t stop = 1; stop < way_in_.size(); ++stop) move(way_in_[stop]);
+}
+
 void Gantry::follow(const VoxelRun& run) {
-  if (!entered_) move(configuration_at(at_));
-  entered_ = true;
-  if (!run.cut) {
-    move(configuration_at(run.last));
-    at_ = run.last;
-    return;
-  }
+  if (!entered()) enter();
+  if (!run.cut) return travel(run.last);
   const Voxel along = direction(run.first, run.last);
   if (run.first != run.last && at_ + along != run.first) {
     cut(run.first, run.first);
@@ -68,27 +80,59 @@ void Gantry::follow(const VoxelRun& run) {
   }
 }
 
+void Gantry::travel(Voxel to) {
+  if (const Refusal* known = known_refusal()) throw note_refusal(known->from, known->to);
+  const auto q = configuration_at(to);
+  if (!q || !is_free(q_, *q, {})) {
+    const Voxel along = direction(at_, to);
+    Voxel last = at_;
+    for (Configuration before = q_; last + along != to; last = last + along) {
+      const auto next = configuration_at(last + along);
+      if (!next || !is_free(before, *next, {})) break;
+      before = *next;
+    }
+    throw note_refusal(last, last + along);
+  }
+  move(*q);
+  at_ = to;
+}
+
+void Gantry::keep_cut(const Configuration& q, Voxel first, Voxel last) {
+  q_ = q;
+  at_ = last;
+  emit({q, true, first, last});
+}
+
 void Gantry::cut(Voxel first, Voxel last) {
-  const Configuration from = q_, to = configuration_at(last), step = to - from;
+  const Refusal* known = known_refusal();
+  const Configuration from = q_;
+  const auto to = configuration_at(last);
+  const Configuration step = to.value_or(from) - from;
   const Voxel along = direction(at_, first);
   const int count = l1(first, last) + 1;
   for (int m = 1; m <= count; ++m) {
-    const Voxel voxel = first + along * (m - 1);
+    const Voxel voxel = first + along * (m - 1), before = voxel - along;
     const Configuration here = from + step * (static_cast<double>(m - 1) / count);
-    const Configuration there = m == count ? to : from + step * (static_cast<double>(m) / count);
-    if (certify(here, there, voxel) != Contact::none)
-      throw InputError("no_transit",
-                       "voxel " + text(voxel) +
-                           " cannot be cut without touching the room: check the floor and fixtures of the cell");
+    const Configuration there = m == count && to ? *to : from + step * (static_cast<double>(m) / count);
+    if (!to || (known != nullptr && known->to == voxel) || !is_free(here, there, voxel)) {
+      const Refusal refusal = note_refusal(before, voxel);
+      // Rounding moves what was certified until here by less than the margins.
+      if (m > 1) keep_cut(configuration_at(before).value(), first, before);
+      throw refusal;
+    }
     scene_.remove(voxel);
   }
-  q_ = to;
-  at_ = last;
-  emit({q_, true, first, last});
+  keep_cut(*to, first, last);
 }
 
 void Gantry::go_home() {
-  if (q_ != home_) move(home_);
+  if (q_ == home_) return;
+  if (scene_.certify(q_, home_) == Contact::none) return move(home_);
+  // What was free is free: the way that it came by, backwards.
+  if (q_ != way_in_.back() && scene_.certify(q_, way_in_.back()) != Contact::none)
+    throw InputError("no_transit", "the robot finds no way home from where it came in: choose a home above the stock");
+  if (q_ != way_in_.back()) move(way_in_.back());
+  for (std::size_t stop = way_in_.size() - 1; stop-- > 0;) move(way_in_[stop]);
 }
 
 }  // namespace sculpt

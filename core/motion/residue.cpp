@@ -5,10 +5,9 @@
 
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
-#include "core/collision/clearance.hpp"
-#include "core/collision/margins.hpp"
 #include "core/material/cavities.hpp"
 #include "core/material/support.hpp"
+#include "core/motion/behind.hpp"
 #include "core/motion/random_configuration.hpp"
 #include "core/motion/tool_axes.hpp"
 
@@ -17,37 +16,11 @@ namespace {
 
 constexpr int seeds_an_axis = 8;
 
-/// What of the tool's link is round about the tool's axis: its holder, wherever the joints turn it.
-std::vector<Body> find_holder(const Chain& chain) {
-  std::vector<Body> holder;
-  for (const Shape& shape : chain.robot().links[static_cast<std::size_t>(chain.tool_link())].shapes) {
-    if (shape.kind != ShapeKind::cylinder || !shape.pose.linear().isIdentity() ||
-        !shape.pose.translation().head<2>().isZero())
-      continue;
-    const Vec3 half(0, 0, shape.length_m / 2);
-    const Capsule hull{{shape.pose * Vec3(-half), shape.pose * half}, shape.radius_m};
-    holder.push_back({chain.tool_link(), true, {{shape, hull}}, hull});
-  }
-  return holder;
-}
-
-/// Ball, shank and holder with the ball at the voxel's centre; robot and spindle do not count.
-bool tool_fits(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, const Vec3& axis) {
-  const Vec3 ball = scene.grid().centre(voxel);
-  if (!scene.tool_fits({ball, axis}, voxel)) return false;
-  Frame link = Frame::Identity();
-  link.translation() = ball + scene.tool().stickout_m * axis;
-  link.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axis).toRotationMatrix();
-  return std::none_of(holder.begin(), holder.end(), [&](const Body& section) {
-    return near_material(section, link, scene.material(), scene.grid(), link_margin_m);
-  });
-}
-
 /// The farthest that a tool axis gets at this voxel, from these starting points of IK.
-Reason explain_axis(const Scene& scene, const std::vector<Body>& holder, Voxel voxel, const Vec3& axis,
+Reason explain_axis(const Scene& scene, const ToolRoom& room, Voxel voxel, const Vec3& axis,
                     const std::vector<Configuration>& seeds) {
   const Vec3 ball = scene.grid().centre(voxel);
-  if (!tool_fits(scene, holder, voxel, axis)) return Reason::tool_cannot_reach;
+  if (!room.is_free(scene.material(), voxel, axis)) return Reason::tool_cannot_reach;
   Reason farthest = Reason::out_of_reach;
   for (const Configuration& seed : seeds) {
     if (const auto q = solve_ik(scene.chain(), {ball, axis}, seed)) {
@@ -62,13 +35,29 @@ Reason explain_axis(const Scene& scene, const std::vector<Body>& holder, Voxel v
   return farthest;
 }
 
-Reason explain(const Scene& scene, const Support& support, const std::vector<Body>& holder, Voxel voxel,
-               std::uint64_t seed) {
+/// Of a robot that only shifts its tool, and so comes to every voxel in one way.
+Reason explain_shifted(const Scene& scene, const Support& support, Voxel voxel, const Configuration& middle) {
+  const IkGoal goal{scene.grid().centre(voxel), {}};
+  const auto q = solve_ik(scene.chain(), goal, middle);
+  if (!q) {
+    IkSettings beyond_limits;
+    beyond_limits.respect_limits = false;
+    return solve_ik(scene.chain(), goal, middle, beyond_limits) ? Reason::joint_limits : Reason::out_of_reach;
+  }
+  const Contact contact = scene.contact_at(*q, voxel);
+  if (contact == Contact::tool_material) return Reason::tool_cannot_reach;
+  if (contact != Contact::none) return Reason::link_collision;
+  return support.frees(voxel) ? Reason::loose_piece : Reason::no_transit;
+}
+
+Reason explain(const Scene& scene, const Support& support, const ToolRoom& room, Voxel voxel, std::uint64_t seed) {
+  if (scene.chain().translating())
+    return explain_shifted(scene, support, voxel, (scene.chain().lower() + scene.chain().upper()) / 2);
   Random random(mix(seed, scene.material().solid().index(voxel)));
   std::vector<Configuration> seeds;
   for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
   Reason farthest = Reason::tool_cannot_reach;
-  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, holder, voxel, axis, seeds));
+  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, room, voxel, axis, seeds));
   if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
   return farthest;
 }
@@ -91,6 +80,16 @@ const char* name(Reason reason) {
       return "no transit";
     case Reason::loose_piece:
       return "would free a loose piece";
+    case Reason::behind_out_of_reach:
+      return "behind voxels left for reach";
+    case Reason::behind_joint_limits:
+      return "behind voxels left for joint limits";
+    case Reason::behind_link_collision:
+      return "behind voxels left for link collision";
+    case Reason::behind_no_transit:
+      return "behind voxels left for no transit";
+    case Reason::behind_loose_piece:
+      return "behind voxels left for a loose piece";
   }
   return "unknown";
 }
@@ -99,7 +98,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
                                      std::uint64_t seed, const Helpers& helpers, const Watch& watch) {
   const VoxelSet enclosed = find_enclosed(voxels);
   const Support support(scene.material().solid(), may_fall);
-  const std::vector<Body> holder = find_holder(scene.chain());
+  const ToolRoom room(scene);
   std::vector<Residue> residue;
   const auto n = static_cast<std::size_t>(voxels.n());
   for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {
@@ -115,9 +114,10 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
     for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
       if (watch.stop.stop_requested()) throw Cancelled{};
       auto& [voxel, reason] = residue[at];
-      if (!enclosed.contains(voxel)) reason = explain(scene, support, holder, voxel, seed);
+      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, voxel, seed);
     }
   });
+  find_behind(residue, scene, room, helpers, watch);
   return residue;
 }
 

@@ -172,6 +172,19 @@ ArmMemory arm_of(const Json& json) {
   return arm;
 }
 
+Json to_json(const std::vector<Refusal>& refusals) {
+  Json json = Json::array();
+  for (const Refusal& each : refusals) json.push_back({each.keyframes, to_json(each.from), to_json(each.to)});
+  return json;
+}
+
+std::vector<Refusal> refusals_of(const Json& json) {
+  std::vector<Refusal> refusals;
+  for (const Json& each : json)
+    refusals.push_back({each.at(0).get<std::uint64_t>(), voxel_of(each.at(1)), voxel_of(each.at(2))});
+  return refusals;
+}
+
 Json to_json(const std::vector<Residue>& residue) {
   Json json = Json::array();
   for (const Residue& left : residue)
@@ -211,6 +224,7 @@ Checkpoint checkpoint_of(const Json& json) {
                         {},
                         trials_of(json.at("trials")),
                         arm_of(json.at("arm")),
+                        refusals_of(json.at("refusals")),
                         {},
                         replayed_of(json.at("replayed"))};
   if (json.contains("sweeping")) checkpoint.sweeping = sweeping_of(json.at("sweeping"));
@@ -228,6 +242,7 @@ std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key
             {"checks", checkpoint.checks},
             {"trials", to_json(checkpoint.trials)},
             {"arm", to_json(checkpoint.arm)},
+            {"refusals", to_json(checkpoint.refusals)},
             {"replayed", to_json(checkpoint.replayed)}};
   if (checkpoint.sweeping) json["sweeping"] = to_json(*checkpoint.sweeping);
   if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);

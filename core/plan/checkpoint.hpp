@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/motion/arm.hpp"
+#include "core/motion/gantry.hpp"
 #include "core/motion/residue.hpp"
 #include "core/search/block_order.hpp"
 #include "core/sweep/sweep_memory.hpp"
@@ -29,6 +30,7 @@ struct Checkpoint {
   std::optional<SweptMark> swept;               ///< from then on
   std::vector<BlockTrial> trials;               ///< of the outer search, in order: what came of them
   ArmMemory arm;                                ///< after the last trial
+  std::vector<Refusal> refusals;                ///< of a translating robot, in order: what it had to go around
   std::optional<std::vector<Residue>> residue;  ///< once the plan is finished
   ReplayedPieces replayed;                      ///< how far the replay of a finished plan is
 };

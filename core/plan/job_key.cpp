@@ -63,6 +63,7 @@ std::string job_key(const Job& job) {
   key.add(static_cast<std::uint64_t>(job.resolution));
   key.add(job.search);
   key.add(job.seed);
+  key.add(static_cast<std::uint64_t>(job.allow_freed));
   key.add(static_cast<std::uint64_t>(job.placement.scale_m.has_value()));
   key.add(std::bit_cast<std::uint64_t>(job.placement.scale_m.value_or(0)));
   key.add(job.placement.rotation_rad);

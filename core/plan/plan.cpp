@@ -10,7 +10,7 @@
 #include "core/material/loose_pieces.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
-#include "core/motion/gantry.hpp"
+#include "core/motion/gantry_carve.hpp"
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/job_key.hpp"
 #include "core/plan/run_log.hpp"
@@ -39,24 +39,21 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-void carve_with_gantry(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
-                       const Configuration& home, const std::string& search, RunLog& log, const Watch& watch) {
+/// Each keyframe is a unit. `may_fall`: null where any piece may.
+void carve_with_gantry(Scene& scene, const VoxelSet& keep, const VoxelSet* may_fall, const TrajectoryHeader& header,
+                       RunLog& log, const Watch& watch) {
   const auto emit = [&](const Keyframe& keyframe) {
     log.output.add(keyframe);
     if (!log.due()) return;
     log.note();
     log.save();
   };
-  Gantry gantry(scene, home, translating_entry(octree.n), emit, log.now.file.keyframes);
-  const auto follow = [&](const VoxelRun& run) { gantry.follow(run); };
+  Gantry gantry(scene, header.home, header.seed, watch.stop, emit, log.now.refusals, log.now.file.keyframes,
+                [&] { log.go_on(); });
   try {
-    if (search == "voxel")
-      carve_voxelwise(voxels, follow, watch);
-    else
-      carve_translating(voxels, octree, graph, follow, watch);
-    gantry.go_home();
+    carve_with_gantry(gantry, scene, keep, header.home, header.search, may_fall, watch);
   } catch (const Cancelled&) {
-    log.note();  // each keyframe is a unit
+    if (gantry.is_on_its_own()) log.note();
     throw;
   }
 }
@@ -120,6 +117,7 @@ TrajectoryHeader make_header(const Job& job, const std::string& search, const Ce
   header.cell = cell.name;
   header.search = search;
   header.seed = job.seed;
+  header.held = chain.translating() && !job.allow_freed;
   return header;
 }
 
@@ -225,7 +223,7 @@ SweepRest sweep(Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
 void carve(Scene& scene, const VoxelGrid& voxels, const Octree& octree, const TrajectoryHeader& header,
            const VoxelSet& may_fall, const Helpers& helpers, const Carved& carved, RunLog& log, const Watch& watch) {
   if (scene.chain().translating()) {
-    carve_with_gantry(scene, voxels, octree, build_block_graph(octree, watch), header.home, header.search, log, watch);
+    carve_with_gantry(scene, voxels.keep, header.held ? &may_fall : nullptr, header, log, watch);
   } else if (header.search == "sweep") {
     const SweepRest left = sweep(scene, voxels, may_fall, header, helpers, carved, log, watch);
     scene.leave(left.standing);
@@ -292,7 +290,9 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
     report.plan_sha256 = output.finish().sha256;
     count_path(report, output.figures(), result.grid.voxel_m, log.checks());
     if (!now.residue) {
-      now.residue = explain_residue(scene, result.voxels, may_fall, job.seed, helpers, watch);
+      const bool any_may_fall = chain.translating() && !header.held;
+      now.residue = explain_residue(scene, result.voxels, any_may_fall ? result.voxels.stock : may_fall, job.seed,
+                                    helpers, watch);
       log.note_state();
       log.save_if_due();
     }

@@ -38,7 +38,8 @@ struct Job {
   int resolution = 0;            ///< power of two, 8 to 1024
   std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
   std::uint64_t seed = 0;
-  int threads = 1;  ///< the plan is the same at any number
+  int threads = 1;           ///< the plan is the same at any number
+  bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do
   Placement placement;
   Stock stock;
   std::uint64_t memory_cap_bytes = 2ull << 30;

@@ -1,6 +1,8 @@
 // The blocks that can be carved next, and which of them greedy best-first search takes.
 #pragma once
 
+#include <bit>
+
 #include "core/material/octree.hpp"
 #include "core/search/voxel_tree.hpp"
 
@@ -16,6 +18,9 @@ class NearestBlocks {
   /// `block` must be among them.
   void erase(const Block& block);
   bool empty() const { return count_ == 0; }
+  bool contains(const Block& block) const {
+    return tiers_[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(block.size)))].contains(block.corner);
+  }
 
   /// The block with the least (voxels left after it) + (L1 from `from` to its nearest voxel); of equals the larger one,
   /// then whichever `VoxelTree::nearest` finds. Must not be empty.

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/search/nearest_blocks.hpp"
-#include "core/search/run_writer.hpp"
+#include "core/search/voxel_search.hpp"
 #include "core/search/voxel_space.hpp"
 
 namespace sculpt {
@@ -28,14 +28,19 @@ std::uint64_t volume(const Block& block) {
 /// a block that shares a face with reached air is a candidate until it is carved.
 class Carving {
  public:
-  Carving(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
+  Carving(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph, const Ground& ground,
           const std::function<void(const VoxelRun&)>& emit)
-      : octree_(octree),
+      : voxels_(voxels),
+        octree_(octree),
         graph_(graph),
+        ground_(ground),
         space_(voxels),
         candidates_(voxels.n()),
         seen_(octree.leaves.size()),
-        writer_(translating_entry(voxels.n()), emit) {
+        writer_(ground.start, emit) {
+    for (const Voxel position : ground.closed) space_.close(position);
+    for (const auto& [from, to] : ground.blocked) space_.block(from, to);
+    if (ground.support != nullptr) support_.emplace(*ground.support);
     for (std::uint32_t id = 0; id < seen_.size(); ++id)
       if (on_the_outside(octree.leaves[id])) reach(id);
   }
@@ -44,16 +49,27 @@ class Carving {
     std::uint64_t removed = 0, total = 0;
     for (const Block& block : octree_.leaves)
       if (block.label == Label::remove) total += volume(block);
-    while (!candidates_.empty()) {
+    for (std::size_t tried_again_at = 0;;) {
       watch.step(Stage::plan, removed, total);
-      const Block block = enter_next();
-      candidates_.erase(block);
-      carve(block);
-      removed += volume(block);
-      for (std::uint32_t neighbour : graph_.of(octree_.find(block.corner))) reach(neighbour);
+      if (const auto approach = next_approach()) {
+        travel(approach->way);
+        cut(approach->entry);
+        candidates_.erase(approach->block);
+        carve(approach->block);
+        removed += volume(approach->block);
+        carved_.push_back(approach->block);
+        for (std::uint32_t neighbour : graph_.of(octree_.find(approach->block.corner))) reach(neighbour);
+      } else if (aside_.empty() || tried_again_at == carved_.size()) {
+        break;
+      } else {
+        tried_again_at = carved_.size();
+        for (const Block& block : aside_) candidates_.insert(block);
+        aside_.clear();
+      }
     }
-    const Voxel home = translating_entry(octree_.n);
-    travel(space_.find_way(space_.index(writer_.at()), 0, [home](Voxel from, int) { return l1(from, home); }).value());
+    if (!aside_.empty() || !candidates_.empty()) return carve_rest(watch);
+    const Voxel end = ground_.end;
+    travel(space_.find_way(space_.index(writer_.at()), 0, [end](Voxel from, int) { return l1(from, end); }).value());
     writer_.finish();
     watch.step(Stage::plan, removed, total);
   }
@@ -119,43 +135,113 @@ class Carving {
   Voxel follow(Voxel at, Voxel target, int axis) const {
     const int way = axis == 0 ? target.i - at.i : axis == 1 ? target.j - at.j : target.k - at.k;
     const Voxel step = face_steps[2 * axis + (way > 0 ? 1 : 0)];
-    for (int left = std::abs(way); left > 0 && space_.is_air(space_.index(at + step)); --left) at = at + step;
+    const int face = 2 * axis + (way > 0 ? 1 : 0);
+    for (int left = std::abs(way); left > 0 && space_.is_air(space_.index(at + step)); --left) {
+      if (space_.is_blocked(space_.index(at), face)) break;
+      at = at + step;
+    }
     return at;
   }
 
   void travel(const Way& way) {
     for (int face : way) writer_.travel(writer_.at() + face_steps[face]);
   }
-
-  /// Brings the robot into the first voxel of the block that is carved next: a corner of the best one, for there its
-  /// boustrophedon begins. L1 does not see walls: where no straight way leads to that corner, the block with the
-  /// shortest way is taken instead, so that both sides of a wall are not carved by turns.
-  Block enter_next() {
-    const Block best = candidates_.best(writer_.at());
-    if (const auto entry = nearest_entry(best)) {
-      if (const auto turns = straight_way(entry->door)) {
-        for (Voxel turn : *turns) writer_.travel(turn);
-        cut(entry->corner);
-        return best;
-      }
-    }
-    travel(way_to_nearest());
-    const VoxelSpace::Index at = space_.index(writer_.at());
-    int face = 0;
-    while (!space_.is_remove(space_.beside(at, face))) ++face;
-    const Voxel voxel = writer_.at() + face_steps[face];
-    cut(voxel);
-    return octree_.leaves[static_cast<std::size_t>(octree_.find(voxel))];
+  void travel(const std::vector<Voxel>& way) {
+    for (Voxel turn : way) writer_.travel(turn);
   }
 
-  Way way_to_nearest() {
+  /// The block that is carved next, the voxel of it that is cut first, and the way to beside that.
+  struct Approach {
+    Block block;
+    Voxel entry;
+    std::vector<Voxel> way;  ///< where it turns, or step by step
+  };
+
+  /// To a block that can go whole; those that cannot are set aside. Nothing if there is no way to any.
+  std::optional<Approach> next_approach() {
+    while (!candidates_.empty()) {
+      auto approach = straight_approach();
+      if (!approach) approach = nearest_approach();
+      if (!approach || can_go_whole(approach->block, approach->entry)) return approach;
+      candidates_.erase(approach->block);
+      aside_.push_back(approach->block);
+    }
+    return std::nullopt;
+  }
+
+  /// To a corner of the best block, for there its boustrophedon begins.
+  std::optional<Approach> straight_approach() const {
+    const Block best = candidates_.best(writer_.at());
+    const auto entry = nearest_entry(best);
+    if (!entry) return std::nullopt;
+    const auto turns = straight_way(entry->door);
+    if (!turns) return std::nullopt;
+    return Approach{best, entry->corner, {turns->begin(), turns->end()}};
+  }
+
+  /// L1 does not see walls: where no straight way leads to that corner, the block with the shortest way is taken
+  /// instead, so that both sides of a wall are not carved by turns.
+  std::optional<Approach> nearest_approach() {
+    const auto way = way_to_nearest();
+    if (!way) return std::nullopt;
+    Approach approach{{}, writer_.at(), {}};
+    for (int face : *way) approach.way.push_back(approach.entry = approach.entry + face_steps[face]);
+    const VoxelSpace::Index at = space_.index(approach.entry);
+    int face = 0;
+    while (!is_candidate(space_.voxel(space_.beside(at, face)))) ++face;
+    approach.entry = approach.entry + face_steps[face];
+    approach.block = octree_.leaves[static_cast<std::size_t>(octree_.find(approach.entry))];
+    return approach;
+  }
+
+  bool is_candidate(Voxel voxel) const {
+    const Grid bounds{octree_.n, 1, Vec3::Zero()};
+    return bounds.contains(voxel) && space_.is_remove(space_.index(voxel)) &&
+           candidates_.contains(octree_.leaves[static_cast<std::size_t>(octree_.find(voxel))]);
+  }
+
+  std::optional<Way> way_to_nearest() {
     Block block = *candidates_.nearest(writer_.at(), std::numeric_limits<int>::max());
     const auto distance = [&](Voxel from, int most) {
       // Towards the block that was nearest one step before, nothing else can be nearer.
       if (block.distance(from) > most - 2) block = candidates_.nearest(from, most).value_or(block);
       return std::min(block.distance(from), most);
     };
-    return space_.find_way(space_.index(writer_.at()), 1, distance).value();
+    return space_.find_way(space_.index(writer_.at()), 1, distance);
+  }
+
+  /// Is no step in it blocked, and does none of its voxels hold what would come free? Then it counts as gone.
+  bool can_go_whole(const Block& block, Voxel entered) {
+    const auto in_block = [&](const auto& step) { return block.contains(step.first) || block.contains(step.second); };
+    if (std::any_of(ground_.blocked.begin(), ground_.blocked.end(), in_block)) return false;
+    if (!support_) return true;
+    std::vector<VoxelLine> gone;
+    const auto take = [&](const VoxelLine& line) {
+      const int count = support_->remove(line), all = l1(line.first, line.last) + 1;
+      if (count > 0) gone.push_back({line.first, line.first + unit(line) * (count - 1)});
+      return count == all;
+    };
+    bool all = take({entered, entered});
+    const bool whole = entered == nearest_corner(block, entered);
+    walk(block, entered, [&](Voxel from, Voxel to) {
+      const Voxel step = unit({from, to});
+      if (whole) {
+        all = all && take({from + step, to});
+        return;
+      }
+      for (Voxel at = from; all && at != to;) {
+        at = at + step;
+        if (support_->standing().contains(at)) all = take({at, at});
+      }
+    });
+    for (std::size_t at = all ? 0 : gone.size(); at-- > 0;) support_->restore(gone[at]);
+    return all;
+  }
+
+  static Voxel unit(const VoxelLine& line) {
+    const int length = std::max(1, l1(line.first, line.last));
+    const Voxel way = line.last - line.first;
+    return {way.i / length, way.j / length, way.k / length};
   }
 
   void cut(Voxel voxel) {
@@ -171,42 +257,64 @@ class Carving {
       cut(voxel);
   }
 
-  /// Straight to `to` inside the block, one axis after the other.
-  void go_inside(Voxel to) {
-    for (int face = 0; face < 6; ++face)
-      while (l1(writer_.at() + face_steps[face], to) < l1(writer_.at(), to)) step_to(writer_.at() + face_steps[face]);
-  }
-
-  /// From the voxel where the robot entered: to a corner, then row by row, layer by layer.
-  void carve(const Block& block) {
-    const Voxel entered = writer_.at(), corner = nearest_corner(block, entered);
-    go_inside(corner);
-    const bool whole = entered == corner;  // but for the corner itself
+  /// From the voxel where the robot entered: to a corner, then row by row, layer by layer. `go(from, to)`: straight.
+  template <typename Go>
+  static void walk(const Block& block, Voxel entered, const Go& go) {
+    const Voxel corner = nearest_corner(block, entered);
+    Voxel at = entered;
+    const auto go_to = [&](Voxel to) {
+      if (to != at) go(at, to);
+      at = to;
+    };
+    go_to({corner.i, at.j, at.k});
+    go_to({corner.i, corner.j, at.k});
+    go_to(corner);
     const Voxel in = corner - block.corner;
     Voxel along{in.i == 0 ? 1 : -1, 0, 0}, aside{0, in.j == 0 ? 1 : -1, 0};
     const Voxel deeper{0, 0, in.k == 0 ? 1 : -1};
     for (int layer = 0; layer < block.size; ++layer) {
-      if (layer > 0) step_to(writer_.at() + deeper);
+      if (layer > 0) go_to(at + deeper);
       for (int row = 0; row < block.size; ++row) {
-        if (row > 0) step_to(writer_.at() + aside);
-        go_along(along, block.size - 1, whole);
+        if (row > 0) go_to(at + aside);
+        go_to(at + along * (block.size - 1));
         along = along * -1;
       }
       aside = aside * -1;
     }
+  }
+
+  void carve(const Block& block) {
+    const bool whole = writer_.at() == nearest_corner(block, writer_.at());  // nothing but the corner is cut yet
+    walk(block, writer_.at(), [&](Voxel from, Voxel to) {
+      const Voxel step = unit({from, to});
+      if (whole) return writer_.cut(from + step, to);
+      while (writer_.at() != to) step_to(writer_.at() + step);
+    });
     space_.open_cube(block.corner, block.size);
   }
 
-  /// `whole`: nothing of these `count` voxels is cut yet. They are opened by the caller then.
-  void go_along(Voxel step, int count, bool whole) {
-    if (whole && count > 0) return writer_.cut(writer_.at() + step, writer_.at() + step * count);
-    for (int cell = 0; cell < count; ++cell) step_to(writer_.at() + step);
+  /// What no block can go of, voxel by voxel.
+  void carve_rest(const Watch& watch) {
+    VoxelGrid rest{voxels_.stock, voxels_.keep};
+    for (const Block& block : carved_)
+      for (int k = 0; k < block.size; ++k)
+        for (int j = 0; j < block.size; ++j) {
+          const Voxel first = block.corner + Voxel{0, j, k};
+          rest.stock.erase(first, first + Voxel{block.size - 1, 0, 0});
+        }
+    Ground ground = ground_;
+    ground.support = support_ ? &*support_ : nullptr;
+    carve_voxelwise(rest, ground, writer_, watch);
   }
 
+  const VoxelGrid& voxels_;
   const Octree& octree_;
   const BlockGraph& graph_;
+  const Ground& ground_;
   VoxelSpace space_;
+  std::optional<Support> support_;
   NearestBlocks candidates_;
+  std::vector<Block> aside_, carved_;
   std::vector<bool> seen_;
   std::vector<std::uint32_t> waiting_;  ///< scratch of `reach`
   RunWriter writer_;
@@ -214,9 +322,15 @@ class Carving {
 
 }  // namespace
 
+void carve_translating(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph, const Ground& ground,
+                       const std::function<void(const VoxelRun&)>& emit, const Watch& watch) {
+  Carving(voxels, octree, graph, ground, emit).run(watch);
+}
+
 void carve_translating(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
                        const std::function<void(const VoxelRun&)>& emit, const Watch& watch) {
-  Carving(voxels, octree, graph, emit).run(watch);
+  const Voxel entry = translating_entry(voxels.n());
+  carve_translating(voxels, octree, graph, {entry, entry}, emit, watch);
 }
 
 }  // namespace sculpt

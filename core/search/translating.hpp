@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/material/block_graph.hpp"
+#include "core/search/ground.hpp"
 
 namespace sculpt {
 
@@ -16,14 +17,18 @@ struct VoxelRun {
   Voxel first, last;
 };
 
-/// Above the corner of the grid: where every path of `carve_translating` starts and ends. Positions may leave the grid
+/// Above the corner of the grid: where paths start and end if nothing is there. Positions may leave the grid
 /// by one voxel at the sides and above, never below the floor.
 inline Voxel translating_entry(int n) {
   return {0, 0, n};
 }
 
-/// Removes every remove voxel that is not enclosed; `emit` gets the runs in order. Deterministic. Throws Cancelled.
-/// Every voxel passed by a travel is air or already removed; consecutive runs join up.
+/// Removes the blocks that can go whole, again and again as long as any does, then of the rest what `carve_voxelwise`
+/// can; `emit` gets the runs in order. Deterministic. Throws Cancelled. Every voxel passed by a travel is air or
+/// already removed; consecutive runs join up.
+void carve_translating(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph, const Ground& ground,
+                       const std::function<void(const VoxelRun&)>& emit, const Watch& watch);
+/// From `translating_entry` and back to it, with nothing in the way and nothing to hold: all that is not enclosed.
 void carve_translating(const VoxelGrid& voxels, const Octree& octree, const BlockGraph& graph,
                        const std::function<void(const VoxelRun&)>& emit, const Watch& watch);
 

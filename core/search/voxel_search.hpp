@@ -21,13 +21,20 @@
 #include <functional>
 
 #include "core/material/voxel_grid.hpp"
+#include "core/search/run_writer.hpp"
 #include "core/search/translating.hpp"
 
 namespace sculpt {
 
-/// Removes every remove voxel that is not enclosed, one section after the other; `emit` gets the longest straight runs
-/// in order. Starts and ends at `translating_entry`; every voxel passed by a travel is air or already removed.
-/// Deterministic. Takes 1.5 bytes a voxel of the grid, and time in proportion to the voxels passed. Throws Cancelled.
+/// Removes every remove voxel that it comes to and may remove, one section after the other; `emit` gets the longest
+/// straight runs in order. Every voxel passed by a travel is air or already removed. What would free a piece is set
+/// aside and tried again when a neighbour is gone, and at the end as long as anything is cut. Deterministic. Takes 1.7
+/// bytes a voxel of the grid, and time in proportion to the voxels passed. Throws Cancelled.
+void carve_voxelwise(const VoxelGrid& voxels, const Ground& ground, const std::function<void(const VoxelRun&)>& emit,
+                     const Watch& watch);
+/// Goes on with the runs of `writer`, from where it is.
+void carve_voxelwise(const VoxelGrid& voxels, const Ground& ground, RunWriter& writer, const Watch& watch);
+/// From `translating_entry` and back to it, with nothing in the way and nothing to hold: all that is not enclosed.
 void carve_voxelwise(const VoxelGrid& voxels, const std::function<void(const VoxelRun&)>& emit, const Watch& watch);
 
 }  // namespace sculpt

@@ -31,12 +31,20 @@ void VoxelSpace::open_cube(Voxel corner, int size) {
     for (int j = 0; j < size; ++j) std::fill_n(cells_.data() + index(corner + Voxel{0, j, k}), size, air_bit);
 }
 
+void VoxelSpace::block(Voxel from, Voxel to) {
+  for (int face = 0; face < 6; ++face) {
+    if (from + face_steps[face] != to) continue;
+    blocked_.insert({index(from), face});
+    blocked_.insert({index(to), face ^ 1});
+  }
+}
+
 void VoxelSpace::expand(const Entry& entry, std::size_t detour, const Distance& distance) {
   // Straight on is pushed last and so tried first: the fewer turns the better.
   for (int turn = 1; turn <= 6; ++turn) {
     const auto face = static_cast<std::uint8_t>((entry.face + turn) % 6);
     const Index next = beside(entry.at, face);
-    if ((cells_[next] & (air_bit | closed_bit)) != air_bit) continue;
+    if ((cells_[next] & (air_bit | closed_bit)) != air_bit || is_blocked(entry.at, face)) continue;
     const int there = distance(voxel(next), entry.distance + 1);
     const std::size_t further = detour + static_cast<std::size_t>(1 + there - entry.distance);
     if (frontier_.size() <= further) frontier_.resize(further + 1);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
@@ -33,6 +35,10 @@ class VoxelSpace {
   bool is_remove(Index at) const { return (cells_[at] & remove_bit) != 0; }
   void open(Index at) { cells_[at] = air_bit; }
   void open_cube(Voxel corner, int size);
+  /// The robot can be nowhere there, as if it stood; nor go from the one to the other, either way.
+  void close(Voxel position) { cells_[index(position)] = 0; }
+  void block(Voxel from, Voxel to);
+  bool is_blocked(Index at, int face) const { return !blocked_.empty() && blocked_.contains({at, face}); }
   /// Face neighbours that are to be removed.
   int count_remove(Index at) const {
     int count = 0;
@@ -67,6 +73,7 @@ class VoxelSpace {
   int edge_;
   std::array<Index, 6> steps_;  ///< to the face neighbours, modulo 2^32
   std::vector<std::uint8_t> cells_;
+  std::set<std::pair<Index, int>> blocked_;
   std::vector<std::vector<Entry>> frontier_;  ///< by detour over the first distance; last in first out, so it goes deep
   std::vector<Index> touched_;                ///< closed by the running search
 };

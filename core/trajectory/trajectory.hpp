@@ -22,6 +22,7 @@ struct TrajectoryHeader {
   double tolerance_m = 0;    ///< how far the ball's centre may be from a voxel's centre when it removes it
   std::string cell, search;  ///< names, for people
   std::uint64_t seed = 0;
+  bool held = false;  ///< of a translating robot's plan: no cut frees a piece that may not fall; of others always so
 };
 
 /// Linear joint motion from the previous keyframe (the first one starts at home) to q. A cut removes the straight run

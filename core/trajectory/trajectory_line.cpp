@@ -107,6 +107,13 @@ class Fields {
       refuse(where_, std::string("field \"") + key + "\" is not a whole number from 0 up");
     return value.get<std::uint64_t>();
   }
+  /// False where it is missing.
+  bool flag(const char* key) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return false;
+    if (!found->is_boolean()) refuse(where_, std::string("field \"") + key + "\" is neither true nor false");
+    return found->get<bool>();
+  }
   const Json& array(const char* key, std::size_t least, std::size_t most) const {
     const Json& value = get(key);
     if (!value.is_array() || value.size() < least || value.size() > most)
@@ -168,7 +175,7 @@ std::string header_line(const TrajectoryHeader& header) {
   text += R"(},"tolerance_m":)";
   append_number(text, header.tolerance_m);
   text += R"(,"cell":)" + json_text(header.cell) + R"(,"search":)" + json_text(header.search);
-  return text + R"(,"seed":)" + std::to_string(header.seed) + "}";
+  return text + R"(,"seed":)" + std::to_string(header.seed) + (header.held ? R"(,"held":true})" : "}");
 }
 
 std::size_t longest_keyframe_line(std::size_t joints) {
@@ -221,6 +228,7 @@ TrajectoryHeader parse_header_line(std::string_view text, const std::string& whe
   header.cell = fields.text("cell");
   header.search = fields.text("search");
   header.seed = fields.count("seed");
+  header.held = fields.flag("held");
   return header;
 }
 

@@ -217,15 +217,15 @@ class Replay {
   // Of a plan that removes what does not stand nothing is said: it has findings enough.
   void find_freed_pieces(const CutLog& cuts) {
     if (!cuts.removes_each_once(voxels_.stock, verdict_.left)) return;
-    const bool turns = std::any_of(joints_.begin(), joints_.end(), [&](int joint) {
-      return cell_.robot.joints[static_cast<std::size_t>(joint)].kind == JointKind::revolute;
-    });
+    const bool must_hold = header().held || std::any_of(joints_.begin(), joints_.end(), [&](int joint) {
+                             return cell_.robot.joints[static_cast<std::size_t>(joint)].kind == JointKind::revolute;
+                           });
     const auto step = [this] {
       if (watch_.stop.stop_requested()) throw Cancelled{};
     };
     for (const FreedPiece& piece : cuts.find_freed(voxels_.stock, find_never_held(voxels_), step)) {
       verdict_.freed += piece.voxels;
-      if (turns && piece.unforeseen > 0)
+      if (must_hold && piece.unforeseen > 0)
         found_.find(piece.line, "voxel (" + std::to_string(piece.removed.i) + ", " + std::to_string(piece.removed.j) +
                                     ", " + std::to_string(piece.removed.k) + ") is removed, and " +
                                     std::to_string(piece.voxels) + " voxels that it held come loose");

@@ -49,8 +49,8 @@ struct ReplayedPieces {
 /// and grid, start and end at home, joint limits kept, every removed voxel a remove voxel removed once with the ball
 /// within tolerance of its centre, no contact of tool or link with material, room or itself at any time (the tool may
 /// touch the voxel being cut, nothing else may), nothing of keep removed; and, unless the
-/// chain only translates, no removal frees a piece of the material that the table held, but for parts of
-/// the target that nothing can hold. Throws InputError
+/// chain only translates and the header does not say `held`, no removal frees a piece of the material that the table
+/// held, but for parts of the target that nothing can hold. Throws InputError
 /// `trajectory_invalid` for text that is no trajectory; Cancelled. The verdict is the same at any number of threads
 /// (each one has a material of its own); `watch` is told from the calling one. `note` is told how far it is after each
 /// piece, from any of them but one at a time; with that as `done` a replay of the same trajectory goes on from there.

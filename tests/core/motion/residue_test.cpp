@@ -46,6 +46,23 @@ TEST(Residue, DownADeepShaftOnlyAToolWithoutHolderReaches) {
   EXPECT_STREQ(reason_at("panda-turntable-6mm", 10), "no transit") << "69 mm down";
 }
 
+TEST(Residue, BelowAVoxelThatWasLeftForReachTheToolIsNotToBlame) {
+  CellFiles files = shipped_cell("panda-turntable");
+  const std::string at = "\"origin_m\": [-0.1, -0.1, 0]";
+  files.cell_json.replace(files.cell_json.find(at), at.size(), "\"origin_m\": [-0.1, -0.1, 4]");
+  VoxelSet keep(8, true);
+  for (int k = 2; k < 8; ++k) keep.erase({4, 4, k});
+  VoxelSet standing = keep;
+  standing.insert({4, 4, 2});
+  standing.insert({4, 4, 5});
+  const Cell cell = parse_cell(files);
+  const VoxelGrid voxels{standing, keep};
+  const auto residue = explain_residue(Scene(cell, cell.grid(8), standing), voxels, find_unheld(voxels), 0, 2, {});
+  ASSERT_EQ(residue.size(), 2u);
+  EXPECT_EQ(residue[0].reason, Reason::behind_out_of_reach);
+  EXPECT_EQ(residue[1].reason, Reason::out_of_reach);
+}
+
 TEST(Residue, ShutInIsEnclosed) {
   VoxelSet keep(8, true);
   keep.erase({4, 4, 4});

@@ -29,6 +29,21 @@ inline CellFiles shipped_cell(const std::string& name) {
   return read_cell_files(std::filesystem::path(SOURCE_DIR) / "config/cells" / (name + ".json"));
 }
 
+/// The gantry with more in its room: URDF collision elements, in the stock's frame.
+inline CellFiles gantry_beside(const std::string& fixtures) {
+  CellFiles cell = shipped_cell("gantry");
+  std::string& urdf = cell.files.begin()->second;
+  urdf.insert(urdf.find("</link>"), fixtures);
+  return cell;
+}
+
+/// A clamp over one edge of the stock, and a sheet through its middle that fits between two voxels.
+inline CellFiles clamped_gantry() {
+  return gantry_beside(
+      "<collision><origin xyz='0.09 0 0.1'/><geometry><box size='0.06 0.08 0.2'/></geometry></collision>"
+      "<collision><origin xyz='0 0 0.05'/><geometry><box size='0.0003 0.1 0.1'/></geometry></collision>");
+}
+
 inline MeshFile binvox_file(const VoxelSet& target, const CellFiles& cell) {
   return {write_binvox(target, parse_cell(cell).grid(target.n())), "binvox", "target.binvox"};
 }

@@ -125,7 +125,9 @@ struct Kind {
 class Resume : public testing::TestWithParam<Kind> {
  protected:
   static Job job(std::uint64_t seed) {
-    Job job = make_job(shipped_cell(GetParam().cell), random_target(GetParam().resolution, seed), seed);
+    const CellFiles cell =
+        std::string(GetParam().cell) == "clamped gantry" ? clamped_gantry() : shipped_cell(GetParam().cell);
+    Job job = make_job(cell, random_target(GetParam().resolution, seed), seed);
     job.search = GetParam().search;
     job.threads = 1 + static_cast<int>(seed % 2);
     return job;
@@ -188,7 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Resume,
                                          Kind{"SweepArm", "panda-turntable", "sweep", 8, 8 * 8 * 8},
                                          Kind{"LargerSweepArm", "panda-turntable", "sweep", 32, 16 * 32 * 32},
                                          Kind{"OctreeGantry", "gantry", "octree", 16, 16},
-                                         Kind{"VoxelGantry", "gantry", "voxel", 16, 16}),
+                                         Kind{"VoxelGantry", "gantry", "voxel", 16, 16},
+                                         Kind{"ClampedGantry", "clamped gantry", "octree", 16, 16}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 Job arm_job() {
