@@ -39,7 +39,13 @@ Json current_error();
 /// Answers at once.
 void answer(const Call& call, Json result);
 
+/// Answers with what `work` returns or throws. Any thread but the I/O thread.
+void answer_with(Services& services, std::shared_ptr<Call> call, const std::function<Answer()>& work);
+
 /// Does `work` on the queue's thread and answers with what it returns or throws.
 void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work);
+
+/// Asks the store, on the thread of reads. What the connection sends behind this call waits for the answer.
+void answer_read(Services& services, Call call, std::function<Json()> work);
 
 }  // namespace sculpt

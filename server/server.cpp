@@ -67,11 +67,9 @@ RunJob choose_run(RunJob here, RunJob isolated) {
 }
 
 // For the service manager's status line.
-std::string queue_sentence(JobStore& store) try {
+std::string queue_sentence(JobStore& store) {
   const auto counts = store.counts();
   return fmt::format("{} running, {} queued", counts.at(JobState::running), counts.at(JobState::queued));
-} catch (const StorageError& error) {
-  return error.what();
 }
 
 }  // namespace
@@ -104,8 +102,8 @@ struct Server::Impl {
                                               make_isolated_run(isolation)),
                                    counters),
                   [this](const std::string& job) { services.changed(job); }),
-        streams(*store, scheduler),
-        waits(io, *store),
+        streams(io, *store, reads, scheduler),
+        waits(io, *store, reads),
         retention(*store, blobs, artifacts, folder.jobs()),
         listener(services, tcp_endpoint(config), make_tls(config)) {
     if (!config.unix_socket.empty()) unix_listener.emplace(services, unix_endpoint(config), nullptr);
@@ -183,7 +181,8 @@ struct Server::Impl {
   Retention retention;
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, probes{Pace::prompt};
+  TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt};
+  TaskQueue admission{Pace::prompt}, probes{Pace::prompt};
   TaskQueue replays{Pace::background}, exports{Pace::background};
   Services services{io,
                     config,
@@ -198,6 +197,8 @@ struct Server::Impl {
                     waits,
                     access,
                     connections,
+                    reads,
+                    changes,
                     disk,
                     admission,
                     probes,
@@ -237,7 +238,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->probes, &impl_->replays, &impl_->exports})
+  for (TaskQueue* queue : {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->probes,
+                           &impl_->replays, &impl_->exports})
     queue->stop();
 }
 

@@ -34,6 +34,8 @@ struct Services {
   Waits& waits;              // I/O thread only
   Access& access;            // I/O thread only
   Connections& connections;  // I/O thread only
+  TaskQueue& reads;          ///< questions to the store
+  TaskQueue& changes;        ///< commands to it
   TaskQueue& disk;           ///< chunks in and out
   TaskQueue& admission;      ///< checks of submitted jobs
   TaskQueue& probes;         ///< the same, of those with files that nobody has read yet
