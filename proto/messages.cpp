@@ -16,6 +16,12 @@ Fields params_of(const Json& params) {
   return Fields(params, "/params");
 }
 
+std::string read_order(Fields& fields) {
+  std::string order = fields.text("order", max_text_bytes);
+  if (order != "oldest" && order != "newest") fields.refuse("order", "must be oldest or newest, not '" + order + "'");
+  return order;
+}
+
 }  // namespace
 
 HelloParams read_hello(const Json& params) {
@@ -87,6 +93,8 @@ ListParams read_list(const Json& params) {
   Fields fields = params_of(params);
   ListParams list;
   if (fields.has("after")) list.after = fields.text("after", max_id_bytes);
+  if (fields.has("before")) list.before = fields.text("before", max_id_bytes);
+  if (fields.has("order")) list.newest = read_order(fields) == "newest";
   if (fields.has("limit")) list.limit = static_cast<int>(fields.integer("limit", 1, max_list));
   fields.done();
   return list;
@@ -101,10 +109,18 @@ WaitParams read_wait(const Json& params) {
 
 SubscribeParams read_subscribe(const Json& params) {
   Fields fields = params_of(params);
-  SubscribeParams subscribe{fields.text("job", max_id_bytes), 0};
+  SubscribeParams subscribe;
+  if (fields.has("job")) subscribe.job = fields.text("job", max_id_bytes);
   if (fields.has("after")) subscribe.after = fields.count("after");
   fields.done();
   return subscribe;
+}
+
+std::string read_unsubscribe(const Json& params) {
+  Fields fields = params_of(params);
+  std::string job = fields.has("job") ? fields.text("job", max_id_bytes) : std::string();
+  fields.done();
+  return job;
 }
 
 ArtifactReadParams read_artifact_read(const Json& params) {
@@ -137,8 +153,10 @@ void read_nothing(const Json& params) {
 }
 
 Json to_json(const EventMessage& event) {
-  Json json{{"job", event.job}};
+  Json json = Json::object();
+  if (!event.job.empty()) json["job"] = event.job;
   if (event.seq) json["seq"] = *event.seq;
+  if (event.number) json["number"] = *event.number;
   if (!event.time.empty()) json["t"] = event.time;
   json["type"] = event.type;
   if (!event.data.is_null()) json["data"] = event.data;

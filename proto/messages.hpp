@@ -39,11 +39,12 @@ struct SubmitParams {
 };
 SubmitParams read_submit(const Json& params);
 
-/// job.get, job.cancel, job.pause, job.resume, job.retry, job.report, job.verify, events.unsubscribe, artifact.list
+/// job.get, job.cancel, job.pause, job.resume, job.retry, job.report, job.verify, artifact.list
 std::string read_job_id(const Json& params);
 
 struct ListParams {
-  std::string after;  ///< empty: from the first
+  std::string after = {}, before = {};  ///< only jobs between these two; empty: no bound
+  bool newest = false;                  ///< the newest first
   int limit = 100;
 };
 ListParams read_list(const Json& params);
@@ -55,10 +56,12 @@ struct WaitParams {
 WaitParams read_wait(const Json& params);
 
 struct SubscribeParams {
-  std::string job;
+  std::string job;  ///< empty: all jobs
   std::uint64_t after = 0;
 };
 SubscribeParams read_subscribe(const Json& params);
+/// The job, or empty for all.
+std::string read_unsubscribe(const Json& params);
 
 struct ArtifactReadParams {
   std::string job, artifact;
@@ -80,13 +83,14 @@ std::string read_schema_method(const Json& params);
 /// A method without params.
 void read_nothing(const Json& params);
 
-/// One event (section events.subscribe). Without seq: progress, live.
+/// One event (section events.subscribe). Without seq: progress, live; with a number: of a subscription to all jobs.
 struct EventMessage {
-  std::string job;
+  std::string job;  ///< empty: all jobs
   std::optional<std::uint64_t> seq;
   std::string time;
   std::string type;
   Json data;
+  std::optional<std::uint64_t> number = {};
 };
 Json to_json(const EventMessage& event);
 

@@ -1,5 +1,7 @@
 #include "server/connection.hpp"
 
+#include <vector>
+
 namespace sculpt {
 
 void Connections::for_each(const std::function<void(Connection&)>& visit) {
@@ -12,7 +14,7 @@ void Connections::for_each(const std::function<void(Connection&)>& visit) {
 
 std::size_t Connections::count() {
   std::size_t found = 0;
-  for_each([&](const Connection&) { ++found; });
+  for_each([&](const Connection& connection) { found += connection.spare() ? 0 : 1; });
   return found;
 }
 
@@ -23,6 +25,15 @@ std::size_t Connections::count_of(const std::string& owner) {
     if (identity != nullptr && identity->owner == owner) ++found;
   });
   return found;
+}
+
+void Connections::thin_spare(std::size_t most) {
+  std::vector<std::shared_ptr<Connection>> spare;
+  for (const std::weak_ptr<Connection>& entry : list_) {
+    const std::shared_ptr<Connection> connection = entry.lock();
+    if (connection && connection->spare()) spare.push_back(connection);
+  }
+  for (std::size_t i = 0; i + most < spare.size(); ++i) spare[i]->close("the server is full");
 }
 
 }  // namespace sculpt

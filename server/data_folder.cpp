@@ -42,6 +42,9 @@ fs::path make_folders(const fs::path& folder) {
                             "; name another with --data");
     }
   }
+  // Also what an older version made readable: meshes and plans are nobody else's business.
+  fs::permissions(folder, fs::perms::owner_all, error);
+  if (error) spdlog::warn("the data folder '{}' cannot be closed to others: {}", folder.string(), error.message());
   return folder;
 }
 

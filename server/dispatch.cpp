@@ -6,10 +6,9 @@
 #include <array>
 #include <new>
 #include <string_view>
-#include <variant>
 
+#include "server/detour.hpp"
 #include "server/handlers.hpp"
-#include "server/net.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
 
@@ -104,30 +103,31 @@ void dispatch(Services& services, Call call, const std::string& method) {
 }
 
 void answer(const Call& call, Json result) {
-  call.session->answer(call.id, {std::move(result), std::nullopt});
+  call.session->answer(call.id, {reply_line(call.id, result), std::nullopt});
 }
 
 void answer_with(Services& services, std::shared_ptr<Call> call, const std::function<Answer()>& work) {
-  std::variant<Answer, Json> outcome;
-  try {
-    outcome = work();
-  } catch (...) {
-    outcome = current_error();
-  }
-  // Moved, so that the last owner of a session is always the I/O thread.
-  net::post(services.io, [waiting = std::move(call), outcome = std::move(outcome)] {
-    if (const Answer* answer = std::get_if<Answer>(&outcome)) {
-      waiting->session->answer(waiting->id, *answer);
-    } else {
-      waiting->session->refuse(waiting->id, std::get<Json>(outcome));
-    }
-  });
+  const Json id = call->id;
+  return_with(
+      services, std::move(call),
+      [&] {
+        Answer answer = work();
+        return Reply{reply_line(id, answer.result), std::move(answer.chunk)};
+      },
+      [](const Call& answered, Reply reply) { answered.session->answer(answered.id, std::move(reply)); });
 }
 
 void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work) {
-  auto shared = std::make_shared<Call>(std::move(call));
-  queue.add([&services, shared = std::move(shared), work = std::move(work)](const std::stop_token& stop) mutable {
-    answer_with(services, std::move(shared), [&] { return work(stop); });
+  auto waiting = std::make_shared<Call>(std::move(call));
+  queue.add([&services, waiting = std::move(waiting), work = std::move(work)](const std::stop_token& stop) mutable {
+    answer_with(services, std::move(waiting), [&] { return work(stop); });
+  });
+}
+
+void answer_read(Services& services, Call call, std::function<Json()> work) {
+  call.session->hold();
+  answer_from(services.reads, services, std::move(call), [work = std::move(work)](const std::stop_token&) {
+    return Answer{work(), std::nullopt};
   });
 }
 

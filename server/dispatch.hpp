@@ -45,4 +45,7 @@ void answer_with(Services& services, std::shared_ptr<Call> call, const std::func
 /// Does `work` on the queue's thread and answers with what it returns or throws.
 void answer_from(TaskQueue& queue, Services& services, Call call, std::function<Answer(std::stop_token)> work);
 
+/// Asks the store, on the thread of reads. What the connection sends behind this call waits for the answer.
+void answer_read(Services& services, Call call, std::function<Json()> work);
+
 }  // namespace sculpt

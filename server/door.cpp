@@ -1,7 +1,9 @@
 #include "server/door.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
+#include "proto/request.hpp"
 #include "server/http_connection.hpp"
 #include "server/services.hpp"
 #include "server/session.hpp"
@@ -11,6 +13,7 @@ namespace sculpt {
 namespace {
 
 constexpr char tls_handshake = 0x16;
+constexpr std::chrono::seconds spare_time{1};  // for the first bytes of a peer that came when the server was full
 
 // GET, HEAD, POST, PUT, PATCH, DELETE, OPTIONS. No line of the protocol begins so.
 bool begins_http(char first) {
@@ -67,6 +70,7 @@ void Door::hand_over(std::string_view first) {
         "from another machine this server speaks TLS only: connect with TLS (sculpt --server tls:HOST:PORT); the "
         "connection is closed");
   }
+  if (session->spare()) return session->turn_away("too_many_connections", full_sentence);
   session->start(first);
 }
 
@@ -74,11 +78,18 @@ void Door::close(const char* reason) {
   if (done_) return;
   done_ = true;
   spdlog::debug("conn={} closed: {}", peer_.number, reason);
+  if (peer_.spare && !stream_.encrypted()) {
+    const std::string line = error_line(nullptr, error_object("too_many_connections", full_sentence)) + "\n";
+    ::send(stream_.socket().native_handle(), line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
   stream_.close();
 }
 
 void Door::check_deadlines(Clock::time_point now) {
-  if (now - opened_ > services_.config.hello_time) close("nothing came in time");
+  const std::chrono::milliseconds patience = services_.config.hello_time;
+  if (now - opened_ > (peer_.spare ? std::min<std::chrono::milliseconds>(patience, spare_time) : patience)) {
+    close("nothing came in time");
+  }
 }
 
 }  // namespace sculpt

@@ -18,8 +18,10 @@ class Door : public Connection, public std::enable_shared_from_this<Door> {
   /// Without `tls` none is spoken.
   Door(Stream stream, Peer peer, std::shared_ptr<ssl::context> tls, Services& services);
   void start() { read(); }
+  /// A spare peer that speaks in the clear is told why.
   void close(const char* reason) override;
   void check_deadlines(Clock::time_point now) override;
+  bool spare() const override { return peer_.spare && !done_; }
 
  private:
   void read();

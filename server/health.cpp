@@ -15,7 +15,7 @@ std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_
   }
   try {
     write_durably(data / "probe", "ready?\n");
-    store.counts();
+    store.last_event({});
   } catch (const StorageError& fault) {
     return fault.what();
   }

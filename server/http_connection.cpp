@@ -72,22 +72,28 @@ void HttpConnection::on_request(const boost::system::error_code& error) {
                            error != http::error::end_of_stream && error != http::error::partial_message;
   if (error && !bad_request) return close("the peer is gone");
   plain_ = !error && parser_->get().method() == http::verb::head;
-  keep_ = !error && parser_->is_done() && parser_->get().keep_alive();
+  keep_ = !error && parser_->is_done() && parser_->get().keep_alive() && !peer_.spare;
   enter(Phase::working);
   if (error) return reply(error_reply(error_object("bad_request", "this is no HTTP request: " + error.message())));
   try {
     const HttpRequest request = read_head(parser_->get());
     spdlog::debug("conn={} {} {}", peer_.number, request.method, request.target);
     check_page(services_, peer_, request);
+    check_room(peer_, request);
     if (boost::beast::websocket::is_upgrade(parser_->get()) && request.target == web_socket_path) return upgrade();
-    serve(request);
+    serve(find_route(services_, peer_, request));
   } catch (...) {
     reply(error_reply(current_error()));
   }
 }
 
-void HttpConnection::serve(const HttpRequest& request) {
-  Route route = find_route(services_, peer_, request);
+void HttpConnection::serve(Route route) {
+  if (route.choose) {
+    return do_on(services_.reads, std::move(route.choose),
+                 [work = std::move(route.work)](HttpConnection& self, TaskQueue* queue) {
+                   self.serve({queue, work});
+                 });
+  }
   if (route.queue == nullptr) return reply(route.work());
   do_on(*route.queue, std::move(route.work),
         [](HttpConnection& self, HttpReply result) { self.reply(std::move(result)); });

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "server/connection.hpp"
-#include "server/http_reply.hpp"
+#include "server/http_routes.hpp"
 #include "server/stream.hpp"
 
 // Behind net.hpp.
@@ -27,6 +27,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   void start(std::string_view first);
   void close(const char* reason) override;
   void check_deadlines(Clock::time_point now) override;
+  bool spare() const override { return peer_.spare && phase_ != Phase::done; }
 
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
@@ -35,7 +36,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   void enter(Phase phase);
   void read_request();
   void on_request(const boost::system::error_code& error);
-  void serve(const HttpRequest& request);
+  void serve(Route route);
   void upgrade();
   void reply(HttpReply reply);
   void send_piece(FilePart rest);

@@ -1,5 +1,7 @@
 #include "server/http_routes.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -13,6 +15,7 @@
 namespace sculpt {
 namespace {
 
+constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
 constexpr std::string_view artifacts_path = "/v1/artifacts/";
 constexpr std::string_view schema_path = "/schema.json";
 constexpr std::size_t piece_bytes = 1 << 20;
@@ -104,11 +107,14 @@ HttpReply artifact_reply(Services& services, ArtifactReadParams wanted, const Ht
 
 Route artifact_route(Services& services, const HttpRequest& request) {
   const ArtifactReadParams wanted = read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
-  find_job(services.store, wanted.job);
-  const bool to_export = services.artifacts.needs_export(wanted);
-  return {to_export ? &services.exports : &services.disk, [&services, wanted, request, to_export] {
-            if (to_export) services.artifacts.make_export(wanted);
+  return {nullptr,
+          [&services, wanted, request] {
+            services.artifacts.make_export(wanted);
             return artifact_reply(services, wanted, request);
+          },
+          [&services, wanted] {
+            find_job(services.store, wanted.job);
+            return services.artifacts.needs_export(wanted) ? &services.exports : &services.disk;
           }};
 }
 
@@ -121,7 +127,14 @@ unsigned status_of(std::string_view code) {
   if (code == "method_refused") return 405;
   if (code == "wrong_state") return 409;
   if (code == "host_refused") return 421;
-  return code == "stopping" ? 503 : 500;
+  return code == "stopping" || code == "too_many_connections" ? 503 : 500;
+}
+
+[[noreturn]] void refuse_page(const Peer& peer, const HttpRequest& request, const char* code,
+                              const std::string& sentence) {
+  // As JSON, so that no header can forge a line of the log.
+  spdlog::info("conn={} {} host={} origin={}", peer.number, code, write_json(request.host), write_json(request.origin));
+  throw ProtocolError(code, sentence);
 }
 
 }  // namespace
@@ -138,12 +151,17 @@ void check_page(const Services& services, const Peer& peer, const HttpRequest& r
   std::vector<std::string> names = services.config.host_names;
   names.insert(names.end(), {services.config.host, peer.address});
   if (!host_allowed(request.host, names)) {
-    throw ProtocolError("host_refused", "this server is not called '" + host_of(request.host) +
-                                            "': use its address, or add the name to host_names");
+    refuse_page(peer, request, "host_refused",
+                "this server is not called '" + request.host + "': use its address, or add the name to host_names");
   }
   if (!origin_allowed(request.origin, request.host, services.config.origins)) {
-    throw ProtocolError("origin_refused", "pages of another origin may not call this server: add it to origins");
+    refuse_page(peer, request, "origin_refused", "pages of another origin may not call this server: add it to origins");
   }
+}
+
+void check_room(const Peer& peer, const HttpRequest& request) {
+  if (peer.spare && request.target != live_path && request.target != ready_path)
+    throw ProtocolError("too_many_connections", full_sentence);
 }
 
 Route find_route(Services& services, const Peer& peer, const HttpRequest& request) {
@@ -151,9 +169,9 @@ Route find_route(Services& services, const Peer& peer, const HttpRequest& reques
     throw ProtocolError("method_refused", "HTTP only reads here (GET, HEAD): give work over " +
                                               std::string(web_socket_path) + " or newline-delimited JSON-RPC");
   }
-  if (request.target == "/livez")
+  if (request.target == live_path)
     return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
-  if (request.target == "/readyz") {
+  if (request.target == ready_path) {
     // Copied here: a reload changes the config while the disk is looked at.
     return {&services.disk,
             [&store = services.store, data = services.config.data, floor = services.config.disk_floor_bytes] {
@@ -162,8 +180,8 @@ Route find_route(Services& services, const Peer& peer, const HttpRequest& reques
   }
   authorize(services, peer, request);
   if (request.target == "/metrics") {
-    return {nullptr, [&services] {
-              return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(services)};
+    return {&services.reads, [&services, open = services.connections.count(), data = services.config.data] {
+              return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(services, open, data)};
             }};
   }
   if (request.target == schema_path) {

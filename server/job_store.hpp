@@ -32,12 +32,32 @@ struct Submitted {
   bool duplicate = false;
 };
 
-/// A durable event; `data` is the JSON of its `data` field. `seq` starts at 1 and has no gaps.
+/// A durable event; `data` is the JSON of its `data` field.
 struct StateEvent {
-  std::uint64_t seq = 0;
+  std::string job;
+  std::uint64_t seq = 0;     ///< among those of the job, from 1 on, without gaps
+  std::uint64_t number = 0;  ///< among those of all jobs: it rises, in the order in which they happened
   std::string time;
   std::string data;
   JobState to = JobState::queued;
+};
+
+/// Which jobs, in the order of submission or (`newest`) against it.
+struct JobWindow {
+  std::string after = {}, before = {};  ///< only those that were submitted between these two jobs; empty: no bound
+  bool newest = false;
+  int limit = 100;
+};
+
+/// A row that cannot be read.
+struct DamagedJob {
+  std::string id, why;
+};
+
+struct JobPage {
+  std::vector<JobRecord> jobs;
+  std::vector<DamagedJob> damaged;
+  bool more = false;  ///< there are others in the window
 };
 
 /// What the store decides by.
@@ -56,7 +76,8 @@ struct StoreRules {
 };
 
 /// Safe from any thread. A change is on disk when its call returns; with it, in the same transaction, is its event.
-/// Every method throws StorageError.
+/// Every method throws StorageError, but for those that say so. Questions never wait for a change that is being
+/// written.
 class JobStore {
  public:
   virtual ~JobStore() = default;
@@ -108,22 +129,24 @@ class JobStore {
 
   virtual std::optional<JobRecord> find(const std::string& job) = 0;
   virtual std::optional<JobRecord> find_key(const std::string& key) = 0;
-  /// In the order of submission, behind `after` (empty: from the first).
-  virtual std::vector<JobRecord> list(const std::string& after, int limit) = 0;
-  virtual std::map<JobState, std::uint64_t> counts() = 0;
+  virtual JobPage list(const JobWindow& window) = 0;
   /// How long ago the oldest queued job was submitted, by wall time; 0 if none is queued.
   virtual std::uint64_t queue_age_s() = 0;
-  /// How long the commits took since the start; does not throw.
-  virtual const Histogram& commit_times() = 0;
-  /// How many queued jobs will be claimed before this one.
-  virtual std::uint64_t position(const JobRecord& job) = 0;
-  /// Events behind `after`, in order.
+  /// Events behind `after`, in order: of one job behind that seq, or (no job) of all behind that number.
   virtual std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) = 0;
+  /// The seq of the job's last event, or (no job) the number of the last one that ever was; 0: none.
   virtual std::uint64_t last_event(const std::string& job) = 0;
   virtual std::vector<StoredArtifact> artifacts(const std::string& job) = 0;
   /// A file of a job that has ended with artifacts is not what was stored: from now on the job says so, as its error
   /// `artifact_damaged`. Nothing for any other job.
   virtual void note_damage(const std::string& job, const std::string& sentence) = 0;
+
+  // These are kept counted: they read nothing and do not throw.
+  virtual std::map<JobState, std::uint64_t> counts() = 0;
+  /// How many queued jobs will be claimed before this one.
+  virtual std::uint64_t position(const JobRecord& job) = 0;
+  /// How long the commits took since the start.
+  virtual const Histogram& commit_times() = 0;
 };
 
 /// Throws ProtocolError `not_found`, or `gone` for one that was removed.

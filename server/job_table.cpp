@@ -3,48 +3,6 @@
 namespace sculpt {
 namespace {
 
-constexpr const char* columns =
-    "number, id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, memory_bytes, rank, "
-    "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence, "
-    "pinned, owner";
-
-JobRow read_row(const Statement& row) {
-  JobRow read;
-  JobRecord& job = read.job;
-  int column = 0;
-  const auto text = [&] { return row.text(column++); };
-  const auto number = [&] { return row.number(column++); };
-  const auto small = [&] { return static_cast<int>(row.number(column++)); };
-  read.number = number();
-  job.id = text();
-  const std::string word = text();
-  const std::optional<JobState> state = find_state(word);
-  if (!state) throw StorageError("job " + job.id + " has the unknown state '" + word + "' in the database");
-  job.state = *state;
-  job.key = text();
-  job.schedule.priority = small();
-  job.schedule.not_before = text();
-  job.schedule.start_by = text();
-  job.schedule.max_runtime_s = number();
-  job.spec = text();
-  job.cell_bundle = text();
-  job.memory_bytes = static_cast<std::uint64_t>(number());
-  job.rank = number();
-  job.attempt = small();
-  job.failures = small();
-  job.crashes = small();
-  job.isolated = number() != 0;
-  job.wake_at = text();
-  job.submitted_at = text();
-  job.started_at = text();
-  job.finished_at = text();
-  job.error_code = text();
-  job.error_sentence = text();
-  job.pinned = number() != 0;
-  job.owner = text();
-  return read;
-}
-
 // What the event of a change says besides from, to and reason.
 void describe(const JobRecord& job, Json& data) {
   if (job.attempt > 0) data["attempt"] = job.attempt;
@@ -53,19 +11,6 @@ void describe(const JobRecord& job, Json& data) {
 }
 
 }  // namespace
-
-std::optional<JobRow> JobTable::first(const std::string& rest, const std::vector<std::string>& values) {
-  std::vector<JobRow> rows = all(rest + " LIMIT 1", values);
-  return rows.empty() ? std::nullopt : std::optional(std::move(rows.front()));
-}
-
-std::vector<JobRow> JobTable::all(const std::string& rest, const std::vector<std::string>& values) {
-  Statement query(database_, std::string("SELECT ") + columns + " FROM job WHERE " + rest);
-  for (const std::string& value : values) query.bind(value);
-  std::vector<JobRow> rows;
-  while (query.step()) rows.push_back(read_row(query));
-  return rows;
-}
 
 JobRow JobTable::insert(const JobRecord& job) {
   Statement insert(database_,
@@ -81,6 +26,7 @@ JobRow JobTable::insert(const JobRecord& job) {
   Json data{{"to", name(job.state)}, {"reason", "submitted"}};
   describe(job, data);
   add_event(row, std::move(data));
+  moves_.push_back({job.rank, job.id, job.owner, std::nullopt, job.state});
   return row;
 }
 
@@ -108,6 +54,26 @@ void JobTable::move(JobRow& row, JobState to, const char* reason) {
   Json data{{"from", name(from)}, {"to", name(to)}, {"reason", reason}};
   describe(job, data);
   add_event(row, std::move(data));
+  moves_.push_back({job.rank, job.id, job.owner, from, to});
+}
+
+void JobTable::add_artifacts(const JobRow& row, const std::vector<StoredArtifact>& artifacts) {
+  std::int64_t place = 0;
+  for (const StoredArtifact& artifact : artifacts) {
+    Statement insert(database_, "INSERT INTO artifact VALUES(?,?,?,?,?,?)");
+    insert.bind(row.number).bind(place++).bind(artifact.artifact).bind(artifact.format);
+    insert.bind(static_cast<std::int64_t>(artifact.size)).bind(artifact.sha256).run();
+  }
+}
+
+void JobTable::erase(const JobRow& row) {
+  for (const char* sql :
+       {"DELETE FROM event WHERE job=?", "DELETE FROM artifact WHERE job=?", "DELETE FROM job WHERE number=?"}) {
+    Statement(database_, sql).bind(row.number).run();
+  }
+  Statement(database_, "INSERT INTO removed VALUES(?)").bind(row.job.id).run();
+  count_change();
+  moves_.push_back({row.job.rank, row.job.id, row.job.owner, row.job.state, std::nullopt});
 }
 
 void JobTable::add_event(const JobRow& row, Json data) {

@@ -29,7 +29,11 @@ Json error_view(const JobRecord& job) {
   return {{"code", job.error_code}, {"message", job.error_sentence}};
 }
 
-Json job_view(const Services& services, const JobRecord& job) {
+ViewSources view_sources(const Services& services) {
+  return {services.store, services.scheduler, services.config.keep};
+}
+
+Json job_view(const ViewSources& sources, const JobRecord& job) {
   const JobSpec spec = read_stored_spec(job);
   Json view{{"job", job.id}, {"state", name(job.state)}};
   if (!job.key.empty()) view["key"] = job.key;
@@ -49,9 +53,9 @@ Json job_view(const Services& services, const JobRecord& job) {
   if (!job.started_at.empty()) view["started_at"] = job.started_at;
   if (!job.finished_at.empty()) view["finished_at"] = job.finished_at;
   if (job.pinned) view["pinned"] = true;
-  if (is_final(job.state) && !job.pinned) view["expires_at"] = expiry(job, services.config.keep);
-  if (job.state == JobState::queued) view["position"] = services.store.position(job);
-  if (const std::optional<Progress> progress = services.scheduler.progress(job.id)) {
+  if (is_final(job.state) && !job.pinned) view["expires_at"] = expiry(job, sources.keep);
+  if (job.state == JobState::queued) view["position"] = sources.store.position(job);
+  if (const std::optional<Progress> progress = sources.scheduler.progress(job.id)) {
     view["progress"] = progress_view(*progress);
   }
   if (!job.error_code.empty()) view["error"] = error_view(job);

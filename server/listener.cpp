@@ -7,10 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 
-#include "proto/request.hpp"
 #include "server/door.hpp"
 #include "server/services.hpp"
 
@@ -20,7 +18,8 @@ namespace {
 using tcp = net::ip::tcp;
 
 constexpr std::chrono::milliseconds accept_pause{100};
-constexpr rlim_t files_for_others = 32;  // database, artifacts, log: connections may not take these
+constexpr rlim_t files_for_others = 32;  // database, artifacts, log, spare places: connections may not take these
+constexpr std::size_t spare_places = 8;  // for those who ask a full server for its health
 
 std::string shown(const Config& config) {
   return config.host + ":" + std::to_string(config.port);
@@ -46,19 +45,6 @@ std::size_t most_connections(const Config& config) {
   ::getrlimit(RLIMIT_NOFILE, &files);
   const rlim_t room = files.rlim_cur > 2 * files_for_others ? files.rlim_cur - files_for_others : files_for_others;
   return std::min<std::size_t>(static_cast<std::size_t>(config.max_connections), room);
-}
-
-// A socket that is about to be closed: what came is read first, or the peer would get a reset instead of the line.
-void turn_away(net::generic::stream_protocol::socket socket, std::size_t most) {
-  std::array<char, 4096> unread;
-  ::recv(socket.native_handle(), unread.data(), unread.size(), MSG_DONTWAIT);
-  const std::string line =
-      error_line(nullptr, error_object("too_many_connections",
-                                       "this server has " + std::to_string(most) +
-                                           " connections, the most it may: try again later, or raise max_connections "
-                                           "and the limit of open files")) +
-      "\n";
-  ::send(socket.native_handle(), line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 std::atomic<std::uint64_t> last_connection = 0;
@@ -138,12 +124,9 @@ void Listener::on_accept(const boost::system::error_code& error, Protocol::socke
   if (!acceptor_.is_open()) return;
   if (error) return wait_for_files(error);
   short_of_files_ = false;
-  const std::size_t most = most_connections(services_.config);
-  if (services_.connections.count() >= most) {
-    turn_away(std::move(socket), most);
-    return accept();
-  }
   Peer peer = peer_of(socket);
+  peer.spare = services_.connections.count() >= most_connections(services_.config);
+  if (peer.spare) services_.connections.thin_spare(spare_places - 1);
   const auto door = std::make_shared<Door>(Stream(std::move(socket)), std::move(peer), tls_, services_);
   services_.connections.add(door);
   ++services_.counters.connections;

@@ -1,5 +1,6 @@
 // sculptd: settles the config, then shows it or serves until a signal comes.
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sysexits.h>
 
 #include <CLI/CLI.hpp>
@@ -93,6 +94,8 @@ void raise_file_limit() {
 }
 
 void serve(const Config& config, const ConfigSources& sources) {
+  constexpr mode_t others_and_group = 077;
+  ::umask(others_and_group);
   start_log(config);
   raise_file_limit();
   Server server(config, make_planner(config.cells));

@@ -53,9 +53,9 @@ std::string queue_text(const Services& services) {
   return text;
 }
 
-std::string connections_text(const Services& services) {
+std::string connections_text(const Services& services, std::size_t open) {
   const Counters& counters = services.counters;
-  return single("sculptd_connections", "gauge", "Open connections.", services.connections.count()) +
+  return single("sculptd_connections", "gauge", "Open connections.", open) +
          single("sculptd_connections_total", "counter", "Connections accepted.", counters.connections.load()) +
          single("sculptd_requests_total", "counter", "Requests taken.", counters.requests.load()) +
          single("sculptd_events_total", "counter", "Events sent to subscribers.", counters.events.load()) +
@@ -63,11 +63,10 @@ std::string connections_text(const Services& services) {
          single("sculptd_sent_bytes_total", "counter", "Bytes given to connections.", counters.bytes_out.load());
 }
 
-std::string storage_text(const Services& services) {
+std::string storage_text(const Services& services, const std::filesystem::path& data) {
   return head("sculptd_commit_seconds", "histogram", "Time of a commit of the store, with its sync to disk.") +
          services.store.commit_times().text("sculptd_commit_seconds", "") +
-         single("sculptd_disk_free_bytes", "gauge", "Free space where the data folder is.",
-                free_bytes(services.config.data));
+         single("sculptd_disk_free_bytes", "gauge", "Free space where the data folder is.", free_bytes(data));
 }
 
 std::string process_text(const Services& services) {
@@ -80,8 +79,9 @@ std::string process_text(const Services& services) {
 
 }  // namespace
 
-std::string metrics_text(const Services& services) {
-  return queue_text(services) + connections_text(services) + storage_text(services) + process_text(services);
+std::string metrics_text(const Services& services, std::size_t connections, const std::filesystem::path& data) {
+  return queue_text(services) + connections_text(services, connections) + storage_text(services, data) +
+         process_text(services);
 }
 
 }  // namespace sculpt

@@ -28,10 +28,14 @@ std::uint64_t folder_bytes(const fs::path& folder) {
 
 template <typename Visit>
 void for_each_job(JobStore& store, Visit visit) {
-  std::string after;
-  for (std::vector<JobRecord> jobs = store.list(after, page); !jobs.empty(); jobs = store.list(after, page)) {
-    for (const JobRecord& job : jobs) visit(job);
-    after = jobs.back().id;
+  JobWindow window{.limit = page};
+  for (bool more = true; more;) {
+    const JobPage found = store.list(window);
+    // What it needs is not known.
+    if (!found.damaged.empty()) throw StorageError(found.damaged.front().why);
+    for (const JobRecord& job : found.jobs) visit(job);
+    more = found.more;
+    if (more) window.after = found.jobs.back().id;
   }
 }
 

@@ -123,6 +123,7 @@ void Scheduler::wake() {
 }
 
 void Scheduler::stop_run(const std::string& job) {
+  const std::lock_guard claiming(claiming_);
   const std::lock_guard lock(mutex_);
   if (const auto found = running_.find(job); found != running_.end()) found->second->stop.request_stop();
 }
@@ -182,18 +183,23 @@ void Scheduler::wake_due() {
   }
 }
 
-// Claims and makes the run known under one lock: a cancel that comes after the claim always finds it.
+// Claims and makes the run known in one step: a cancel that comes after the claim always finds it.
 std::optional<JobRecord> Scheduler::claim(const std::shared_ptr<Run>& run) {
-  const std::lock_guard lock(mutex_);
-  if (stopping_) return std::nullopt;
-  work_ = false;
+  const std::lock_guard claiming(claiming_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return std::nullopt;
+    work_ = false;
+  }
   try {
     std::optional<JobRecord> job = store_.claim();
     if (!job) return std::nullopt;
-    work_ = true;
     if (job->schedule.max_runtime_s > 0)
       run->deadline = Clock::now() + std::chrono::seconds(job->schedule.max_runtime_s);
+    const std::lock_guard lock(mutex_);
+    work_ = true;
     running_[job->id] = run;
+    if (stopping_) run->stop.request_stop();
     return job;
   } catch (const std::exception& error) {
     // Tried again after retry_time, so that a full disk does not make the worker spin.

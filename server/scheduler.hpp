@@ -32,7 +32,7 @@ using RunJob = std::function<Ending(const JobRecord&, const Watch&)>;
 std::optional<Ending> caught_ending();
 
 /// All methods are safe from any thread. Between them and a worker stands one mutex, which is never held while a job
-/// runs.
+/// runs or the store is asked; only stop_run waits for a claim that is being written.
 class Scheduler {
  public:
   /// `changed` is called after each change of a job's state, on the thread that made it, and must not throw.
@@ -63,6 +63,7 @@ class Scheduler {
   JobStore& store_;
   RunJob run_;
   std::function<void(const std::string&)> changed_;
+  std::mutex claiming_;  // a claim and the run that it makes known are one step; taken before mutex_
   mutable std::mutex mutex_;
   std::condition_variable_any wake_, time_;
   bool work_ = true;  // a claim may find something

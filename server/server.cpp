@@ -77,11 +77,9 @@ void log_confinement() {
 }
 
 // For the service manager's status line.
-std::string queue_sentence(JobStore& store) try {
+std::string queue_sentence(JobStore& store) {
   const auto counts = store.counts();
   return fmt::format("{} running, {} queued", counts.at(JobState::running), counts.at(JobState::queued));
-} catch (const StorageError& error) {
-  return error.what();
 }
 
 }  // namespace
@@ -115,8 +113,8 @@ struct Server::Impl {
                                               make_isolated_run(isolation)),
                                    counters),
                   [this](const std::string& job) { services.changed(job); }),
-        streams(*store, scheduler),
-        waits(io, *store),
+        streams(io, *store, reads, scheduler),
+        waits(io, *store, reads),
         retention(*store, blobs, artifacts, folder.jobs()),
         listener(services, tcp_endpoint(config), make_tls(config)) {
     if (!config.unix_socket.empty()) unix_listener.emplace(services, unix_endpoint(config), nullptr);
@@ -194,7 +192,7 @@ struct Server::Impl {
   Retention retention;
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt};
+  TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};
   TaskQueue replays{Pace::background}, exports{Pace::background};
   Services services{io,
@@ -210,6 +208,8 @@ struct Server::Impl {
                     waits,
                     access,
                     connections,
+                    reads,
+                    changes,
                     disk,
                     admission,
                     checks,
@@ -250,7 +250,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue : {&impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports}) queue->stop();
+  for (TaskQueue* queue : {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports})
+    queue->stop();
   impl_->checks.stop();
 }
 

@@ -49,7 +49,7 @@ void on_hello(Services& services, Call call) {
                 {"epoch", services.store.epoch()},
                 {"features", {"chunk", "events", "verify"}},
                 {"limits",
-                 {{"line", max_line_bytes},
+                 {{"line", call.session->line_limit()},
                   {"chunk", max_chunk_bytes},
                   {"blob", services.config.blob_limit_bytes},
                   {"depth", max_json_depth}}}});
@@ -62,22 +62,24 @@ void on_ping(Services&, Call call) {
 
 void on_server_info(Services& services, Call call) {
   read_nothing(call.params);
-  const auto uptime = std::chrono::steady_clock::now() - services.started;
-  Json jobs = Json::object();
-  const auto counts = services.store.counts();
-  for (const JobState state : job_states) jobs[name(state)] = counts.at(state);
-  answer(call, {{"server", server_name},
+  answer_read(services, std::move(call), [&services] {
+    const auto uptime = std::chrono::steady_clock::now() - services.started;
+    Json jobs = Json::object();
+    for (const auto& [state, count] : services.store.counts()) jobs[name(state)] = count;
+    return Json{{"server", server_name},
                 {"protocol", {protocol_major, protocol_minor}},
                 {"epoch", services.store.epoch()},
                 {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
                 {"workers", services.workers},
                 {"cells", services.planner.cells()},
                 {"queue_paused", services.store.queue_paused()},
-                {"jobs", std::move(jobs)}});
+                {"jobs", std::move(jobs)}};
+  });
 }
 
-void on_server_schema(Services&, Call call) {
-  answer(call, protocol_schema(read_schema_method(call.params)));
+void on_server_schema(Services& services, Call call) {
+  const std::string method = read_schema_method(call.params);
+  answer_read(services, std::move(call), [method] { return protocol_schema(method); });
 }
 
 }  // namespace sculpt

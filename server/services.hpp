@@ -36,6 +36,8 @@ struct Services {
   Waits& waits;              // I/O thread only
   Access& access;            // I/O thread only
   Connections& connections;  // I/O thread only
+  TaskQueue& reads;          ///< questions to the store
+  TaskQueue& changes;        ///< commands to it
   TaskQueue& disk;           ///< chunks in and out
   TaskQueue& admission;      ///< of submitted jobs, but for what takes long
   CheckDesk& checks;         ///< that: the check of those that are not known to pass it

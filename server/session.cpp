@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t read_bytes = 64 << 10;
 constexpr std::size_t hello_bytes = 4 << 10;        // of one read before hello: strangers get little memory
-constexpr std::size_t hello_line_bytes = 16 << 10;  // the longest line before hello
+constexpr std::size_t short_line_bytes = 16 << 10;  // the longest line of who gives no work: its JSON is read at once
 constexpr std::size_t low_water_bytes = 64 << 10;   // below it events are fetched for the peer
 constexpr std::size_t high_water_bytes = 1 << 20;   // above it no more of its requests are taken
 constexpr int max_pending = 64;
@@ -42,7 +42,7 @@ Session::Session(std::unique_ptr<Transport> transport, Peer peer, Services& serv
     : transport_(std::move(transport)),
       peer_(std::move(peer)),
       services_(services),
-      reader_(hello_line_bytes),
+      reader_(short_line_bytes),
       whole_read_(std::make_shared<WholeRead>()) {}
 
 void Session::start(std::string_view first) {
@@ -59,7 +59,7 @@ void Session::turn_away(const char* code, const std::string& sentence) {
 void Session::greet(const HelloParams& hello, Identity identity) {
   identity_ = std::move(identity);
   max_line_ = hello.max_line;
-  reader_.set_line_limit(max_line_bytes);
+  reader_.set_line_limit(identity_->scope == Scope::read ? short_line_bytes : max_line_bytes);
   // As JSON, so that no name can forge a line of the log.
   spdlog::log(identity_->owner.empty() ? spdlog::level::debug : spdlog::level::info, "conn={} owner={} client={}",
               peer_.number, identity_->owner, write_json(hello.client));
@@ -116,7 +116,7 @@ bool Session::broken() {
 }
 
 bool Session::may_take_requests() const {
-  return !closed_ && !finishing_ && !held_ && pending_ < max_pending && queued_bytes_ < high_water_bytes;
+  return !closed_ && !finishing_ && !held_by_ && pending_ < max_pending && queued_bytes_ < high_water_bytes;
 }
 
 void Session::pump_input() {
@@ -177,6 +177,7 @@ void Session::handle(ParsedLine parsed, std::string chunk) {
     const ProtocolError& error = *parsed.error;
     return refuse(parsed.request.id, error_object(error.code(), error.what(), error.pointer()));
   }
+  taken_ = parsed.request.id;
   dispatch(services_,
            {shared_from_this(), std::move(parsed.request.id), std::move(parsed.request.params), std::move(chunk)},
            parsed.request.method);
@@ -191,27 +192,26 @@ void Session::fail_connection(const Json& id, const char* code, const std::strin
 
 // --- out
 
-void Session::answer(const Json& id, const Answer& answer) {
-  std::string line = reply_line(id, answer.result);
-  if (line.size() > max_line_) {
-    return refuse(id, error_object("reply_too_long", "the reply has " + std::to_string(line.size()) +
+void Session::answer(const Json& id, Reply reply) {
+  if (reply.line.size() > max_line_) {
+    return refuse(id, error_object("reply_too_long", "the reply has " + std::to_string(reply.line.size()) +
                                                          " bytes, over this connection's max_line of " +
                                                          std::to_string(max_line_) +
                                                          ": ask for less or say hello with a greater max_line"));
   }
-  send(line + "\n");
-  if (answer.chunk) send(*answer.chunk + "\n", Transport::Frame::chunk);
-  answered();
+  send(std::move(reply.line.append("\n")));
+  if (reply.chunk) send(std::move(reply.chunk->append("\n")), Transport::Frame::chunk);
+  answered(id);
 }
 
 void Session::refuse(const Json& id, const Json& error) {
   send(fitted_error(id, error, max_line_) + "\n");
-  answered();
+  answered(id);
 }
 
-void Session::answered() {
+void Session::answered(const Json& id) {
   --pending_;
-  held_ = false;
+  if (held_by_ == id) held_by_.reset();
   // Not from within the caller's loop over frames: a pipelined burst must not become a recursion.
   net::post(services_.io, [self = shared_from_this()] {
     self->pump_input();
@@ -221,7 +221,7 @@ void Session::answered() {
 
 void Session::send_event(const EventMessage& event) {
   std::string line = event_line(to_json(event));
-  if (line.size() > max_line_) {
+  if (line.size() > max_line_ || (event.data.is_null() && event.seq)) {
     EventMessage brief = event;
     brief.data = nullptr;
     Json params = to_json(brief);
@@ -289,8 +289,11 @@ void Session::close(const char* reason) {
   closed_ = true;
   spdlog::debug("conn={} closed: {}", peer_.number, reason);
   transport_->close();
-  services_.streams.drop(*this);
-  services_.waits.drop(*this);
+  // Not from within a loop over subscriptions or waits.
+  net::post(services_.io, [self = shared_from_this()] {
+    self->services_.streams.drop(*self);
+    self->services_.waits.drop(*self);
+  });
 }
 
 void Session::check_deadlines(Clock::time_point now) {

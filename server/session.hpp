@@ -26,6 +26,12 @@ struct Answer {
   std::optional<std::string> chunk;
 };
 
+/// The same as bytes, without the LF of the line.
+struct Reply {
+  std::string line;
+  std::optional<std::string> chunk;
+};
+
 class Session : public Connection, public std::enable_shared_from_this<Session> {
  public:
   Session(std::unique_ptr<Transport> transport, Peer peer, Services& services);
@@ -34,12 +40,12 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
 
   /// Every dispatched request is answered exactly once, by one of these two. A reply over the client's max_line becomes
   /// an error.
-  void answer(const Json& id, const Answer& answer);
+  void answer(const Json& id, Reply reply);
   void refuse(const Json& id, const Json& error_object);
-  /// An event over the client's max_line loses its data.
+  /// An event over the client's max_line loses its data; a state event without data says that there is more.
   void send_event(const EventMessage& event);
-  /// Nothing more is read from this connection until `answer` or `refuse` was called for the request at hand.
-  void hold() { held_ = true; }
+  /// Call from the handler of a request: no other of this connection is taken until that one is answered.
+  void hold() { held_by_ = taken_; }
   /// Sends what is queued, then closes.
   void finish();
   void close(const char* reason) override;
@@ -51,14 +57,20 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   void check_deadlines(Clock::time_point now) override;
   std::size_t queued_bytes() const { return queued_bytes_; }
   bool writable() const;
+  bool closed() const { return closed_; }
+  /// Closes it when its peer asks nothing more and was told everything.
+  void close_if_done();
 
   const Peer& peer() const { return peer_; }
   /// From hello on.
   const Identity* identity() const override { return identity_ ? &*identity_ : nullptr; }
+  bool spare() const override { return peer_.spare && !closed_; }
   std::string owner() const { return identity_ ? identity_->owner : std::string(); }
   void greet(const HelloParams& hello, Identity identity);
   std::size_t max_line() const { return max_line_; }
-  /// Jobs whose events this connection gets; kept by Streams.
+  /// Of the lines that it may send.
+  std::size_t line_limit() const { return reader_.line_limit(); }
+  /// Jobs whose events this connection gets, with "" for those of all jobs; kept by Streams.
   std::set<std::string>& subscriptions() { return subscriptions_; }
   /// Where this connection is in an artifact; for the one artifact.read that may be at work.
   const std::shared_ptr<WholeRead>& whole_read() const { return whole_read_; }
@@ -72,7 +84,7 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   void on_line(std::string line);
   void handle(ParsedLine parsed, std::string chunk);
   void fail_connection(const Json& id, const char* code, const std::string& sentence, const std::string& pointer = {});
-  void answered();
+  void answered(const Json& id);
   /// One frame, its LF included.
   void send(std::string frame, Transport::Frame kind = Transport::Frame::line);
   void write();
@@ -80,7 +92,6 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   void on_input_end();
   bool broken();
   void probe_after(int seconds);
-  void close_if_done();
 
   struct Outgoing {
     std::string bytes;
@@ -97,13 +108,14 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   std::size_t sent_ = 0;  // of the first in the queue
   std::size_t max_line_ = max_line_bytes;
   int pending_ = 0;  // dispatched and not yet answered
+  Json taken_;       // id of the request that was dispatched last
+  std::optional<Json> held_by_;
   std::set<std::string> subscriptions_;
   Clock::time_point last_step_ = Clock::now();  // of the peer: bytes that it took, or the moment there were some for it
   Clock::time_point opened_ = Clock::now();
   std::optional<Identity> identity_;
   bool first_line_ = true;
   bool reading_ = false;
-  bool held_ = false;
   bool finishing_ = false;  // no more requests; close when everything is sent
   bool lingering_ = false;  // everything is sent; what still comes is thrown away, so that the peer gets our last line
   bool input_ended_ = false;

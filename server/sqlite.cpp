@@ -17,10 +17,10 @@ constexpr int busy_timeout_ms = 5000;
   throw StorageError(sentence);
 }
 
-sqlite3* open(const std::filesystem::path& file) {
+sqlite3* open(const std::filesystem::path& file, Database::Use use) {
   sqlite3* handle = nullptr;
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-  if (sqlite3_open_v2(file.c_str(), &handle, flags, nullptr) != SQLITE_OK) {
+  const int flags = use == Database::Use::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  if (sqlite3_open_v2(file.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr) != SQLITE_OK) {
     const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "out of memory";
     sqlite3_close(handle);
     throw StorageError("cannot open the database '" + file.string() + "': " + why);
@@ -30,7 +30,7 @@ sqlite3* open(const std::filesystem::path& file) {
 
 }  // namespace
 
-Database::Database(const std::filesystem::path& file) : handle_(open(file), sqlite3_close) {
+Database::Database(const std::filesystem::path& file, Use use) : handle_(open(file, use), sqlite3_close) {
   sqlite3_extended_result_codes(get(), 1);
   sqlite3_busy_timeout(get(), busy_timeout_ms);
 }

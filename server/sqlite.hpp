@@ -17,7 +17,10 @@ namespace sculpt {
 /// One connection. Not shared between threads without a lock.
 class Database {
  public:
-  explicit Database(const std::filesystem::path& file);
+  enum class Use { write, read };
+
+  /// For writing the file is made where there is none.
+  explicit Database(const std::filesystem::path& file, Use use = Use::write);
   void run(const char* sql);
   sqlite3* get() const { return handle_.get(); }
   /// Of the transactions that were committed.

@@ -68,7 +68,24 @@ CREATE INDEX job_owner ON job(owner, state);
 CREATE TABLE removed(id TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
 )";
 
-constexpr std::array<const char*, schema_version> steps{version_1, version_2, version_3};
+// Events get a number among those of all jobs. Those that are there are numbered by time, but never against the order
+// of their job, should the clock have been set back.
+constexpr const char* version_4 = R"(
+CREATE TABLE numbered(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  job INTEGER NOT NULL REFERENCES job(number),
+  seq INTEGER NOT NULL,
+  time TEXT NOT NULL,
+  state TEXT NOT NULL,
+  data TEXT NOT NULL,
+  UNIQUE(job, seq)) STRICT;
+INSERT INTO numbered(job, seq, time, state, data)
+  SELECT job, seq, time, state, data FROM event ORDER BY max(time) OVER (PARTITION BY job ORDER BY seq), job, seq;
+DROP TABLE event;
+ALTER TABLE numbered RENAME TO event;
+)";
+
+constexpr std::array<const char*, schema_version> steps{version_1, version_2, version_3, version_4};
 
 std::int64_t read_version(Database& database) {
   Statement query(database, "PRAGMA user_version");

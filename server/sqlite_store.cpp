@@ -6,7 +6,9 @@
 #include "server/job_id.hpp"
 #include "server/job_store.hpp"
 #include "server/job_table.hpp"
+#include "server/run_ending.hpp"
 #include "server/sqlite_schema.hpp"
+#include "server/store_reader.hpp"
 
 namespace sculpt {
 namespace {
@@ -20,6 +22,14 @@ constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
   throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
 }
 
+// The file, once what is in it is of this version.
+const std::filesystem::path& up_to_date(const std::filesystem::path& file) {
+  Database database(file);
+  database.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;");
+  update_schema(database, file);
+  return file;
+}
+
 [[noreturn]] void refuse_unknown(const std::string& id) {
   throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
 }
@@ -27,23 +37,21 @@ constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
 class SqliteStore : public JobStore {
  public:
   SqliteStore(const std::filesystem::path& file, StoreRules rules)
-      : rules_(std::move(rules)), database_(file), jobs_(database_, rules_) {
-    database_.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
-    database_.run("PRAGMA journal_size_limit=67108864;");
-    update_schema(database_, file);
+      : rules_(std::move(rules)), database_(up_to_date(file)), readable_(file, Database::Use::read) {
+    database_.run("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864;");
     epoch_ = read_text("SELECT value FROM meta WHERE name='epoch'");
     ids_ = IdMaker(read_text("SELECT max(id) FROM (SELECT id FROM job UNION ALL SELECT id FROM removed)"));
     Statement latest(database_, "SELECT max(rank + ? * priority) FROM job");
     latest.bind(ageing()).step();
     last_rank_ms_ = latest.number(0);
     if (rules_.committed) database_.on_commit([this] { tell_changes(); });
+    count_jobs();
   }
 
   std::string epoch() override { return epoch_; }
 
   Submitted submit(const NewJob& wanted) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     if (const std::optional<JobRow> first = jobs_.find_key(wanted.key); first && !wanted.key.empty()) {
       if (first->job.spec != wanted.spec) {
         throw ProtocolError("key_conflict",
@@ -55,13 +63,12 @@ class SqliteStore : public JobStore {
     }
     refuse_too_many(wanted.owner);
     const JobRow row = jobs_.insert(new_record(wanted));
-    transaction.commit();
+    change.commit();
     return {row.job, false};
   }
 
   std::optional<JobRecord> claim() override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     if (queue_is_paused()) return std::nullopt;
     std::optional<JobRow> next =
         jobs_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
@@ -75,47 +82,38 @@ class SqliteStore : public JobStore {
     job.error_code.clear();
     job.error_sentence.clear();
     jobs_.move(*next, running, "claimed");
-    transaction.commit();
+    change.commit();
     return job;
   }
 
   bool finish(const std::string& id, int attempt, const Ending& ending) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     std::optional<JobRow> row = owned(id, attempt);
     if (!row) return false;
-    acquit(row->job);
-    if (row->job.state == cancelling) {
-      jobs_.move(*row, cancelled, "finished");
-    } else {
-      end(*row, ending);
-    }
-    transaction.commit();
+    end_run(jobs_, rules_, *row, ending);
+    change.commit();
     return true;
   }
 
   bool release(const std::string& id, int attempt) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     std::optional<JobRow> row = owned(id, attempt);
     if (!row) return false;
-    acquit(row->job);
-    let_go(*row);
-    transaction.commit();
+    stop_run(jobs_, *row);
+    change.commit();
     return true;
   }
 
   int recover() override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     std::vector<JobRow> left = jobs_.all(std::string(active) + " ORDER BY number", {});
-    for (JobRow& row : left) let_go(row);
-    transaction.commit();
+    for (JobRow& row : left) abandon_run(jobs_, row);
+    change.commit();
     return static_cast<int>(left.size());
   }
 
   std::vector<std::string> wake_due() override {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const std::string now = jobs_.now();
     std::vector<JobRow> late =
         jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND state IN ('held', 'queued') ORDER BY number", {now});
@@ -123,7 +121,7 @@ class SqliteStore : public JobStore {
         "state IN ('held', 'backoff') AND wake_at<=?1 AND (start_by='' OR start_by>=?1 OR attempt>0) ORDER BY number",
         {now});
     if (late.empty() && due.empty()) return {};
-    Transaction transaction(database_);
+    Change change(*this, std::move(lock));
     std::vector<std::string> changed;
     for (JobRow& row : late) {
       row.job.error_code = "expired";
@@ -136,12 +134,12 @@ class SqliteStore : public JobStore {
       jobs_.move(row, queued, "due");
       changed.push_back(row.job.id);
     }
-    transaction.commit();
+    change.commit();
     return changed;
   }
 
   JobState cancel(const std::string& id) override {
-    return change(id, [this](JobRow& row) {
+    return change_job(id, [this](JobRow& row) {
       const JobState state = row.job.state;
       if (state == cancelled || state == cancelling) return;
       if (is_final(state)) refuse(row.job, "cancelled any more");
@@ -150,7 +148,7 @@ class SqliteStore : public JobStore {
   }
 
   JobState pause(const std::string& id) override {
-    return change(id, [this](JobRow& row) {
+    return change_job(id, [this](JobRow& row) {
       const JobState state = row.job.state;
       if (state == paused || state == pausing) return;
       if (is_final(state) || state == cancelling) refuse(row.job, "paused");
@@ -159,7 +157,7 @@ class SqliteStore : public JobStore {
   }
 
   JobState resume(const std::string& id) override {
-    return change(id, [this](JobRow& row) {
+    return change_job(id, [this](JobRow& row) {
       JobRecord& job = row.job;
       if (is_final(job.state) || job.state == cancelling) refuse(job, "resumed");
       if (job.state == pausing) refuse(job, "resumed before it is paused: try again in a moment");
@@ -171,7 +169,7 @@ class SqliteStore : public JobStore {
   }
 
   JobState retry(const std::string& id) override {
-    return change(id, [this](JobRow& row) {
+    return change_job(id, [this](JobRow& row) {
       JobRecord& job = row.job;
       const bool damaged = job.error_code == damage_code;
       if (job.state != quarantined && !damaged)
@@ -192,10 +190,7 @@ class SqliteStore : public JobStore {
         .run();
   }
 
-  bool queue_paused() override {
-    const std::lock_guard lock(mutex_);
-    return queue_is_paused();
-  }
+  bool queue_paused() override { return reader_.queue_paused(); }
 
   void note_damage(const std::string& id, const std::string& sentence) override {
     const std::lock_guard lock(mutex_);
@@ -212,112 +207,53 @@ class SqliteStore : public JobStore {
   }
 
   bool remove(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+    Change change(*this);
     const std::optional<JobRow> row = jobs_.find(id);
     if (!row || !is_final(row->job.state) || row->job.pinned) return false;
-    for (const char* sql :
-         {"DELETE FROM event WHERE job=?", "DELETE FROM artifact WHERE job=?", "DELETE FROM job WHERE number=?"}) {
-      Statement(database_, sql).bind(row->number).run();
-    }
-    Statement(database_, "INSERT INTO removed VALUES(?)").bind(id).run();
-    jobs_.count_change();
-    transaction.commit();
+    jobs_.erase(*row);
+    change.commit();
     return true;
   }
 
-  bool was_removed(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_, "SELECT 1 FROM removed WHERE id=?");
-    return query.bind(id).step();
+  bool was_removed(const std::string& id) override { return reader_.was_removed(id); }
+  std::optional<JobRecord> find(const std::string& id) override { return reader_.find(id); }
+  std::optional<JobRecord> find_key(const std::string& key) override { return reader_.find_key(key); }
+  JobPage list(const JobWindow& window) override { return reader_.list(window); }
+  std::uint64_t queue_age_s() override { return reader_.queue_age_s(); }
+  std::uint64_t last_event(const std::string& job) override { return reader_.last_event(job); }
+  std::vector<StoredArtifact> artifacts(const std::string& id) override { return reader_.artifacts(id); }
+  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override {
+    return reader_.events(job, after, limit);
   }
 
-  std::optional<JobRecord> find(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    const std::optional<JobRow> row = jobs_.find(id);
-    return row ? std::optional(row->job) : std::nullopt;
-  }
-
-  std::optional<JobRecord> find_key(const std::string& key) override {
-    const std::lock_guard lock(mutex_);
-    const std::optional<JobRow> row = jobs_.find_key(key);
-    return row ? std::optional(row->job) : std::nullopt;
-  }
-
-  std::vector<JobRecord> list(const std::string& after, int limit) override {
-    const std::lock_guard lock(mutex_);
-    std::vector<JobRecord> listed;
-    for (JobRow& row : jobs_.all("id>? ORDER BY id LIMIT " + std::to_string(limit), {after}))
-      listed.push_back(std::move(row.job));
-    return listed;
-  }
-
-  std::map<JobState, std::uint64_t> counts() override {
-    const std::lock_guard lock(mutex_);
-    std::map<JobState, std::uint64_t> counts;
-    for (const JobState state : job_states) {
-      Statement query(database_, "SELECT count(*) FROM job WHERE state=?");
-      query.bind(name(state)).step();
-      counts[state] = static_cast<std::uint64_t>(query.number(0));
-    }
-    return counts;
-  }
-
-  std::uint64_t queue_age_s() override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_, "SELECT max(0, unixepoch() - unixepoch(min(submitted_at))) FROM job WHERE state=?");
-    query.bind(name(JobState::queued)).step();
-    return static_cast<std::uint64_t>(query.number(0));
-  }
-
+  std::map<JobState, std::uint64_t> counts() override { return tally_.counts(); }
+  std::uint64_t position(const JobRecord& job) override { return tally_.position(job.rank, job.id); }
   const Histogram& commit_times() override { return database_.commit_times(); }
-
-  std::uint64_t position(const JobRecord& job) override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_,
-                    "SELECT count(*) FROM job WHERE state='queued' AND (rank < ?1 OR (rank = ?1 AND id < ?2))");
-    query.bind(job.rank).bind(job.id).step();
-    return static_cast<std::uint64_t>(query.number(0));
-  }
-
-  std::vector<StateEvent> events(const std::string& id, std::uint64_t after, int limit) override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_,
-                    "SELECT seq, time, data, event.state FROM event JOIN job ON event.job = job.number "
-                    "WHERE job.id=? AND seq>? ORDER BY seq LIMIT ?");
-    query.bind(id).bind(static_cast<std::int64_t>(std::min<std::uint64_t>(after, INT64_MAX))).bind(limit);
-    std::vector<StateEvent> events;
-    while (query.step()) {
-      const auto seq = static_cast<std::uint64_t>(query.number(0));
-      events.push_back({seq, query.text(1), query.text(2), find_state(query.text(3)).value_or(failed)});
-    }
-    return events;
-  }
-
-  std::uint64_t last_event(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_, "SELECT max(seq) FROM event JOIN job ON event.job = job.number WHERE job.id=?");
-    query.bind(id).step();
-    return static_cast<std::uint64_t>(query.number(0));
-  }
-
-  std::vector<StoredArtifact> artifacts(const std::string& id) override {
-    const std::lock_guard lock(mutex_);
-    Statement query(database_,
-                    "SELECT artifact, format, size, sha256 FROM artifact JOIN job ON artifact.job = job.number "
-                    "WHERE job.id=? ORDER BY place");
-    query.bind(id);
-    std::vector<StoredArtifact> artifacts;
-    while (query.step()) {
-      artifacts.push_back({query.text(0), query.text(1), static_cast<std::uint64_t>(query.number(2)), query.text(3)});
-    }
-    return artifacts;
-  }
 
  private:
   // What is committed is so, even if the database cannot be asked any more.
   void tell_changes() try { rules_.committed(jobs_.changes()); } catch (const StorageError&) {
   }
+
+  /// One change of the store: its lock, and a transaction that is undone unless committed. What moved is counted when
+  /// it is committed.
+  class Change {
+   public:
+    explicit Change(SqliteStore& store) : Change(store, std::unique_lock(store.mutex_)) {}
+    Change(SqliteStore& store, std::unique_lock<std::mutex> lock)
+        : store_(store), lock_(std::move(lock)), transaction_(store.database_) {
+      store.jobs_.take_moves();
+    }
+    void commit() {
+      transaction_.commit();
+      store_.tally_.apply(store_.jobs_.take_moves());
+    }
+
+   private:
+    SqliteStore& store_;
+    std::unique_lock<std::mutex> lock_;
+    Transaction transaction_;
+  };
 
   std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
 
@@ -350,28 +286,24 @@ class SqliteStore : public JobStore {
   }
 
   void refuse_too_many(const std::string& owner) {
-    if (count_open({}) >= rules_.max_jobs) {
+    if (tally_.open() >= static_cast<std::uint64_t>(rules_.max_jobs)) {
       throw ProtocolError("queue_full",
                           "the server has " + std::to_string(rules_.max_jobs) +
                               " jobs that have not ended, as many as it may: try again when some have, or "
                               "raise max_jobs");
     }
-    if (!owner.empty() && count_open(owner) >= rules_.max_jobs_per_owner) {
+    if (!owner.empty() && tally_.open(owner) >= static_cast<std::uint64_t>(rules_.max_jobs_per_owner)) {
       throw ProtocolError("quota", "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
                                        " jobs that have not ended, as many as one may: try again when some have, or "
                                        "raise max_jobs_per_owner");
     }
   }
 
-  // Of everybody where no owner is given.
-  std::int64_t count_open(const std::string& owner) {
-    std::string sql = "SELECT count(*) FROM job WHERE state IN (";
-    for (const JobState state : job_states)
-      if (!is_final(state)) sql += (sql.ends_with("(") ? "'" : ",'") + std::string(name(state)) + "'";
-    Statement query(database_, sql + (owner.empty() ? ")" : ") AND owner=?"));
-    if (!owner.empty()) query.bind(owner);
-    query.step();
-    return query.number(0);
+  // A row in a state that nobody knows is not counted.
+  void count_jobs() {
+    Statement query(database_, "SELECT rank, id, owner, state FROM job");
+    while (query.step())
+      tally_.apply({{query.number(0), query.text(1), query.text(2), std::nullopt, find_state(query.text(3))}});
   }
 
   bool has_room(const JobRecord& job) {
@@ -386,69 +318,23 @@ class SqliteStore : public JobStore {
     return row && row->job.attempt == attempt && is_active(row->job.state) ? row : std::nullopt;
   }
 
-  // A run inside the daemon has ended and the daemon lives.
-  static void acquit(JobRecord& job) {
-    if (!job.isolated) job.crashes = 0;
-  }
-
-  void let_go(JobRow& row) {
-    switch (row.job.state) {
-      case cancelling:
-        return jobs_.move(row, cancelled, "finished");
-      case pausing:
-        return jobs_.move(row, paused, "interrupted");
-      default:
-        return jobs_.move(row, queued, "interrupted");
-    }
-  }
-
-  void end(JobRow& row, const Ending& ending) {
-    JobRecord& job = row.job;
-    job.error_code = ending.error_code;
-    job.error_sentence = ending.error_sentence;
-    if (ending.state == succeeded) job.crashes = job.failures = 0;
-    if (ending.state == failed && ending.cause != Cause::job) return end_badly(row, ending.cause);
-    jobs_.move(row, ending.state, "finished");
-    add_artifacts(row.number, ending.artifacts);
-  }
-
-  // A failure that is not the job's own: another try, later and in a process of its own after a crash, or no more.
-  void end_badly(JobRow& row, Cause cause) {
-    JobRecord& job = row.job;
-    const bool crash = cause == Cause::crash;
-    const int tries = crash ? ++job.crashes : ++job.failures;
-    if (tries >= (crash ? rules_.max_crashes : rules_.max_failures)) {
-      return jobs_.move(row, crash ? quarantined : failed, crash ? "crashed" : "finished");
-    }
-    if (job.state == pausing) return jobs_.move(row, paused, crash ? "crashed" : "failed");
-    job.wake_at = utc_text(rules_.now_ms() + (rules_.first_backoff_ms << (tries - 1)));
-    jobs_.move(row, backoff, crash ? "crashed" : "failed");
-  }
-
   template <typename Act>
-  JobState change(const std::string& id, Act act) {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(database_);
+  JobState change_job(const std::string& id, Act act) {
+    Change change(*this);
     std::optional<JobRow> row = jobs_.find(id);
     if (!row) refuse_unknown(id);
     act(*row);
-    transaction.commit();
+    change.commit();
     return row->job.state;
   }
 
-  void add_artifacts(std::int64_t job, const std::vector<StoredArtifact>& artifacts) {
-    std::int64_t place = 0;
-    for (const StoredArtifact& artifact : artifacts) {
-      Statement insert(database_, "INSERT INTO artifact VALUES(?,?,?,?,?,?)");
-      insert.bind(job).bind(place++).bind(artifact.artifact).bind(artifact.format);
-      insert.bind(static_cast<std::int64_t>(artifact.size)).bind(artifact.sha256).run();
-    }
-  }
-
-  std::mutex mutex_;
+  std::mutex mutex_;  // of what changes; the reader and the tally have their own
   StoreRules rules_;
   Database database_;
-  JobTable jobs_;
+  JobTable jobs_{database_, rules_};
+  Database readable_;  // closed before the one that writes, which tidies up
+  StoreReader reader_{readable_};
+  JobTally tally_;
   std::string epoch_;
   IdMaker ids_;
   std::int64_t last_rank_ms_ = 0;

@@ -1,5 +1,7 @@
 #include "server/streams.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include "server/job_view.hpp"
 #include "server/scheduler.hpp"
 #include "server/session.hpp"
@@ -14,14 +16,27 @@ bool same(const Progress& a, const Progress& b) {
   return a.stage == b.stage && a.done == b.done && a.total == b.total;
 }
 
+// Null, which the client sees as left out, where the row is damaged.
+Json data_of(const StateEvent& event) {
+  try {
+    return parse_json(event.data);
+  } catch (const JsonError& error) {
+    spdlog::error("job={} event {} in the database cannot be read: {}", event.job, event.seq, error.what());
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 void Streams::subscribe(const std::shared_ptr<Session>& session, const std::string& job, std::uint64_t after) {
+  if (session->closed()) return;
   Subscription& subscription = jobs_[job][session.get()];
-  subscription = {session, after, false, false, std::nullopt, {}};
+  subscription = {};
+  subscription.session = session;
+  subscription.serial = ++last_serial_;
+  subscription.after = after;
   session->subscriptions().insert(job);
   advance(job, subscription);
-  forget_ended(job);
 }
 
 void Streams::unsubscribe(Session& session, const std::string& job) {
@@ -38,77 +53,83 @@ void Streams::drop(Session& session) {
 }
 
 void Streams::on_changed(const std::string& job) {
-  const auto found = jobs_.find(job);
-  if (found == jobs_.end()) return;
-  for (auto& [session, subscription] : found->second) advance(job, subscription);
-  forget_ended(job);
+  for (const std::string& key : {job, std::string()}) {
+    const auto found = jobs_.find(key);
+    if (found == jobs_.end()) continue;
+    for (auto& [session, subscription] : found->second) {
+      subscription.behind = true;
+      advance(key, subscription);
+    }
+  }
 }
 
 void Streams::on_writable(Session& session) {
-  const std::set<std::string> subscribed = session.subscriptions();
-  for (const std::string& job : subscribed) {
-    advance(job, jobs_.at(job).at(&session));
-    forget_ended(job);
-  }
+  for (const std::string& job : session.subscriptions()) advance(job, jobs_.at(job).at(&session));
 }
 
 void Streams::tick(Clock::time_point now) {
   for (auto& [job, subscribers] : jobs_) {
-    const std::optional<Progress> progress = scheduler_.progress(job);
+    const std::optional<Progress> progress = job.empty() ? std::nullopt : scheduler_.progress(job);
     if (!progress) continue;
     for (auto& [session, subscription] : subscribers) tell(job, subscription, *progress, now);
   }
 }
 
-void Streams::advance(const std::string& job, Subscription& subscription) {
-  const std::shared_ptr<Session> session = subscription.session.lock();
-  if (!session) {
-    subscription.ended = true;
-    return;
-  }
-  send_durable(*session, job, subscription);
+Streams::Subscription* Streams::find(const std::string& job, Session* session, std::uint64_t serial) {
+  const auto subscribers = jobs_.find(job);
+  if (subscribers == jobs_.end()) return nullptr;
+  const auto found = subscribers->second.find(session);
+  return found != subscribers->second.end() && found->second.serial == serial ? &found->second : nullptr;
 }
 
-void Streams::send_durable(Session& session, const std::string& job, Subscription& subscription) {
-  while (session.writable()) {
-    const std::vector<StateEvent> events = store_.events(job, subscription.after, events_at_once);
-    for (const StateEvent& event : events) {
-      session.send_event({job, event.seq, event.time, "state", parse_json(event.data)});
-      subscription.after = event.seq;
-      subscription.ended = is_final(event.to);  // unless more comes: a quarantined job may have been retried
+void Streams::advance(const std::string& job, Subscription& subscription) {
+  if (!subscription.behind || subscription.reading || !subscription.session->writable()) return;
+  subscription.behind = false;
+  subscription.reading = true;
+  reads_.add([this, job, session = subscription.session.get(), serial = subscription.serial,
+              after = subscription.after](const std::stop_token&) {
+    std::optional<std::vector<StateEvent>> events;
+    try {
+      events = store_.events(job, after, events_at_once);
+    } catch (const std::exception& error) {
+      spdlog::error("events cannot be read: {}", error.what());
     }
-    if (events.size() == events_at_once) continue;
-    if (!subscription.live) session.send_event({job, std::nullopt, {}, "live", nullptr});
-    subscription.live = true;
-    return;
+    net::post(io_, [this, job, session, serial, events = std::move(events)] {
+      Subscription* asking = find(job, session, serial);
+      if (asking == nullptr) return;
+      if (!events) return asking->session->close("its events cannot be read");
+      take(job, *asking, *events);
+    });
+  });
+}
+
+void Streams::take(const std::string& job, Subscription& subscription, const std::vector<StateEvent>& events) {
+  Session& session = *subscription.session;
+  subscription.reading = false;
+  for (const StateEvent& event : events) {
+    EventMessage message{event.job, event.seq, event.time, "state", data_of(event)};
+    if (job.empty()) message.number = event.number;
+    session.send_event(message);
+    subscription.after = job.empty() ? event.number : event.seq;
+    subscription.ended = !job.empty() && is_final(event.to);  // unless more comes: a quarantined job may be retried
   }
-  // It lags: what it still has to get comes when it took some bytes, so it may not be forgotten yet.
-  subscription.ended = false;
+  if (events.size() == events_at_once) subscription.behind = true;
+  if (subscription.behind) return advance(job, subscription);
+  if (!std::exchange(subscription.live, true)) session.send_event({job, std::nullopt, {}, "live", nullptr});
+  if (!subscription.ended) return;
+  const std::shared_ptr<Session> last = subscription.session;
+  unsubscribe(*last, job);
+  last->close_if_done();
 }
 
 void Streams::tell(const std::string& job, Subscription& subscription, const Progress& progress,
                    Clock::time_point now) {
-  const std::shared_ptr<Session> session = subscription.session.lock();
-  if (!session || !session->writable() || !subscription.live) return;
+  if (!subscription.session->writable() || !subscription.live) return;
   const bool silent = now - subscription.told_at >= longest_silence;
   if (subscription.told && same(*subscription.told, progress) && !silent) return;
-  session->send_event({job, std::nullopt, {}, "progress", progress_view(progress)});
+  subscription.session->send_event({job, std::nullopt, {}, "progress", progress_view(progress)});
   subscription.told = progress;
   subscription.told_at = now;
-}
-
-void Streams::forget_ended(const std::string& job) {
-  const auto found = jobs_.find(job);
-  if (found == jobs_.end()) return;
-  for (auto entry = found->second.begin(); entry != found->second.end();) {
-    if (!entry->second.ended) {
-      ++entry;
-      continue;
-    }
-    if (const auto session = entry->second.session.lock()) session->subscriptions().erase(job);
-    entry = found->second.erase(entry);
-  }
-  if (found->second.empty()) jobs_.erase(found);
 }
 
 }  // namespace sculpt

@@ -6,23 +6,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/watch.hpp"
 #include "server/job_store.hpp"
+#include "server/net.hpp"
 
 namespace sculpt {
 
-class Session;
 class Scheduler;
+class Session;
+class TaskQueue;
 
-/// Durable events are read from the store when the subscriber takes bytes; of progress only the latest is sent, and
-/// none to one that lags.
+/// Durable events are read from the store, on the thread of reads, when the subscriber takes bytes; of progress only
+/// the latest is sent, and none to one that lags. The job "" stands for all jobs: such a subscription gets state events
+/// only, counts by their number, and does not end by itself.
 class Streams {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Streams(JobStore& store, const Scheduler& scheduler) : store_(store), scheduler_(scheduler) {}
+  Streams(net::io_context& io, JobStore& store, TaskQueue& reads, const Scheduler& scheduler)
+      : io_(io), store_(store), reads_(reads), scheduler_(scheduler) {}
 
+  /// In the place of one that there was. Nothing happens if the session is closed.
   void subscribe(const std::shared_ptr<Session>& session, const std::string& job, std::uint64_t after);
   void unsubscribe(Session& session, const std::string& job);
   /// The session is gone.
@@ -35,8 +41,11 @@ class Streams {
 
  private:
   struct Subscription {
-    std::weak_ptr<Session> session;
-    std::uint64_t after = 0;  // seq of the last durable event sent
+    std::shared_ptr<Session> session;  // until it is closed: drop
+    std::uint64_t serial = 0;          // tells it from those before it of the same session and job
+    std::uint64_t after = 0;           // seq (of all jobs: number) of the last durable event sent
+    bool reading = false;              // the store is being asked
+    bool behind = true;                // there may be events that were not read
     bool live = false;
     bool ended = false;
     std::optional<Progress> told;
@@ -44,14 +53,17 @@ class Streams {
   };
   using Subscribers = std::map<Session*, Subscription>;
 
+  Subscription* find(const std::string& job, Session* session, std::uint64_t serial);
   void advance(const std::string& job, Subscription& subscription);
-  void send_durable(Session& session, const std::string& job, Subscription& subscription);
+  void take(const std::string& job, Subscription& subscription, const std::vector<StateEvent>& events);
   void tell(const std::string& job, Subscription& subscription, const Progress& progress, Clock::time_point now);
-  void forget_ended(const std::string& job);
 
+  net::io_context& io_;
   JobStore& store_;
+  TaskQueue& reads_;
   const Scheduler& scheduler_;
   std::map<std::string, Subscribers> jobs_;
+  std::uint64_t last_serial_ = 0;
 };
 
 }  // namespace sculpt

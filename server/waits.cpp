@@ -3,16 +3,16 @@
 #include <chrono>
 
 #include "server/job_view.hpp"
-#include "server/net.hpp"
 #include "server/session.hpp"
+#include "server/task_queue.hpp"
 
 namespace sculpt {
 namespace {
 
-void answer(const Call& call, const JobRecord& job) {
+Json end_of(const JobRecord& job) {
   Json result{{"job", job.id}, {"state", name(job.state)}, {"timed_out", !is_final(job.state)}};
   if (!job.error_code.empty()) result["error"] = error_view(job);
-  call.session->answer(call.id, {std::move(result), std::nullopt});
+  return result;
 }
 
 }  // namespace
@@ -25,19 +25,37 @@ void Waits::add(Call call, const std::string& job, double timeout_s) {
   timer->async_wait([this, job, timer](const boost::system::error_code& error) {
     if (!error) on_timeout(job, timer);
   });
-  on_changed(job);
+  look(job);
 }
 
 void Waits::on_changed(const std::string& job) {
+  if (waits_.contains(job)) look(job);
+}
+
+void Waits::look(const std::string& job) {
+  reads_.add([this, job](const std::stop_token&) {
+    std::optional<JobRecord> record;
+    Json error;
+    try {
+      record = find_job(store_, job);
+    } catch (...) {
+      error = current_error();
+    }
+    net::post(io_, [this, job, record = std::move(record), error = std::move(error)] { tell(job, record, error); });
+  });
+}
+
+void Waits::tell(const std::string& job, const std::optional<JobRecord>& record, const Json& error) {
   auto [entry, end] = waits_.equal_range(job);
-  if (entry == end) return;
-  const std::optional<JobRecord> record = store_.find(job);
-  if (!record || !is_final(record->state)) return;
   while (entry != end) {
-    const Wait wait = entry->second;
+    if (record && !is_final(record->state) && !entry->second.over) {
+      ++entry;
+      continue;
+    }
+    const Wait wait = std::move(entry->second);
     entry = waits_.erase(entry);
     wait.timer->cancel();
-    answer(wait.call, *record);
+    record ? answer(wait.call, end_of(*record)) : wait.call.session->refuse(wait.call.id, error);
   }
 }
 
@@ -45,9 +63,8 @@ void Waits::on_timeout(const std::string& job, const std::shared_ptr<net::steady
   auto [entry, end] = waits_.equal_range(job);
   while (entry != end && entry->second.timer != timer) ++entry;
   if (entry == end) return;
-  const Wait wait = entry->second;
-  waits_.erase(entry);
-  if (const std::optional<JobRecord> record = store_.find(job)) answer(wait.call, *record);
+  entry->second.over = true;
+  look(job);
 }
 
 void Waits::drop(Session& session) {

@@ -16,6 +16,11 @@ struct JobArgument {
   bool json = false;
 };
 
+struct ListOptions {
+  bool newest = false, json = false;
+  std::size_t limit = 0;
+};
+
 std::string text_of(const Json& object, const char* field) {
   if (!object.contains(field)) return "-";
   const Json& value = object[field];
@@ -28,22 +33,13 @@ std::string progress_of(const Json& job) {
   return text_of(progress, "stage") + " " + text_of(progress, "done") + "/" + text_of(progress, "total");
 }
 
-Json all_jobs(Client& client) {
-  Json jobs = Json::array();
-  for (bool more = true; more;) {
-    Json params{{"limit", 1000}};
-    if (!jobs.empty()) params["after"] = jobs.back().at("job");
-    const Json page = client.call("job.list", params);
-    for (const Json& job : page.at("jobs")) jobs.push_back(job);
-    more = page.value("more", false) && !page.at("jobs").empty();
-  }
-  return jobs;
-}
-
-int run_list(const std::string& server, bool json) {
+int run_list(const std::string& server, const ListOptions& options) {
   Client client = connect(server);
-  const Json jobs = all_jobs(client);
-  if (json) {
+  const Json found = client.list({.newest = options.newest, .limit = options.limit});
+  const Json& jobs = found.at("jobs");
+  for (const Json& job : found.value("damaged", Json::array()))
+    std::cerr << "sculpt: warning: " << text_of(job, "job") << " is left out: " << text_of(job, "message") << "\n";
+  if (options.json) {
     std::cout << write_json({{"jobs", jobs}}) << "\n";
     return exit_fine;
   }
@@ -79,10 +75,12 @@ int run_status(const std::string& server, const JobArgument& options) {
 }  // namespace
 
 void add_list(CLI::App& app, Invocation& invocation) {
-  const auto json = std::make_shared<bool>(false);
-  CLI::App& command = add_command(app, invocation, "list", "All jobs of the server, in the order of submission",
-                                  [&invocation, json] { return run_list(invocation.server, *json); });
-  command.add_flag("--json", *json, "Print {jobs: [...]} as one JSON document");
+  const auto options = std::make_shared<ListOptions>();
+  CLI::App& command = add_command(app, invocation, "list", "The jobs of the server, in the order of submission",
+                                  [&invocation, options] { return run_list(invocation.server, *options); });
+  command.add_flag("--newest", options->newest, "The newest first");
+  command.add_option("--limit", options->limit, "Only so many")->type_name("N")->check(CLI::PositiveNumber);
+  command.add_flag("--json", options->json, "Print {jobs: [...]} as one JSON document");
 }
 
 void add_status(CLI::App& app, Invocation& invocation) {

@@ -18,7 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t upload_bytes = 1 << 20;
-constexpr int damage_number = 4003;                                         // of artifact_damaged
+constexpr int damage_number = 4003;  // of artifact_damaged
+constexpr std::size_t longest_page = 1000;
 constexpr std::chrono::milliseconds first_pause{100}, longest_pause{2000};  // between looks for a lost server
 constexpr std::chrono::milliseconds growth_pause{100};  // between looks at an artifact that has not grown
 
@@ -38,6 +39,15 @@ std::string listed_hash(const Json& listed, const std::string& artifact, const s
       if (made.at("format") == format) return made.at("sha256");
   }
   return {};
+}
+
+// Stands for all jobs among those that are followed.
+const std::string all_jobs;
+
+Json subscription(const std::string& job) {
+  Json params = Json::object();
+  if (job != all_jobs) params["job"] = job;
+  return params;
 }
 
 // Asking twice comes to the same as asking once.
@@ -100,7 +110,11 @@ void Client::find_again(const std::exception_ptr& lost) {
                           "the store of the server at " + server_ + " was replaced: the jobs of before are not there");
       }
       const std::string method = "events.subscribe";
-      for (const auto& [job, seq] : followed_) ask({method, {{"job", job}, {"after", seq}}, {}, nullptr});
+      for (const auto& [job, last] : followed_) {
+        Json params = subscription(job);
+        params["after"] = last;
+        ask({method, params, {}, nullptr});
+      }
       return;
     } catch (const ServerUnreachable&) {
     } catch (const ServerError& error) {
@@ -169,14 +183,26 @@ void Client::put_chunk(const std::string& sha256, std::uint64_t size, std::uint6
   offset = exchange({method, params, chunk, nullptr}).at("have").get<std::uint64_t>();
 }
 
+void Client::put_blob(const std::string& sha256, std::uint64_t size, const ReadPiece& read) {
+  const Json state = call("blob.has", {{"sha256", sha256}});
+  if (state.at("complete").get<bool>()) return;
+  auto offset = std::min<std::uint64_t>(state.at("have").get<std::uint64_t>(), size);
+  bool again = true;
+  do {
+    try {
+      put_chunk(sha256, size, offset, read(offset, std::min<std::uint64_t>(upload_bytes, size - offset)));
+    } catch (const ServerError& error) {
+      // What it has was uploaded by somebody who says that the blob is of another size.
+      if (error.code() != "offset_mismatch" || !std::exchange(again, false)) throw;
+      offset = 0;
+    }
+  } while (offset < size);
+}
+
 std::string Client::upload(std::string_view bytes) {
   std::string sha256 = content_hash(bytes);
-  const Json state = call("blob.has", {{"sha256", sha256}});
-  if (state.at("complete").get<bool>()) return sha256;
-  auto offset = std::min<std::uint64_t>(state.at("have").get<std::uint64_t>(), bytes.size());
-  do {
-    put_chunk(sha256, bytes.size(), offset, bytes.substr(offset, upload_bytes));
-  } while (offset < bytes.size());
+  put_blob(sha256, bytes.size(),
+           [bytes](std::uint64_t offset, std::size_t size) { return bytes.substr(offset, size); });
   return sha256;
 }
 
@@ -184,20 +210,38 @@ std::string Client::upload_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error("cannot read the file '" + path.string() + "'");
   const StreamHash hash = content_hash(in);
-  const Json state = call("blob.has", {{"sha256", hash.sha256}});
-  if (state.at("complete").get<bool>()) return hash.sha256;
-  auto offset = std::min<std::uint64_t>(state.at("have").get<std::uint64_t>(), hash.size);
-  std::string chunk;
-  do {
-    chunk.resize(std::min<std::uint64_t>(upload_bytes, hash.size - offset));
+  std::string piece;
+  put_blob(hash.sha256, hash.size, [&](std::uint64_t offset, std::size_t size) -> std::string_view {
+    piece.resize(size);
     in.clear();
     in.seekg(static_cast<std::streamoff>(offset));
-    if (!in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()))) {
+    if (!in.read(piece.data(), static_cast<std::streamsize>(size))) {
       throw std::runtime_error("cannot read the file '" + path.string() + "': it changed while it was sent");
     }
-    put_chunk(hash.sha256, hash.size, offset, chunk);
-  } while (offset < hash.size);
+    return piece;
+  });
   return hash.sha256;
+}
+
+Json Client::list(const ListRequest& request) {
+  Json params{{"limit", longest_page}};
+  if (!request.after.empty()) params["after"] = request.after;
+  if (!request.before.empty()) params["before"] = request.before;
+  if (request.newest) params["order"] = "newest";
+  Json jobs = Json::array(), damaged = Json::array(), last;
+  bool more = true;
+  while (more && (request.limit == 0 || jobs.size() < request.limit)) {
+    if (request.limit != 0) params["limit"] = std::min(longest_page, request.limit - jobs.size());
+    const Json page = call("job.list", params);
+    for (const Json& job : page.at("jobs")) jobs.push_back(job);
+    for (const Json& job : page.value("damaged", Json::array())) damaged.push_back(job);
+    if (last.is_null()) last = page.at("last");
+    more = page.at("more").get<bool>() && !page.at("jobs").empty();
+    if (!jobs.empty()) params[request.newest ? "before" : "after"] = jobs.back().at("job");
+  }
+  Json all{{"jobs", std::move(jobs)}, {"more", more}, {"last", std::move(last)}};
+  if (!damaged.empty()) all["damaged"] = std::move(damaged);
+  return all;
 }
 
 std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream& out,
@@ -240,23 +284,42 @@ void Client::expect_hash(const ArtifactRequest& request, const std::string& form
 }
 
 void Client::keep(Json event) {
-  if (event.contains("seq")) {
+  if (event.contains("number")) {
+    followed_[all_jobs] = event.at("number");
+  } else if (event.contains("seq")) {
     const std::string job = event.at("job");
     followed_[job] = event.at("seq");
-    if (is_final(event.at("data").at("to"))) followed_.erase(job);  // nothing more comes, and it may be gone by then
+    const std::string to = event.value("data", Json::object()).value("to", std::string());
+    if (is_final(to)) followed_.erase(job);  // nothing more comes, and it may be gone by then
   }
   events_.push_back(std::move(event));
 }
 
-void Client::subscribe(const std::string& job, std::uint64_t after) {
-  call("events.subscribe", {{"job", job}, {"after", after}});
+void Client::follow(const std::string& job, std::uint64_t after) {
+  Json params = subscription(job);
+  params["after"] = after;
+  call("events.subscribe", params);
   followed_[job] = after;
 }
 
+void Client::subscribe(const std::string& job, std::uint64_t after) {
+  follow(job, after);
+}
+
+void Client::subscribe_all(std::uint64_t after) {
+  follow(all_jobs, after);
+}
+
 void Client::unsubscribe(const std::string& job) {
-  call("events.unsubscribe", {{"job", job}});
+  call("events.unsubscribe", subscription(job));
   followed_.erase(job);
-  std::erase_if(events_, [&](const Json& event) { return event.value("job", std::string()) == job; });
+  std::erase_if(events_, [&](const Json& event) { return !event.contains("number") && event.value("job", "") == job; });
+}
+
+void Client::unsubscribe_all() {
+  call("events.unsubscribe", subscription(all_jobs));
+  followed_.erase(all_jobs);
+  std::erase_if(events_, [](const Json& event) { return event.contains("number") || !event.contains("job"); });
 }
 
 std::optional<Json> Client::next_event(std::optional<double> timeout_s) {

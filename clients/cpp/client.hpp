@@ -61,6 +61,12 @@ struct ArtifactRequest {
   std::uint32_t chunk_bytes = 1 << 20;
 };
 
+struct ListRequest {
+  std::string after = {}, before = {};  ///< only jobs that were submitted between these two; empty: no bound
+  bool newest = false;                  ///< the newest first
+  std::size_t limit = 0;                ///< 0: all
+};
+
 /// Not shared between threads. When the connection breaks, or the server is about to stop, it is looked for until
 /// `patience_s` is over; then what was asked is asked again, and subscriptions go on behind the last event: none is
 /// lost and none comes twice. What must not be asked twice (job.submit without a key, job.retry) is not. Every method
@@ -84,6 +90,9 @@ class Client {
   /// Sends a request and waits for its result. Events that arrive meanwhile are kept for next_event.
   Json call(const std::string& method, const Json& params = Json::object());
 
+  /// The reply to job.list, of as many pages as it takes: jobs, more, last, and damaged if there are any.
+  Json list(const ListRequest& request = {});
+
   /// Uploads the content, unless the server has it, and returns its sha256. Goes on where an earlier upload stopped.
   std::string upload(std::string_view bytes);
   /// The same for a file. Throws std::runtime_error naming the path when it cannot be read.
@@ -99,8 +108,12 @@ class Client {
   /// Events of a job from behind `after` on (0 = all), to be read with next_event.
   void subscribe(const std::string& job, std::uint64_t after = 0);
   void unsubscribe(const std::string& job);
-  /// The params of the next event (job, type state|progress|live, seq?, data?). Waits for it; with a timeout returns
-  /// nothing when none came in time.
+  /// State events of all jobs from behind the one with this number on (0 = all; `last` of a list: what happens after
+  /// it). They have a number, which those of `subscribe` have not.
+  void subscribe_all(std::uint64_t after = 0);
+  void unsubscribe_all();
+  /// The params of the next event (job, type state|progress|live, seq?, number?, data?). Waits for it; with a timeout
+  /// returns nothing when none came in time.
   std::optional<Json> next_event(std::optional<double> timeout_s = {});
 
  private:
@@ -114,7 +127,11 @@ class Client {
   /// The next reply or event; nothing when none came in time.
   std::optional<Json> receive(std::optional<double> timeout_s, std::string* chunk);
   void expect_hash(const ArtifactRequest& request, const std::string& format, const std::string& sha256);
+  /// Gives `size` bytes from the offset on, which hold until the next call.
+  using ReadPiece = std::function<std::string_view(std::uint64_t offset, std::size_t size)>;
+  void put_blob(const std::string& sha256, std::uint64_t size, const ReadPiece& read);
   void put_chunk(const std::string& sha256, std::uint64_t size, std::uint64_t& offset, std::string_view chunk);
+  void follow(const std::string& job, std::uint64_t after);
 
   std::string server_, name_;
   Login login_;
@@ -123,7 +140,7 @@ class Client {
   std::unique_ptr<Connection> connection_;
   Json hello_;
   std::deque<Json> events_;
-  std::map<std::string, std::uint64_t> followed_;  ///< job that has not ended -> its last event that has come
+  std::map<std::string, std::uint64_t> followed_;  ///< job that has not ended, or all_jobs -> its last event that came
   std::int64_t last_id_ = 0;
 };
 

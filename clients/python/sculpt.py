@@ -32,6 +32,7 @@ import zlib
 VERSION = "sculpt.py/0.1.0"
 FINE, FAILED, USAGE, UNREACHABLE, REFUSED = range(5)
 CHUNK = 1 << 20
+PAGE = 1000
 FINAL = ("succeeded", "failed", "quarantined", "expired", "cancelled")
 
 
@@ -64,7 +65,7 @@ class Client:
     def __init__(self, server="127.0.0.1:7878", name=VERSION, token=None, patience_s=None):
         self.server, self.name, self.token = server, name, read_token() if token is None else token
         self.patience_s = read_patience() if patience_s is None else patience_s
-        self.next_id, self.events, self.followed = 1, collections.deque(), {}  # job that has not ended -> its last event that has come
+        self.next_id, self.events, self.followed = 1, collections.deque(), {}  # job that has not ended ("": all) -> its last event that has come
         self._open()
 
     def _open(self):
@@ -89,8 +90,8 @@ class Client:
                 self._open()
                 if self.hello["epoch"] != epoch:
                     raise Failure(REFUSED, "replay_gap", f"the store of the server at {self.server} was replaced: the jobs of before are not there")
-                for job, seq in self.followed.items():
-                    self._ask("events.subscribe", None, {"job": job, "after": seq})
+                for job, last in self.followed.items():
+                    self._ask("events.subscribe", None, {**({"job": job} if job else {}), "after": last})
                 return
             except Failure as failure:
                 if not may_pass(failure):
@@ -118,9 +119,9 @@ class Client:
                     raise
                 self._find_again(failure)
         if method == "events.subscribe":
-            self.followed[params["job"]] = params.get("after", 0)
+            self.followed[params.get("job", "")] = params.get("after", 0)
         elif method == "events.unsubscribe":
-            self.followed.pop(params["job"], None)
+            self.followed.pop(params.get("job", ""), None)
         return result
 
     def _ask(self, method, chunk, params):
@@ -159,20 +160,43 @@ class Client:
         return self.events.popleft()
 
     def _keep(self, event):
-        if "seq" in event:
+        if "number" in event:
+            self.followed[""] = event["number"]
+        elif "seq" in event:
             self.followed[event["job"]] = event["seq"]
-            if event["data"]["to"] in FINAL:
+            if event.get("data", {}).get("to") in FINAL:
                 del self.followed[event["job"]]  # nothing more comes, and it may be gone by then
         self.events.append(event)
 
     def upload(self, content):
         """Sends the bytes unless the server has them; gives their hash."""
         digest = hashlib.sha256(content).hexdigest()
-        state = self.call("blob.has", sha256=digest)
+        state, again = self.call("blob.has", sha256=digest), True
         while not state["complete"]:
-            part = content[state["have"]:state["have"] + CHUNK]
-            state = self.call("blob.put", chunk=part, sha256=digest, size=len(content), offset=state["have"], bytes=len(part))
+            offset = min(state["have"], len(content))
+            part = content[offset:offset + CHUNK]
+            try:
+                state = self.call("blob.put", chunk=part, sha256=digest, size=len(content), offset=offset, bytes=len(part))
+            except Failure as failure:
+                if failure.code != "offset_mismatch" or not again:
+                    raise
+                state, again = {"have": 0, "complete": False}, False  # what it has is of somebody who says another size
         return digest
+
+    def list(self, newest=False, after=None, before=None, limit=None):
+        """The reply to job.list, of as many pages as it takes: jobs, more, last, and damaged if there are any."""
+        bounds = {**({"after": after} if after else {}), **({"before": before} if before else {}), **({"order": "newest"} if newest else {})}
+        found = {"jobs": [], "more": True}
+        while found["more"] and (limit is None or len(found["jobs"]) < limit):
+            page = self.call("job.list", limit=PAGE if limit is None else min(PAGE, limit - len(found["jobs"])), **bounds)
+            found["jobs"] += page["jobs"]
+            found.setdefault("last", page["last"])
+            found["more"] = page["more"] and bool(page["jobs"])
+            if "damaged" in page:
+                found["damaged"] = found.get("damaged", []) + page["damaged"]
+            if page["jobs"]:
+                bounds["before" if newest else "after"] = page["jobs"][-1]["job"]
+        return found
 
     def upload_file(self, path):
         """A mesh as a job's spec wants it."""
@@ -530,11 +554,11 @@ def run_submit(options):
 
 
 def run_list(options):
-    jobs, more = [], True
     with Client(options.server) as client:
-        while more:
-            page = client.call("job.list", limit=1000, **({"after": jobs[-1]["job"]} if jobs else {}))
-            jobs, more = jobs + page["jobs"], page["more"] and bool(page["jobs"])
+        found = client.list(options.newest, limit=options.limit)
+    jobs = found["jobs"]
+    for job in found.get("damaged", []):
+        print(f"sculpt: warning: {job['job']} is left out: {job['message']}", file=sys.stderr)
     if options.json:
         print(json.dumps({"jobs": jobs}))
         return FINE
@@ -727,6 +751,13 @@ def numbers(count):
     return parse
 
 
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise ValueError(text)
+    return number
+
+
 def joined_lists(arguments):
     """argparse takes `--offset -1,0,0` for two options: such values are joined to their option by `=`."""
     joined = []
@@ -757,7 +788,9 @@ def parse_command_line(arguments):
         return sub
 
     add_submit_options(command("submit", run_submit, "send a mesh and queue a job; prints the job's id", job=False))
-    command("list", run_list, "all jobs of the server, in the order of submission", job=False)
+    listing = command("list", run_list, "the jobs of the server, in the order of submission", job=False)
+    listing.add_argument("--newest", action="store_true", help="the newest first")
+    listing.add_argument("--limit", type=positive, metavar="N", help="only so many")
     command("status", run_status, "what a job is and how far it has come")
     command("watch", run_watch, "show a job live until it ends; Ctrl-C leaves the job running")
     command("wait", run_wait, "return when a job has ended; exit 0 only if it succeeded")

@@ -101,7 +101,7 @@ class GantryCarve {
     const std::uint64_t done = wanted_ + keep_.size() - standing().size();
     if (watch_.tell)
       watch.tell = [this, done](const Progress& at) {
-        if (at.stage == Stage::plan) watch_.tell({at.stage, std::min(wanted_, done + at.done), wanted_, at.loose_keep});
+        if (at.stage == Stage::plan) watch_.tell({at.stage, std::min(wanted_, done + at.done), wanted_, at.doubts});
       };
     return watch;
   }

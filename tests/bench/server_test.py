@@ -15,12 +15,15 @@ class Server(unittest.TestCase):
                               env=environment(), capture_output=True, text=True, timeout=PATIENCE_S)
 
     def test_a_short_run_asks_for_what_it_says(self):
-        ended = self.run_bench("--connections", "20", "--polls", "40", "--submits", "4", "--downloads", "2", "--megabytes", "5", "--seconds", "2")
+        ended = self.run_bench("--connections", "20", "--polls", "40", "--submits", "4", "--downloads", "2", "--megabytes", "5", "--seconds", "2",
+                               "--queued", "3000")
         self.assertEqual(ended.returncode, 0, ended.stderr)
         figures = json.loads(ended.stdout)
         self.assertAlmostEqual(figures["status"]["count"], 80, delta=20)
         self.assertAlmostEqual(figures["submit"]["count"], 8, delta=2)
         self.assertGreater(figures["download_mb_per_s"], 0)
+        self.assertEqual(figures["long_queue"]["queued"], 3000)
+        self.assertGreater(figures["long_queue"]["page"]["count"], 3)
         self.assertEqual(figures["errors"], 0)
 
     def test_too_few_connections_are_refused(self):

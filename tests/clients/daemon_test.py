@@ -2,6 +2,7 @@
 
 import json
 import os
+import pathlib
 import signal
 import socket
 import subprocess
@@ -9,7 +10,8 @@ import time
 import unittest
 from unittest import mock
 
-from harness import PATIENCE_S, ClientTest, Daemon, environment
+import shapes
+from harness import PATIENCE_S, ClientTest, Daemon, DaemonTest, environment
 
 
 class Config(ClientTest):
@@ -40,6 +42,25 @@ class Config(ClientTest):
         result = self.run_client("--workers", "many")
         self.assertEqual(result.returncode, 2)
         self.assertIn("workers must be a number", result.stderr)
+
+
+class Rights(DaemonTest):
+    def test_the_data_folder_is_its_own(self):
+        """Whatever the umask; results are nobody else's business."""
+        mesh = shapes.write_stl(self.scratch / "steps.stl", shapes.steps())
+        job = self.fine("submit", mesh, "--resolution", 8, "--robot", "gantry").strip()
+        self.fine("wait", job)
+        self.fine("fetch", job, "--format", "csv", "-o", self.scratch / "plan.csv")
+        data = pathlib.Path(self.daemon.data)
+        files = [data, *data.rglob("*")]
+        self.assertGreater(len(files), 10)
+        self.assertEqual({str(file): oct(file.stat().st_mode) for file in files if file.stat().st_mode & 0o077}, {})
+
+    def test_a_folder_that_an_older_version_left_open_is_closed(self):
+        data = self.scratch / "data"
+        data.mkdir(mode=0o755)
+        with Daemon(data):
+            self.assertEqual(data.stat().st_mode & 0o777, 0o700)
 
 
 def await_log(daemon, words):

@@ -51,6 +51,28 @@ class Limits(DoorTest):
             wire.close()
         self.served_again(daemon)
 
+    def health(self, daemon, path):
+        asking = http.client.HTTPConnection(daemon.address, timeout=PATIENCE_S)
+        self.addCleanup(asking.close)
+        asking.request("GET", path)
+        response = asking.getresponse()
+        return response.status, response.read()
+
+    def test_a_full_server_tells_its_health_and_nothing_else(self):
+        daemon = self.daemon(max_connections=3)
+        inside = [self.greeted(daemon) for _ in range(3)]
+        silent = [self.wire(daemon) for _ in range(50)]  # more than there are places for
+        for _ in range(5):
+            self.assertEqual(self.health(daemon, "/livez"), (200, b"alive\n"))
+            self.assertEqual(self.health(daemon, "/readyz"), (200, b"ready\n"))
+        status, body = self.health(daemon, "/metrics")
+        self.assertEqual((status, json.loads(body)["data"]["code"]), (503, "too_many_connections"))
+        self.assertEqual(self.wire(daemon).ask(HELLO)["error"]["data"]["code"], "too_many_connections")
+        for wire in silent:
+            self.assertEqual(wire.word(), "too_many_connections")
+        for wire in inside:
+            self.served(wire)
+
     def test_one_owner_cannot_take_all_connections(self):
         daemon = self.daemon(max_connections_per_owner=2)
         inside = [self.greeted(daemon) for _ in range(2)]

@@ -27,7 +27,7 @@ class Daemon:
     """sculptd on a free port; its log is DATA.log. The data folder may be handed on to the next one. `files`: how many it may open."""
 
     def __init__(self, data, *options, listen="127.0.0.1:0", files=None):
-        self.log_path = pathlib.Path(f"{data}.log")
+        self.data, self.log_path = data, pathlib.Path(f"{data}.log")
         with self.log_path.open("wb") as log:
             self.process = subprocess.Popen(
                 [os.environ["SCULPTD"], "--listen", listen, "--data", str(data), *options],

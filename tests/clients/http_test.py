@@ -91,6 +91,7 @@ class Http(WithAJob):
 
     def test_a_name_that_is_not_ours_is_refused(self):
         self.refused(421, "host_refused", "/livez", Host="evil.example")
+        self.refused(421, "host_refused", "/livez", Host="localhost:x@evil.example")
         self.refused(421, "host_refused", self.path, Host=f"evil.example:{split(self.server.address)[1]}")
         for host in ("localhost", "127.0.0.1:1", "planner.example"):
             self.assertEqual(self.get("/livez", Host=host)[0].status, 200, host)
@@ -98,6 +99,7 @@ class Http(WithAJob):
     def test_a_page_of_another_origin_is_refused(self):
         self.refused(403, "origin_refused", self.path, Origin="http://evil.example")
         self.refused(403, "origin_refused", self.path, Origin="http://localhost:3000")
+        self.assertRegex(self.server.log(), r'conn=\d+ origin_refused host=.* origin="http://localhost:3000"')
         self.assertEqual(self.get(self.path, Origin=f"http://{self.server.address}")[0].status, 200)
         self.assertEqual(self.get(self.path, Origin="https://dash.example")[0].status, 200)
 
@@ -174,6 +176,7 @@ class WebSockets(WithAJob):
             with self.assertRaises(web_socket.Refused) as caught:
                 self.open(**options)
             self.assertEqual(caught.exception.status, refused)
+        self.assertRegex(self.server.log(), r'conn=\d+ origin_refused host=.* origin="http://evil.example"')
 
 
 if __name__ == "__main__":

@@ -53,6 +53,15 @@ class Verbs:
         mesh = self.scratch / "steps.stl"
         self.refused(4, "key_conflict", "submit", mesh, "--resolution", 16, "--robot", "gantry", "--key", key)
 
+    def test_the_newest_jobs_are_listed_first_when_asked_for(self):
+        jobs = [self.submit().strip() for _ in range(3)]
+        newest = [entry["job"] for entry in json.loads(self.fine("list", "--newest", "--json"))["jobs"]]
+        self.assertEqual(newest, sorted(newest, reverse=True))
+        self.assertEqual(newest[:3], jobs[::-1])
+        limited = self.fine("list", "--newest", "--limit", 2).splitlines()
+        self.assertEqual([row.split()[0] for row in limited[1:]], jobs[:0:-1])
+        self.assertEqual(len(self.fine("list", "--limit", 1).splitlines()), 2)
+
     def test_status_and_list_show_the_job(self):
         job = self.finished("--seed", 5, "--priority", -3)
         status = json.loads(self.fine("status", job, "--json"))
@@ -320,6 +329,27 @@ class TwoClients(ClientTest):
             self.assertEqual(artifacts["state"], "succeeded")
         self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "python").read_bytes())
         self.assertEqual((self.scratch / "cpp").read_bytes(), (self.scratch / "data/jobs" / job / "trajectory.ndjson").read_bytes())
+
+    def test_the_subscription_to_all_jobs_goes_on_in_the_next_connection(self):
+        with Daemon(self.scratch / "data") as daemon, sculpt.Client(daemon.address, patience_s=PATIENCE_S) as client:
+            mesh = client.upload_file(shapes.write_stl(self.scratch / "steps.stl", shapes.steps()))
+            spec, events = {"mesh": mesh, "robot": "gantry", "resolution": 8}, []
+
+            def hear(job, state):
+                while (events[-1]["job"], events[-1]["data"]["to"]) != (job, state) if events else True:
+                    event = client.next_event()
+                    events.extend([event] if event["type"] == "state" else [])
+
+            client.call("events.subscribe", after=client.list()["last"])
+            first = client.submit(spec)["job"]
+            hear(first, "succeeded")
+            daemon.kill()
+            with Daemon(self.scratch / "data", listen=daemon.address) as again, sculpt.Client(again.address) as other:
+                second = other.submit(spec)["job"]
+                hear(second, "succeeded")
+            numbers = [event["number"] for event in events]
+            self.assertEqual(numbers, list(range(1, 7)), "none is lost and none comes twice")
+            self.assertEqual([event["job"] for event in events], 3 * [first] + 3 * [second])
 
     def test_a_job_that_has_ended_is_not_followed_into_the_next_connection(self):
         with Daemon(self.scratch / "data") as daemon, sculpt.Client(daemon.address, patience_s=PATIENCE_S) as client:

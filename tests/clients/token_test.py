@@ -8,8 +8,8 @@ import subprocess
 import unittest
 
 import shapes
-from door import HELLO, DoorTest, call
-from harness import PATIENCE_S, SCULPT, SCULPT_PY, Daemon, environment
+from door import HELLO, DoorTest, call, line
+from harness import PATIENCE_S, SOURCE, SCULPT, SCULPT_PY, Daemon, environment
 
 import sculpt
 
@@ -51,6 +51,28 @@ class Tokens(DoorTest):
         self.addCleanup(connection.close)
         connection.request("GET", "/metrics", headers={"Authorization": f"Bearer {secret}"})
         self.assertEqual(connection.getresponse().status, 401)
+
+    def test_each_scope_opens_the_methods_that_the_protocol_says(self):
+        daemon = self.daemon(tokens="tokens.json")
+        scopes, table = ("read", "submit", "admin"), (SOURCE / "proto/PROTOCOL.md").read_text().partition("## 8.")[2]
+        said = {scope: re.findall(r"`([a-z.]+)`", re.search(rf"^\| `{scope}` \|(.*)\|$", table, re.M).group(1)) for scope in scopes}
+        methods = json.loads((SOURCE / "proto/schema.json").read_text())["$defs"]["method"]["enum"]
+        self.assertEqual(sorted(sum(said.values(), [])), sorted(methods), "each method has one scope")
+        for needed, allowed in said.items():
+            for method, scope in ((method, scope) for method in allowed for scope in scopes if method != "hello"):
+                chunk = {"bytes": 0} if method == "blob.put" else {}
+                wire = self.greeted(daemon, token=self.tokens[scope])
+                wire.socket.sendall(line(call(2, method, **chunk)) + (b"\n" if chunk else b""))
+                reply = wire.read()
+                word = reply["error"]["data"]["code"] if "error" in reply else "accepted"
+                self.assertEqual(word == "forbidden", scopes.index(scope) < scopes.index(needed), f"{method} with {scope}: {word}")
+
+    def test_who_only_looks_sends_short_lines(self):
+        daemon = self.daemon(tokens="tokens.json")
+        for scope, longest, word in (("read", 16384, "line_too_long"), ("submit", 1048576, "params_invalid")):
+            wire = self.wire(daemon)
+            self.assertEqual(wire.ask({**HELLO, "params": {**HELLO["params"], "token": self.tokens[scope]}})["result"]["limits"]["line"], longest)
+            self.assertEqual(self.word(wire, call(2, "ping", x="y" * 20000)), word)
 
     def test_each_scope_opens_its_methods(self):
         daemon = self.daemon(tokens="tokens.json")

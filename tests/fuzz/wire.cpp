@@ -16,13 +16,14 @@ constexpr std::size_t line_limit = 4096;  // reached by inputs of a fuzzer's siz
 
 // Any method's params may come with any other's name.
 void read_params(const Json& params) {
-  const std::array<void (*)(const Json&), 12> readers{
-      [](const Json& json) { read_hello(json); },     [](const Json& json) { read_blob_put(json); },
-      [](const Json& json) { read_blob_name(json); }, [](const Json& json) { to_json(read_submit(json).spec); },
-      [](const Json& json) { read_job_id(json); },    [](const Json& json) { read_list(json); },
-      [](const Json& json) { read_wait(json); },      [](const Json& json) { read_subscribe(json); },
-      [](const Json& json) { read_nothing(json); },   [](const Json& json) { read_artifact_read(json); },
-      [](const Json& json) { read_pin(json); },       [](const Json& json) { read_schema_method(json); }};
+  const std::array<void (*)(const Json&), 13> readers{
+      [](const Json& json) { read_hello(json); },      [](const Json& json) { read_blob_put(json); },
+      [](const Json& json) { read_blob_name(json); },  [](const Json& json) { to_json(read_submit(json).spec); },
+      [](const Json& json) { read_job_id(json); },     [](const Json& json) { read_list(json); },
+      [](const Json& json) { read_wait(json); },       [](const Json& json) { read_subscribe(json); },
+      [](const Json& json) { read_nothing(json); },    [](const Json& json) { read_artifact_read(json); },
+      [](const Json& json) { read_pin(json); },        [](const Json& json) { read_schema_method(json); },
+      [](const Json& json) { read_unsubscribe(json); }};
   for (const auto& read : readers) {
     try {
       read(params);

@@ -59,12 +59,53 @@ TEST_F(JobStoreTest, TheListIsInTheOrderOfSubmissionAndCanBePaged) {
   std::vector<std::string> ids;
   for (int i = 0; i < 25; ++i) ids.push_back(add({}, i % 3));
   std::vector<std::string> listed;
-  std::string after;
-  for (std::vector<JobRecord> page = store->list(after, 10); !page.empty(); page = store->list(after, 10)) {
-    for (const JobRecord& job : page) listed.push_back(job.id);
-    after = listed.back();
+  JobWindow window{.limit = 10};
+  for (bool more = true; more;) {
+    const JobPage page = store->list(window);
+    for (const JobRecord& job : page.jobs) listed.push_back(job.id);
+    window.after = listed.back();
+    more = page.more;
   }
   EXPECT_EQ(listed, ids);
+}
+
+TEST_F(JobStoreTest, TheListCanBePagedFromTheNewestAndBetweenTwoJobs) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 25; ++i) ids.push_back(add());
+  std::vector<std::string> listed;
+  JobWindow window{.newest = true, .limit = 10};
+  for (bool more = true; more;) {
+    const JobPage page = store->list(window);
+    for (const JobRecord& job : page.jobs) listed.insert(listed.begin(), job.id);
+    window.before = listed.front();
+    more = page.more;
+  }
+  EXPECT_EQ(listed, ids);
+  const JobPage between = store->list({.after = ids[3], .before = ids[6], .newest = true});
+  ASSERT_EQ(between.jobs.size(), 2u);
+  EXPECT_EQ(between.jobs[0].id, ids[5]);
+  EXPECT_EQ(between.jobs[1].id, ids[4]);
+  EXPECT_FALSE(between.more);
+}
+
+TEST_F(JobStoreTest, ADamagedRowIsSetAsideAndThePageGoesOn) {
+  const std::string first = add(), damaged = add(), last = add();
+  store.reset();
+  Database(file()).run(("UPDATE job SET state='exploded' WHERE id='" + damaged + "'").c_str());
+  store = open_sqlite_store(file());
+  for (const bool newest : {false, true}) {
+    const JobPage page = store->list({.newest = newest, .limit = 2});
+    ASSERT_EQ(page.jobs.size(), 2u);
+    EXPECT_EQ(page.jobs[newest ? 1 : 0].id, first);
+    EXPECT_EQ(page.jobs[newest ? 0 : 1].id, last);
+    ASSERT_EQ(page.damaged.size(), 1u);
+    EXPECT_EQ(page.damaged[0].id, damaged);
+    EXPECT_NE(page.damaged[0].why.find("exploded"), std::string::npos);
+    EXPECT_FALSE(page.more);
+  }
+  EXPECT_EQ(store->claim()->id, first);
+  EXPECT_EQ(store->claim()->id, last);
+  EXPECT_FALSE(store->claim());
 }
 
 TEST_F(JobStoreTest, ARepeatedKeyGivesTheFirstJobAndAnotherSpecAConflict) {
@@ -75,7 +116,7 @@ TEST_F(JobStoreTest, ARepeatedKeyGivesTheFirstJobAndAnotherSpecAConflict) {
   EXPECT_TRUE(again.duplicate);
   EXPECT_EQ(again.job.id, first.job.id);
   EXPECT_EQ(error_of([&] { store->submit({"order-1", {}, "{\"a\":2}", "bundle", 1}); }), "key_conflict");
-  EXPECT_EQ(store->list({}, 100).size(), 1u);
+  EXPECT_EQ(store->list({}).jobs.size(), 1u);
 }
 
 TEST_F(JobStoreTest, JobsWithoutAKeyAreNeverDuplicates) {
@@ -244,7 +285,7 @@ TEST_F(JobStoreTest, ADatabaseOfVersion1IsBroughtUpToDate) {
   for (int opened = 0; opened < 2; ++opened) {
     reopen();
     EXPECT_EQ(store->epoch(), "01M7Z88KGJBTZDB219QR92F322");
-    EXPECT_EQ(store->list({}, 100).size(), 5u);
+    EXPECT_EQ(store->list({}).jobs.size(), 5u);
   }
   const std::string done = "01M7Z88KKC6557GD2AF0NKGAC8", running = "01M7Z88KPZZPQKQ83NYNXV44VP";
   EXPECT_EQ(store->artifacts(done).size(), 4u);
@@ -263,7 +304,7 @@ TEST_F(JobStoreTest, ADatabaseOfVersion2IsBroughtUpToDate) {
   for (int opened = 0; opened < 2; ++opened) {
     reopen();
     EXPECT_EQ(store->epoch(), "01M7ZD1DA5WTXE4BBXGP8TXEHG");
-    EXPECT_EQ(store->list({}, 100).size(), 5u);
+    EXPECT_EQ(store->list({}).jobs.size(), 5u);
   }
   const std::string done = "01M7ZD1ER06667WEP120VG7WK4";
   EXPECT_EQ(store->find_key("order 2")->schedule.not_before, "2031-01-01T00:00:00.000Z");
@@ -275,6 +316,41 @@ TEST_F(JobStoreTest, ADatabaseOfVersion2IsBroughtUpToDate) {
   EXPECT_TRUE(store->was_removed(done));
   EXPECT_EQ(store->recover(), 1);
   EXPECT_EQ(store->claim()->id, "01M7ZD1FAYFH84SDA0NB7716S2");
+}
+
+// One of its jobs was cancelled after the clock had been set back.
+TEST_F(JobStoreTest, ADatabaseOfVersion3IsBroughtUpToDate) {
+  load("store_version_3.sql");
+  for (int opened = 0; opened < 2; ++opened) {
+    reopen();
+    EXPECT_EQ(store->list({}).jobs.size(), 5u);
+    const std::vector<StateEvent> events = store->events({}, 0, 100);
+    ASSERT_EQ(events.size(), 9u);
+    std::map<std::string, std::uint64_t> last_seq;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      EXPECT_EQ(events[i].number, i + 1);
+      EXPECT_EQ(events[i].seq, ++last_seq[events[i].job]) << "no job's events are out of order";
+    }
+    EXPECT_EQ(events[4].time, "2026-11-22T11:17:39.938Z") << "behind those that were there before it";
+    EXPECT_EQ(store->last_event({}), 9u);
+  }
+  EXPECT_TRUE(store->queue_paused());
+  EXPECT_TRUE(store->was_removed("01M81FKPXJ45AA00VNDSBJGSD1"));
+  EXPECT_TRUE(store->find("01M81FKQZ2Y999AWG75R8YJM6H")->pinned);
+  EXPECT_EQ(store->counts().at(JobState::cancelled), 1u);
+  add();
+  EXPECT_EQ(store->last_event({}), 10u);
+}
+
+TEST_F(JobStoreTest, ANumberOfAnEventIsNeverGivenAgain) {
+  const std::string job = add();
+  store->cancel(job);
+  const std::uint64_t last = store->last_event({});
+  ASSERT_TRUE(store->remove(job));
+  EXPECT_EQ(store->last_event({}), last);
+  reopen();
+  add();
+  EXPECT_EQ(store->events({}, 0, 10).at(0).number, last + 1);
 }
 
 TEST_F(JobStoreTest, TheIdOfARemovedJobIsNeverGivenAgain) {

@@ -30,23 +30,17 @@ struct Quiet {
   PassedChecks passed{folder.path() / "checked"};
   Counters counters;
   Scheduler scheduler{*store, {}, {}};
-  Streams streams{*store, scheduler};
-  Waits waits{io, *store};
+  Streams streams{io, *store, reads, scheduler};
+  Waits waits{io, *store, reads};
   Access access{config};
   Connections connections;
-  TaskQueue disk{Pace::prompt}, admission{Pace::prompt}, replays{Pace::prompt}, exports{Pace::prompt};
+  TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt},
+      replays{Pace::prompt}, exports{Pace::prompt};
   CheckDesk checks{2};
-  Services services{io,          config,
-                    planner,     {},
-                    2,           *store,
-                    blobs,       artifacts,
-                    scheduler,   streams,
-                    waits,       access,
-                    connections, disk,
-                    admission,   checks,
-                    replays,     exports,
-                    isolation,   passed,
-                    counters,    std::chrono::steady_clock::now()};
+  Services services{io,          config,    planner,   {},        2,         *store,
+                    blobs,       artifacts, scheduler, streams,   waits,     access,
+                    connections, reads,     changes,   disk,      admission, checks,
+                    replays,     exports,   isolation, passed,    counters,  std::chrono::steady_clock::now()};
 };
 
 bool has_line(const std::string& text, const std::string& line) {
@@ -65,11 +59,11 @@ TEST(Metrics, CountWhatHappened) {
   quiet.store->claim();
   quiet.counters.connections = 5;
   quiet.counters.bytes_in = 77;
-  const std::string text = metrics_text(quiet.services);
+  const std::string text = metrics_text(quiet.services, 3, quiet.config.data);
   EXPECT_TRUE(has_line(text, "sculptd_jobs{state=\"queued\"} 1")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_jobs{state=\"running\"} 1")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_workers 2")) << text;
-  EXPECT_TRUE(has_line(text, "sculptd_connections 0")) << text;
+  EXPECT_TRUE(has_line(text, "sculptd_connections 3")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_connections_total 5")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_received_bytes_total 77")) << text;
   EXPECT_TRUE(has_line(text, "sculptd_commit_seconds_count " + std::to_string(commits + 3))) << text;
@@ -78,7 +72,7 @@ TEST(Metrics, CountWhatHappened) {
 // Each figure is announced by HELP and TYPE of its own name, once.
 TEST(Metrics, AreInTheTextFormat) {
   Quiet quiet;
-  std::istringstream lines(metrics_text(quiet.services));
+  std::istringstream lines(metrics_text(quiet.services, 0, quiet.config.data));
   std::string line, announced;
   std::set<std::string> names;
   while (std::getline(lines, line)) {

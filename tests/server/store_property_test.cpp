@@ -46,6 +46,7 @@ class History {
       compare();
     }
     check_events();
+    check_numbers();
   }
 
  private:
@@ -146,7 +147,7 @@ class History {
   void compare() {
     std::map<JobState, std::uint64_t> counts;
     for (const JobState state : job_states) counts[state] = 0;
-    const std::vector<JobRecord> records = store_->list({}, 1000);
+    const std::vector<JobRecord> records = store_->list({.limit = 1000}).jobs;
     ASSERT_EQ(records.size(), model_.jobs().size());
     for (std::size_t i = 0; i < records.size(); ++i) {
       const ModelJob& wanted = model_.jobs()[i];
@@ -165,6 +166,20 @@ class History {
     }
     ASSERT_EQ(store_->counts(), counts);
     ASSERT_EQ(store_->queue_paused(), model_.queue_paused);
+  }
+
+  // All events, by number, are those of the jobs.
+  void check_numbers() {
+    std::uint64_t number = 0;
+    std::map<std::string, std::uint64_t> seqs;
+    for (const StateEvent& event : store_->events({}, 0, 100'000)) {
+      ASSERT_GT(event.number, number);
+      ASSERT_EQ(event.seq, ++seqs[event.job]);
+      number = event.number;
+    }
+    ASSERT_LE(number, store_->last_event({}));
+    for (const ModelJob& job : model_.jobs()) ASSERT_EQ(seqs[job.id], store_->last_event(job.id));
+    ASSERT_EQ(seqs.size(), model_.jobs().size());
   }
 
   // Gapless, each a move of the table that goes on where the one before ended.

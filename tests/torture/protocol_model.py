@@ -211,10 +211,12 @@ class Model:
             kit.expect(not code or result["error"]["code"] == code, f"{result}")
 
     def list(self, connection):
-        limit, after = self.random.randint(1, 50), self.random.choice([*self.jobs[-60:], None])
-        result = self.expect(self.call(connection, "job.list", limit=limit, **({"after": after} if after else {})), "fine")
-        behind = [job for job in self.jobs if not after or job > after]
-        kit.expect([job["job"] for job in result["jobs"]] == behind[:limit] and result["more"] == (len(behind) > limit), f"{result}")
+        limit, newest = self.random.randint(1, 50), self.random.random() < 0.5
+        after, before = (self.random.choice([*self.jobs[-60:], None]) for _ in range(2))
+        bounds = {**({"after": after} if after else {}), **({"before": before} if before else {}), **({"order": "newest"} if newest else {})}
+        result = self.expect(self.call(connection, "job.list", limit=limit, **bounds), "fine")
+        within = [job for job in self.jobs if (not after or job > after) and (not before or job < before)][::-1 if newest else 1]
+        kit.expect([job["job"] for job in result["jobs"]] == within[:limit] and result["more"] == (len(within) > limit), f"{result}")
         for job in result["jobs"]:
             self.saw(job["job"], job["state"])
 

@@ -159,7 +159,7 @@ class Requests(unittest.TestCase):
         yield "job.submit", {**times, "spec": {**spec, "robot": self.bundle, "stock": {"mesh": self.mesh}}}
         for method in ("get", "cancel", "pause", "resume", "retry", "report", "verify"):
             yield f"job.{method}", {"job": nobody}
-        yield "job.list", {"after": nobody, "limit": 10}
+        yield "job.list", {"order": "newest", "after": nobody, "before": nobody, "limit": 10}
         yield "job.wait", {"job": nobody, "timeout_s": 1}
         yield "events.subscribe", {"job": nobody, "after": 1}
         yield "events.unsubscribe", {"job": nobody}
