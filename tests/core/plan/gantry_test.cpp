@@ -75,8 +75,7 @@ TEST(GantryPlan, UnderALidAllIsLeftForWantOfATransit) {
   EXPECT_EQ(planned.result.report.path.keyframes, 0u);
   std::map<Reason, std::uint64_t> left = planned.left;
   EXPECT_GT(left[Reason::no_transit], 0u) << "those on the outside";
-  EXPECT_EQ(left[Reason::no_transit] + left[Reason::behind_no_transit],
-            planned.result.report.voxels.residue);
+  EXPECT_EQ(left[Reason::no_transit] + left[Reason::behind_no_transit], planned.result.report.voxels.residue);
 }
 
 TEST(GantryPlan, AroundAPlateInTheStraightWayItFindsAnother) {
