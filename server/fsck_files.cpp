@@ -55,19 +55,21 @@ std::vector<std::string> bundle_files(const Blobs& blobs, const std::string& bun
   return {};
 }
 
-// The blobs that jobs need, each with the first job that does.
+// The blobs that jobs need, each with the first job that does. Rows that cannot be read are faults already.
 std::map<std::string, std::string> needed_blobs(JobStore& store, const Blobs& blobs) {
   std::map<std::string, std::string> needed;
-  std::string after;
-  for (std::vector<JobRecord> jobs = store.list(after, page); !jobs.empty(); jobs = store.list(after, page)) {
-    for (const JobRecord& job : jobs) {
+  JobWindow window{.limit = page};
+  for (bool more = true; more;) {
+    const JobPage found = store.list(window);
+    for (const JobRecord& job : found.jobs) {
       const JobSpec spec = read_stored_spec(job);
       needed.emplace(spec.mesh.sha256, job.id);
       if (spec.stock_mesh) needed.emplace(spec.stock_mesh->sha256, job.id);
       if (!needed.emplace(job.cell_bundle, job.id).second) continue;
       for (const std::string& file : bundle_files(blobs, job.cell_bundle)) needed.emplace(file, job.id);
     }
-    after = jobs.back().id;
+    more = found.more;
+    if (more) window.after = found.jobs.back().id;
   }
   return needed;
 }
