@@ -54,7 +54,7 @@ TEST_F(StoreMarkTest, AnyLineThatIsDamagedLeavesTheOther) {
 }
 
 TEST_F(StoreMarkTest, OneWithoutAGoodLineIsRefusedWithItsCure) {
-  for (const std::string& bytes :
+  for (const char* bytes :
        {"", "nothing\n", "sculptd-mark 1 store S changes 00000000000000000009 check 00000000\n"}) {
     write(bytes);
     try {

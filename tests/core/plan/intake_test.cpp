@@ -86,7 +86,8 @@ TEST(Intake, RefusesBySizesAlone) {
       return error.code();
     }
   };
-  const JobSizes small{64, {1 << 20, "stl"}, JobSizes::File{1 << 20, "obj"}, 1 << 20};
+  JobSizes small{64, {1 << 20, "stl"}, {}, 1 << 20};
+  small.stock = {1 << 20, "obj"};
   EXPECT_EQ(refused(small), "accepted");
   JobSizes sizes = small;
   sizes.resolution = 24;
