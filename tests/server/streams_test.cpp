@@ -117,7 +117,8 @@ TEST(Streams, TheSubscriptionToAllGoesOnBehindARestart) {
     job = submit(client, "hold");
     client.subscribe_all();
     EXPECT_EQ(next_of_all(client, number), job + " queued");
-    await_state(client, job, "running");
+    Client other = live.connect();
+    await_state(other, job, "running");
   }
   live.restart();
   Client client = live.connect();
