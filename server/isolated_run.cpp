@@ -110,6 +110,7 @@ class Stopper {
 }
 
 Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watch& watch) {
+  prepare_job_folder(isolation.jobs / job.id);
   ChildProcess child(isolation.worker, run_job_option);
   child.send(describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s}, isolation));
   Conversation heard;
@@ -194,7 +195,6 @@ int run_isolated_job(const Planner& planner) {
   if (!described) return EXIT_FAILURE;
   std::optional<Ending> ending;
   try {
-    prepare_job_folder(described->folder());
     const Job job = load_and_confine(*described, FolderUse::write);
     const Watch watch{stop_on_signal(), [&voice](const Progress& progress) { voice.tell(progress); }};
     ending = run_in_folder(described->job, job, described->folder(), planner, watch);

@@ -1,5 +1,6 @@
 // Submit a mesh, wait, look at the figures, fetch the trajectory.
 //   01_plan SERVER MESH OUT
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -11,7 +12,8 @@ int main(int count, char** arguments) {
 
   // The server keeps files by their content: a mesh that it has is not sent again.
   const std::string mesh = client.upload_file(arguments[2]);
-  const sculpt::Json spec{{"mesh", {{"blob", mesh}, {"name", arguments[2]}}}, {"resolution", 16}, {"robot", "gantry"}};
+  const std::string name = std::filesystem::path(arguments[2]).filename();
+  const sculpt::Json spec{{"mesh", {{"blob", mesh}, {"name", name}}}, {"resolution", 16}, {"robot", "gantry"}};
   // With a key of your own the request may be repeated after a broken connection: the job is queued once.
   const std::string job = client.call("job.submit", {{"spec", spec}, {"key", mesh}}).at("job");
 

@@ -8,9 +8,9 @@ import sculpt
 
 server, mesh, out = sys.argv[1:]
 with sculpt.Client(server, "01_plan") as client:
-    blob = client.upload_file(mesh)
-    spec = {"mesh": {"blob": blob, "name": mesh}, "resolution": 16, "robot": "gantry"}
-    job = client.submit(spec, key=blob)["job"]  # with a key it is queued once, even if the connection breaks meanwhile
+    spec = {"mesh": client.upload_file(mesh), "resolution": 16, "robot": "gantry"}
+    key = spec["mesh"]["blob"]  # with a key of your own it is queued once, even if the connection breaks meanwhile
+    job = client.submit(spec, key=key)["job"]
 
     ended = client.wait(job)
     if ended["state"] != "succeeded":

@@ -87,7 +87,7 @@ class Live(unittest.TestCase):
 
     def test_a_plan_that_leaves_something(self):
         connection = self.connect()
-        hollow = self.upload(shapes.box((0, 0, 0), (8, 8, 8)) + shapes.box((2, 2, 2), (6, 6, 6)))
+        hollow = self.upload(shapes.box((0, 0, 0), (8, 8, 8)) + [facet[::-1] for facet in shapes.box((2, 2, 2), (6, 6, 6))])
         job = ask(connection, "job.submit", spec={"mesh": hollow, "robot": "gantry", "resolution": 16})["result"]["job"]
         self.assertEqual(ask(connection, "job.wait", job=job, timeout_s=86400)["result"]["state"], "succeeded")
         self.assertTrue(ask(connection, "job.report", job=job)["result"]["residue"])
