@@ -89,7 +89,7 @@ class Invariants(unittest.TestCase):
         self.assertIn("numbered [1, 2, 9]", self.found())
 
     def test_two_ends(self):
-        self.change("""INSERT INTO event SELECT job, 4, time, 'failed', '{"from":"succeeded","to":"failed"}' FROM event WHERE seq=3""")
+        self.change("""INSERT INTO event(job, seq, time, state, data, number) SELECT job, 4, time, 'failed', '{"from":"succeeded","to":"failed"}', 1000 FROM event WHERE seq=3""")
         self.assertIn("ended as succeeded", self.found())
 
     def test_a_move_that_no_job_makes(self):
