@@ -37,12 +37,12 @@ class DiskTest(unittest.TestCase):
         self.mesh = kit.ball()
 
     def count(self, place):
-        """How many operations (0), syncs (1), writes (2) one session needs."""
+        """How many operations (0), syncs (1), writes (2) there are before one session and at its end; more come with the stop."""
         count_file = self.data.with_name("count")
         with faulty_daemon(self.data.with_name("counted"), SCULPT_COUNT_FILE=str(count_file)) as daemon:
             started = int(count_file.read_text().split()[place])
             Session(self.mesh).run(daemon.address)
-        return started, int(count_file.read_text().split()[place])
+            return started, int(count_file.read_text().split()[place])
 
 
 class SyncFails(DiskTest):
