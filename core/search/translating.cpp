@@ -10,6 +10,9 @@
 namespace sculpt {
 namespace {
 
+/// Ways to blocks that then cannot go whole, one after the other, after which blocks are given up for now.
+constexpr int most_in_vain = 32;
+
 /// Which of the two ends of a block, along one axis, is nearer.
 int nearer_end(int at, int low, int size) {
   return at - low < low + size - 1 - at ? low : low + size - 1;
@@ -59,7 +62,7 @@ class Carving {
         removed += volume(approach->block);
         carved_.push_back(approach->block);
         for (std::uint32_t neighbour : graph_.of(octree_.find(approach->block.corner))) reach(neighbour);
-      } else if (aside_.empty() || tried_again_at == carved_.size()) {
+      } else if (carved_.size() - tried_again_at <= aside_.size() / 4) {
         break;
       } else {
         tried_again_at = carved_.size();
@@ -157,11 +160,15 @@ class Carving {
     std::vector<Voxel> way;  ///< where it turns, or step by step
   };
 
-  /// To a block that can go whole; those that cannot are set aside. Nothing if there is no way to any.
+  /// To a block that can go whole; those that cannot are set aside. Nothing if there is no way to any, or too many were
+  /// looked for in vain.
   std::optional<Approach> next_approach() {
-    while (!candidates_.empty()) {
+    for (int in_vain = 0; !candidates_.empty() && in_vain < most_in_vain;) {
       auto approach = straight_approach();
-      if (!approach) approach = nearest_approach();
+      if (!approach) {
+        approach = nearest_approach();
+        ++in_vain;
+      }
       if (!approach || can_go_whole(approach->block, approach->entry)) return approach;
       candidates_.erase(approach->block);
       aside_.push_back(approach->block);
