@@ -115,8 +115,9 @@ class SqliteStore : public JobStore {
   std::vector<std::string> wake_due() override {
     std::unique_lock lock(mutex_);
     const std::string now = jobs_.now();
+    // The + keep SQLite to the index of the times: that of the states, or the table, holds the whole queue.
     std::vector<JobRow> late =
-        jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND state IN ('held', 'queued') ORDER BY number", {now});
+        jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND +state IN ('held', 'queued') ORDER BY +number", {now});
     std::vector<JobRow> due = jobs_.all(
         "state IN ('held', 'backoff') AND wake_at<=?1 AND (start_by='' OR start_by>=?1 OR attempt>0) ORDER BY number",
         {now});
