@@ -4,10 +4,9 @@
 #include <sys/socket.h>
 
 #include "proto/request.hpp"
-#include "server/http_connection.hpp"
-#include "server/services.hpp"
-#include "server/session.hpp"
-#include "server/stream_transport.hpp"
+#include "server/http/http_connection.hpp"
+#include "server/net/session.hpp"
+#include "server/net/stream_transport.hpp"
 
 namespace sculpt {
 namespace {
@@ -22,8 +21,9 @@ bool begins_http(char first) {
 
 }  // namespace
 
-Door::Door(Stream stream, Peer peer, std::shared_ptr<ssl::context> tls, Services& services)
-    : stream_(std::move(stream)), peer_(std::move(peer)), tls_(std::move(tls)), services_(services) {}
+Door::Door(Stream stream, Peer peer, std::shared_ptr<ssl::context> tls, ConnectionContext& context,
+           const HttpSources& http)
+    : stream_(std::move(stream)), peer_(std::move(peer)), tls_(std::move(tls)), context_(context), http_(http) {}
 
 void Door::read() {
   stream_.async_read_some(net::buffer(buffer_),
@@ -57,13 +57,13 @@ void Door::hand_over(std::string_view first) {
   done_ = true;
   const bool exposed = tls_ && !stream_.encrypted() && !peer_.near;
   if (!exposed && begins_http(first.front())) {
-    const auto http = std::make_shared<HttpConnection>(std::move(stream_), std::move(peer_), services_);
-    services_.connections.add(http);
+    const auto http = std::make_shared<HttpConnection>(std::move(stream_), std::move(peer_), context_, http_);
+    context_.connections.add(http);
     return http->start(first);
   }
   const auto session =
-      std::make_shared<Session>(std::make_unique<StreamTransport>(std::move(stream_)), std::move(peer_), services_);
-  services_.connections.add(session);
+      std::make_shared<Session>(std::make_unique<StreamTransport>(std::move(stream_)), std::move(peer_), context_);
+  context_.connections.add(session);
   if (exposed) {
     return session->turn_away(
         "tls_required",
@@ -86,7 +86,7 @@ void Door::close(const char* reason) {
 }
 
 void Door::check_deadlines(Clock::time_point now) {
-  const std::chrono::milliseconds patience = services_.config.hello_time;
+  const std::chrono::milliseconds patience = context_.config.hello_time;
   if (now - opened_ > (peer_.spare ? std::min<std::chrono::milliseconds>(patience, spare_time) : patience)) {
     close("nothing came in time");
   }

@@ -6,17 +6,17 @@
 #include <string>
 #include <string_view>
 
-#include "server/connection.hpp"
-#include "server/stream.hpp"
+#include "server/http/http_routes.hpp"
+#include "server/net/connection_context.hpp"
+#include "server/net/stream.hpp"
 
 namespace sculpt {
-
-struct Services;
 
 class Door : public Connection, public std::enable_shared_from_this<Door> {
  public:
   /// Without `tls` none is spoken.
-  Door(Stream stream, Peer peer, std::shared_ptr<ssl::context> tls, Services& services);
+  Door(Stream stream, Peer peer, std::shared_ptr<ssl::context> tls, ConnectionContext& context,
+       const HttpSources& http);
   void start() { read(); }
   /// A spare peer that speaks in the clear is told why.
   void close(const char* reason) override;
@@ -32,7 +32,8 @@ class Door : public Connection, public std::enable_shared_from_this<Door> {
   Stream stream_;
   Peer peer_;
   std::shared_ptr<ssl::context> tls_;
-  Services& services_;
+  ConnectionContext& context_;
+  const HttpSources& http_;
   std::array<char, 4096> buffer_;
   Clock::time_point opened_ = Clock::now();
   bool done_ = false;  // closed, or handed over

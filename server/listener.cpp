@@ -10,7 +10,6 @@
 #include <atomic>
 
 #include "server/door.hpp"
-#include "server/services.hpp"
 
 namespace sculpt {
 namespace {
@@ -87,15 +86,21 @@ Endpoint unix_endpoint(const Config& config) {
   return net::local::stream_protocol::endpoint(path);
 }
 
-Listener::Listener(Services& services, const Endpoint& endpoint, std::shared_ptr<net::ssl::context> tls)
-    : services_(services), endpoint_(endpoint), tls_(std::move(tls)), acceptor_(services.io), pause_(services.io) {
+Listener::Listener(ConnectionContext& context, const HttpSources& http, const Endpoint& endpoint,
+                   std::shared_ptr<net::ssl::context> tls)
+    : context_(context),
+      http_(http),
+      endpoint_(endpoint),
+      tls_(std::move(tls)),
+      acceptor_(context.io),
+      pause_(context.io) {
   try {
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(net::socket_base::reuse_address(true));
     acceptor_.bind(endpoint);
     acceptor_.listen();
   } catch (const boost::system::system_error& error) {
-    throw ListenError("cannot listen on " + (is_unix(endpoint) ? path_of(endpoint) : shown(services.config)) + ": " +
+    throw ListenError("cannot listen on " + (is_unix(endpoint) ? path_of(endpoint) : shown(context.config)) + ": " +
                       error.code().message() +
                       "; stop what uses it or choose another address with --listen (port 0: any free one)");
   }
@@ -125,11 +130,11 @@ void Listener::on_accept(const boost::system::error_code& error, Protocol::socke
   if (error) return wait_for_files(error);
   short_of_files_ = false;
   Peer peer = peer_of(socket);
-  peer.spare = services_.connections.count() >= most_connections(services_.config);
-  if (peer.spare) services_.connections.thin_spare(spare_places - 1);
-  const auto door = std::make_shared<Door>(Stream(std::move(socket)), std::move(peer), tls_, services_);
-  services_.connections.add(door);
-  ++services_.counters.connections;
+  peer.spare = context_.connections.count() >= most_connections(context_.config);
+  if (peer.spare) context_.connections.thin_spare(spare_places - 1);
+  const auto door = std::make_shared<Door>(Stream(std::move(socket)), std::move(peer), tls_, context_, http_);
+  context_.connections.add(door);
+  ++context_.counters.connections;
   door->start();
   accept();
 }
@@ -161,7 +166,7 @@ Peer Listener::peer_of(Protocol::socket& socket) const {
   const tcp::endpoint here = to_tcp(socket.local_endpoint(ignored)), there = to_tcp(socket.remote_endpoint(ignored));
   peer.near = there.address().is_loopback();
   peer.address = here.address().to_string();
-  if (services_.access.open()) peer.identity = Identity{"", Scope::admin};
+  if (http_.access.open()) peer.identity = Identity{"", Scope::admin};
   return peer;
 }
 

@@ -6,17 +6,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "server/net.hpp"
+#include "server/http/http_routes.hpp"
+#include "server/net/connection_context.hpp"
 
 namespace boost::asio::ssl {
 class context;
 }
 
 namespace sculpt {
-
-struct Config;
-struct Peer;
-struct Services;
 
 /// The address cannot be listened on; what() says which, why and the cure.
 class ListenError : public std::runtime_error {
@@ -34,7 +31,8 @@ Endpoint unix_endpoint(const Config& config);
 class Listener {
  public:
   /// Binds at once. Without `tls` none is spoken. Throws ListenError.
-  Listener(Services& services, const Endpoint& endpoint, std::shared_ptr<net::ssl::context> tls);
+  Listener(ConnectionContext& context, const HttpSources& http, const Endpoint& endpoint,
+           std::shared_ptr<net::ssl::context> tls);
   ~Listener() { close(); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -51,7 +49,8 @@ class Listener {
   void wait_for_files(const boost::system::error_code& error);
   Peer peer_of(Protocol::socket& socket) const;
 
-  Services& services_;
+  ConnectionContext& context_;
+  const HttpSources& http_;
   Endpoint endpoint_;
   std::shared_ptr<net::ssl::context> tls_;
   net::basic_socket_acceptor<Protocol> acceptor_;

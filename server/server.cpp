@@ -7,23 +7,23 @@
 #include <csignal>
 #include <thread>
 
-#include "server/confinement.hpp"
-#include "server/counters.hpp"
-#include "server/crash_point.hpp"
-#include "server/data_folder.hpp"
-#include "server/drain_limit.hpp"
-#include "server/isolated_run.hpp"
-#include "server/job_run.hpp"
+#include "server/run/confinement.hpp"
+#include "server/base/counters.hpp"
+#include "server/base/crash_point.hpp"
+#include "server/files/data_folder.hpp"
+#include "server/queue/drain_limit.hpp"
+#include "server/run/isolated_run.hpp"
+#include "server/run/job_run.hpp"
 #include "server/listener.hpp"
-#include "server/log.hpp"
-#include "server/net.hpp"
-#include "server/retention.hpp"
-#include "server/service_manager.hpp"
-#include "server/services.hpp"
-#include "server/settings.hpp"
-#include "server/stage_times.hpp"
-#include "server/store_opening.hpp"
-#include "server/tls.hpp"
+#include "server/base/log.hpp"
+#include "server/net/net.hpp"
+#include "server/results/retention.hpp"
+#include "server/ops/service_manager.hpp"
+#include "server/api/handlers.hpp"
+#include "server/base/settled_config.hpp"
+#include "server/queue/stage_times.hpp"
+#include "server/ops/store_opening.hpp"
+#include "server/net/tls.hpp"
 
 namespace sculpt {
 namespace {
@@ -84,20 +84,6 @@ std::string queue_sentence(JobStore& store) {
 
 }  // namespace
 
-void Services::changed(const std::string& job) {
-  net::post(io, [this, job] {
-    streams.on_changed(job);
-    waits.on_changed(job);
-  });
-  disk.add([this, job](const std::stop_token&) {
-    try {
-      artifacts.discard_leftovers(job);
-    } catch (const std::exception& error) {
-      spdlog::error("job={} its files could not be removed: {}", job, error.what());
-    }
-  });
-}
-
 struct Server::Impl {
   Impl(const Config& wanted, Planner given)
       : config(wanted),
@@ -112,15 +98,47 @@ struct Server::Impl {
                   with_stage_times(choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
                                               make_isolated_run(isolation)),
                                    counters),
-                  [this](const std::string& job) { services.changed(job); }),
+                  [this](const std::string& job) { changed(job); }),
         streams(io, *store, reads, scheduler),
         waits(io, *store, reads),
         retention(*store, blobs, artifacts, folder.jobs()),
-        listener(services, tcp_endpoint(config), make_tls(config)) {
-    if (!config.unix_socket.empty()) unix_listener.emplace(services, unix_endpoint(config), nullptr);
+        dispatcher(handlers(), streams, waits),
+        listener(context, http, tcp_endpoint(config), make_tls(config)) {
+    if (!config.unix_socket.empty()) unix_listener.emplace(context, http, unix_endpoint(config), nullptr);
     if (const int left = store->recover(); left > 0)
       spdlog::warn("{} jobs were interrupted and are queued again", left);
     crash_point(CrashPoint::recovered);
+  }
+
+  Handlers handlers() {
+    Handlers all;
+    const auto change = [this](const std::string& job) { changed(job); };
+    for (Handlers group :
+         {server_handlers({answers, config, access, connections, *store, planner, workers, started}),
+          blob_handlers({answers, blobs, disk}),
+          submit_handlers({answers, config, *store, blobs, scheduler, planner, job_defaults(config), isolation,
+                           admission, checks, passed}),
+          job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
+          control_handlers({answers, *store, scheduler, changes, change}),
+          event_handlers({answers, *store, streams}),
+          artifact_handlers({answers, *store, artifacts, changes, disk, exports})})
+      all.merge(group);
+    return all;
+  }
+
+  // A job changed its state: tells everybody who waits for that. Any thread.
+  void changed(const std::string& job) {
+    net::post(io, [this, job] {
+      streams.on_changed(job);
+      waits.on_changed(job);
+    });
+    disk.add([this, job](const std::stop_token&) {
+      try {
+        artifacts.discard_leftovers(job);
+      } catch (const std::exception& error) {
+        spdlog::error("job={} its files could not be removed: {}", job, error.what());
+      }
+    });
   }
 
   void tick() {
@@ -176,7 +194,9 @@ struct Server::Impl {
   }
 
   // Order of members = order of construction; whatever posts to `io` ends before it.
+  const std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Config config;
+  const int workers = worker_count(config);
   Planner planner;
   DataFolder folder;
   std::unique_ptr<JobStore> store;
@@ -195,30 +215,10 @@ struct Server::Impl {
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};
   TaskQueue replays{Pace::background}, exports{Pace::background};
-  Services services{io,
-                    config,
-                    planner,
-                    job_defaults(config),
-                    worker_count(config),
-                    *store,
-                    blobs,
-                    artifacts,
-                    scheduler,
-                    streams,
-                    waits,
-                    access,
-                    connections,
-                    reads,
-                    changes,
-                    disk,
-                    admission,
-                    checks,
-                    replays,
-                    exports,
-                    isolation,
-                    passed,
-                    counters,
-                    std::chrono::steady_clock::now()};
+  Answers answers{io, reads};
+  Dispatcher dispatcher;
+  ConnectionContext context{io, config, connections, counters, dispatcher};
+  HttpSources http{access, *store, artifacts, {*store, counters, workers, started}, reads, disk, exports};
   Listener listener;
   std::optional<Listener> unix_listener;
   net::steady_timer timer{io};
@@ -241,7 +241,7 @@ std::uint16_t Server::port() const {
 
 void Server::run() {
   log_confinement();
-  impl_->scheduler.start(impl_->services.workers);
+  impl_->scheduler.start(impl_->workers);
   impl_->listener.start();
   if (impl_->unix_listener) impl_->unix_listener->start();
   impl_->tick();

@@ -5,8 +5,8 @@
 #include <functional>
 #include <memory>
 
-#include "server/config.hpp"
-#include "server/planner.hpp"
+#include "server/base/config.hpp"
+#include "server/run/planner.hpp"
 
 namespace sculpt {
 

@@ -1,7 +1,7 @@
 // A config file; and its text as each single setting, as a flag or a variable gives it.
 #include "proto/error_codes.hpp"
 #include "proto/json.hpp"
-#include "server/settings.hpp"
+#include "server/base/settings.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace {

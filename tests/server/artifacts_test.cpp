@@ -1,5 +1,5 @@
 // What became of a stored file since it was stored: it is never given out as the artifact.
-#include "server/artifacts.hpp"
+#include "server/results/artifacts.hpp"
 
 #include <gtest/gtest.h>
 

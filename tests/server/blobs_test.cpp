@@ -1,4 +1,4 @@
-#include "server/blobs.hpp"
+#include "server/files/blobs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/check_desk.hpp"
+#include "server/queue/check_desk.hpp"
 
 #include <gtest/gtest.h>
 

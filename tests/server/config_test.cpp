@@ -1,10 +1,11 @@
-#include "server/config.hpp"
+#include "server/base/config.hpp"
+#include "server/base/settled_config.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "server/data_folder.hpp"
+#include "server/files/data_folder.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt {

@@ -1,4 +1,4 @@
-#include "server/confinement.hpp"
+#include "server/run/confinement.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

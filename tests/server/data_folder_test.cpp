@@ -1,4 +1,4 @@
-#include "server/data_folder.hpp"
+#include "server/files/data_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "server/drain_limit.hpp"
+#include "server/queue/drain_limit.hpp"
 
 #include <gtest/gtest.h>
 #include <sysexits.h>

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <stop_token>
 
-#include "server/planner.hpp"
+#include "server/run/planner.hpp"
 
 namespace sculpt {
 

@@ -1,4 +1,4 @@
-#include "server/http_guard.hpp"
+#include "server/http/http_guard.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/isolated_check.hpp"
+#include "server/run/isolated_check.hpp"
 
 #include <gtest/gtest.h>
 

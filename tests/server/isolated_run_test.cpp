@@ -1,16 +1,16 @@
-#include "server/isolated_run.hpp"
+#include "server/run/isolated_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <mutex>
 
-#include "server/blobs.hpp"
-#include "server/child_process.hpp"
-#include "server/confinement.hpp"
-#include "server/isolated_check.hpp"
-#include "server/isolated_replay.hpp"
-#include "server/job_run.hpp"
+#include "server/files/blobs.hpp"
+#include "server/run/child_process.hpp"
+#include "server/run/confinement.hpp"
+#include "server/run/isolated_check.hpp"
+#include "server/run/isolated_replay.hpp"
+#include "server/run/job_run.hpp"
 #include "tests/server/fake_planner.hpp"
 #include "tests/server/live_server.hpp"
 #include "tests/server/temp_folder.hpp"

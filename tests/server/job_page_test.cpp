@@ -1,8 +1,8 @@
-#include "server/job_page.hpp"
+#include "server/api/job_page.hpp"
 
 #include <gtest/gtest.h>
 
-#include "server/scheduler.hpp"
+#include "server/queue/scheduler.hpp"
 #include "tests/server/long_queue.hpp"
 #include "tests/server/temp_folder.hpp"
 

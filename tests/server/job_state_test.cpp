@@ -1,12 +1,12 @@
-#include "server/job_state.hpp"
+#include "server/store/job_state.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/base/random.hpp"
-#include "server/job_id.hpp"
-#include "server/time_stamp.hpp"
+#include "server/store/job_id.hpp"
+#include "server/base/time_stamp.hpp"
 
 namespace sculpt {
 namespace {

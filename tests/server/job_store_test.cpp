@@ -1,4 +1,4 @@
-#include "server/job_store.hpp"
+#include "server/store/job_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "proto/error_codes.hpp"
-#include "server/sqlite.hpp"
+#include "server/store/sqlite.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt {

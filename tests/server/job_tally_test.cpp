@@ -1,4 +1,4 @@
-#include "server/job_tally.hpp"
+#include "server/store/job_tally.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/log.hpp"
+#include "server/base/log.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "server/sqlite.hpp"
+#include "server/store/sqlite.hpp"
 
 namespace sculpt {
 

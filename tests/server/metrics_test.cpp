@@ -1,12 +1,12 @@
-#include "server/metrics.hpp"
+#include "server/http/metrics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "server/data_folder.hpp"
-#include "server/services.hpp"
-#include "server/stage_times.hpp"
+#include "server/files/data_folder.hpp"
+#include "server/api/services.hpp"
+#include "server/queue/stage_times.hpp"
 #include "tests/server/fake_planner.hpp"
 #include "tests/server/temp_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "server/passed_checks.hpp"
+#include "server/queue/passed_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <thread>
 
-#include "server/sqlite.hpp"
+#include "server/store/sqlite.hpp"
 #include "tests/server/live_server.hpp"
 
 namespace sculpt {

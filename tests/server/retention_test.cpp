@@ -1,4 +1,4 @@
-#include "server/retention.hpp"
+#include "server/results/retention.hpp"
 
 #include <gtest/gtest.h>
 

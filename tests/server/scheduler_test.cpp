@@ -1,4 +1,4 @@
-#include "server/scheduler.hpp"
+#include "server/queue/scheduler.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>

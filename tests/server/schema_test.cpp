@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "server/dispatch.hpp"
+#include "server/api/dispatch.hpp"
 
 namespace sculpt {
 namespace {

@@ -1,4 +1,5 @@
-#include "server/settings.hpp"
+#include "server/base/settings.hpp"
+#include "server/base/settled_config.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "server/store_mark.hpp"
+#include "server/files/store_mark.hpp"
 
 #include <gtest/gtest.h>
 

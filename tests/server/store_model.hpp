@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "server/job_store.hpp"
+#include "server/store/job_store.hpp"
 
 namespace sculpt {
 

@@ -1,12 +1,12 @@
 // Whatever was done to the files of the store is noticed before anything is thrown away.
-#include "server/store_opening.hpp"
+#include "server/ops/store_opening.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "server/store_facts.hpp"
-#include "server/store_mark.hpp"
+#include "server/store/store_facts.hpp"
+#include "server/files/store_mark.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt {

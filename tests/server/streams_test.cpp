@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "server/sqlite.hpp"
+#include "server/store/sqlite.hpp"
 #include "tests/server/live_server.hpp"
 
 namespace sculpt {

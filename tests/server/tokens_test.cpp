@@ -1,4 +1,4 @@
-#include "server/tokens.hpp"
+#include "server/access/tokens.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "server/config.hpp"
-#include "server/token_command.hpp"
+#include "server/base/config.hpp"
+#include "server/access/token_command.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt {

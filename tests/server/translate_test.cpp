@@ -1,4 +1,4 @@
-#include "server/translate.hpp"
+#include "server/run/translate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // one.
 #include <string_view>
 
-#include "server/isolated_check.hpp"
-#include "server/isolated_replay.hpp"
-#include "server/isolated_run.hpp"
+#include "server/run/isolated_check.hpp"
+#include "server/run/isolated_replay.hpp"
+#include "server/run/isolated_run.hpp"
 #include "tests/server/fake_planner.hpp"
 
 int main(int, char** arguments) {

@@ -1,0 +1,86 @@
+#include "server/api/handlers.hpp"
+#include "server/run/isolated_replay.hpp"
+#include "server/api/job_page.hpp"
+
+namespace sculpt {
+namespace {
+
+ViewSources view_sources(const JobGroup& group) {
+  return {group.store, group.scheduler, group.config.keep};
+}
+
+Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) {
+  group.artifacts.check_whole(job, "trajectory");
+  const Replay replay = replay_in_child({job.spec, job.cell_bundle, job.id}, group.isolation, stop);
+  Json findings = Json::array();
+  for (const Finding& finding : replay.findings)
+    findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});
+  Json exempt = Json::array();
+  for (const ExemptPair& pair : replay.exempt_pairs)
+    exempt.push_back({{"links", {pair.first, pair.second}}, {"why", pair.why}});
+  return {{{"job", job.id},
+           {"clean", replay.clean},
+           {"collisions", replay.collisions},
+           {"voxels_checked", replay.voxels_checked},
+           {"findings", std::move(findings)},
+           {"exempt_pairs", std::move(exempt)}},
+          std::nullopt};
+}
+
+void on_get(const JobGroup& group, Call call) {
+  const std::string job = read_job_id(call.params);
+  group.answers.read(std::move(call),
+              [sources = view_sources(group), job] { return job_view(sources, find_job(sources.store, job)); });
+}
+
+void on_list(const JobGroup& group, Call call) {
+  const ListParams list = read_list(call.params);
+  const std::size_t max_line = call.session->max_line();
+  group.answers.read(std::move(call),
+              [sources = view_sources(group), list, max_line] { return job_page(sources, list, max_line); });
+}
+
+void on_wait(const JobGroup& group, Call call) {
+  const WaitParams wait = read_wait(call.params);
+  group.waits.add(std::move(call), wait.job, wait.timeout_s);
+}
+
+void on_report(const JobGroup& group, Call call) {
+  const std::string job = read_job_id(call.params);
+  call.session->hold();
+  group.answers.from(group.disk, std::move(call), [group, job](const std::stop_token&) {
+    return Answer{parse_json(group.artifacts.read_whole(find_job(group.store, job), "report")), std::nullopt};
+  });
+}
+
+void on_verify(const JobGroup& group, Call call) {
+  const std::string id = read_job_id(call.params);
+  group.answers.detour(
+      group.reads, std::move(call),
+      [&store = group.store, id](const std::stop_token&) {
+        JobRecord job = find_job(store, id);
+        if (store.artifacts(id).empty()) {
+          throw ProtocolError("wrong_state",
+                              "job " + id + " is " + name(job.state) + " and has no final trajectory to replay");
+        }
+        return job;
+      },
+      [group](Call known, const JobRecord& job) {
+        group.answers.from(group.replays, std::move(known),
+                    [group, job](const std::stop_token& stop) { return replay(group, job, stop); });
+      });
+}
+
+}  // namespace
+
+Handlers job_handlers(const JobGroup& group) {
+  return {
+      {"job.get", [group](Call call) { on_get(group, std::move(call)); }},
+      {"job.list", [group](Call call) { on_list(group, std::move(call)); }},
+      {"job.wait", [group](Call call) { on_wait(group, std::move(call)); }},
+      {"job.report", [group](Call call) { on_report(group, std::move(call)); }},
+      {"job.verify", [group](Call call) { on_verify(group, std::move(call)); }},
+  };
+}
+
+}  // namespace sculpt

@@ -1,0 +1,92 @@
+#include <spdlog/spdlog.h>
+
+#include "proto/schema.hpp"
+#include "proto/version.hpp"
+#include "server/api/handlers.hpp"
+
+namespace sculpt {
+namespace {
+
+void greet(const ServerGroup& group, Session& session, const HelloParams& hello) {
+  Identity identity = group.access.identify(session.peer(), hello.token);
+  const bool known = session.identity() != nullptr && session.owner() == identity.owner;
+  const auto most = static_cast<std::size_t>(group.config.max_connections_per_owner);
+  if (!known && group.connections.count_of(identity.owner) >= most) {
+    throw ProtocolError("too_many_connections", "you have " + std::to_string(most) +
+                                                    " connections already: use one for many requests, or raise "
+                                                    "max_connections_per_owner");
+  }
+  session.greet(hello, std::move(identity));
+}
+
+// The session is closed behind the reply.
+void turn_away(const Call& call, const Json& error) {
+  const std::shared_ptr<Session> session = call.session;
+  spdlog::info("conn={} {}", session->peer().number, error["data"]["code"].get<std::string>());
+  session->refuse(call.id, error);
+  session->finish();
+}
+
+void on_hello(const ServerGroup& group, Call call) {
+  const HelloParams hello = read_hello(call.params);
+  if (hello.major != protocol_major) {
+    return turn_away(call, error_object("protocol_unsupported",
+                                        "this server speaks protocol [1,0], not [" + std::to_string(hello.major) + "," +
+                                            std::to_string(hello.minor) + "]",
+                                        "/params/protocol"));
+  }
+  try {
+    greet(group, *call.session, hello);
+  } catch (const ProtocolError& error) {
+    return turn_away(call, error_object(error.code(), error.what(), error.pointer()));
+  }
+  answer(call, {{"protocol", {protocol_major, protocol_minor}},
+                {"server", server_name},
+                {"epoch", group.store.epoch()},
+                {"features", {"chunk", "events", "verify"}},
+                {"limits",
+                 {{"line", call.session->line_limit()},
+                  {"chunk", max_chunk_bytes},
+                  {"blob", group.config.blob_limit_bytes},
+                  {"depth", max_json_depth}}}});
+}
+
+void on_ping(const ServerGroup&, Call call) {
+  read_nothing(call.params);
+  answer(call, Json::object());
+}
+
+void on_server_info(const ServerGroup& group, Call call) {
+  read_nothing(call.params);
+  group.answers.read(std::move(call), [group] {
+    const auto uptime = std::chrono::steady_clock::now() - group.started;
+    Json jobs = Json::object();
+    for (const auto& [state, count] : group.store.counts()) jobs[name(state)] = count;
+    return Json{{"server", server_name},
+                {"protocol", {protocol_major, protocol_minor}},
+                {"epoch", group.store.epoch()},
+                {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
+                {"workers", group.workers},
+                {"cells", group.planner.cells()},
+                {"queue_paused", group.store.queue_paused()},
+                {"jobs", std::move(jobs)}};
+  });
+}
+
+void on_server_schema(const ServerGroup& group, Call call) {
+  const std::string method = read_schema_method(call.params);
+  group.answers.read(std::move(call), [method] { return protocol_schema(method); });
+}
+
+}  // namespace
+
+Handlers server_handlers(const ServerGroup& group) {
+  return {
+      {"hello", [group](Call call) { on_hello(group, std::move(call)); }},
+      {"ping", [group](Call call) { on_ping(group, std::move(call)); }},
+      {"server.info", [group](Call call) { on_server_info(group, std::move(call)); }},
+      {"server.schema", [group](Call call) { on_server_schema(group, std::move(call)); }},
+  };
+}
+
+}  // namespace sculpt

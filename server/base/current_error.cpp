@@ -1,0 +1,35 @@
+#include "server/base/current_error.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <new>
+
+#include "core/base/error.hpp"
+#include "proto/error_codes.hpp"
+#include "server/base/storage_error.hpp"
+
+namespace sculpt {
+
+Json current_error() {
+  try {
+    throw;
+  } catch (const ProtocolError& error) {
+    return error_object(error.code(), error.what(), error.pointer());
+  } catch (const InputError& error) {
+    return error_object(error.code(), error.what());
+  } catch (const Cancelled&) {
+    return error_object("stopping", "the daemon is stopping: try again when it is back");
+  } catch (const StorageFull& error) {
+    return error_object("storage_full", error.what());
+  } catch (const StorageError& error) {
+    spdlog::error("{}", error.what());
+    return error_object("storage_error", error.what());
+  } catch (const std::bad_alloc&) {
+    return error_object("out_of_memory", "the server has not enough memory for this: use a smaller resolution or mesh");
+  } catch (const std::exception& error) {
+    spdlog::error("internal error: {}", error.what());
+    return error_object("internal_error", std::string("the server failed: ") + error.what());
+  }
+}
+
+}  // namespace sculpt

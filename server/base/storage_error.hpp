@@ -1,0 +1,20 @@
+// What goes wrong where something is to be kept.
+#pragma once
+
+#include <stdexcept>
+
+namespace sculpt {
+
+/// The disk or the database failed; nothing was acknowledged.
+class StorageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The disk has no space left; nothing was acknowledged.
+class StorageFull : public StorageError {
+ public:
+  using StorageError::StorageError;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,86 @@
+#include "server/files/stored_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "core/base/sha256.hpp"
+#include "server/files/durable.hpp"
+#include "server/base/storage_error.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t piece_bytes = 1 << 20;
+
+bool is_regular(int file) {
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+}  // namespace
+
+std::optional<StoredFile> StoredFile::open(const fs::path& folder, const std::string& job, const std::string& name) {
+  const int inside = ::open((folder / job).c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (inside < 0) return std::nullopt;
+  const int opened = ::openat(inside, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  const int error = errno;
+  ::close(inside);
+  if (opened < 0 && (error == EMFILE || error == ENFILE || error == EIO)) {
+    fail_to_store(error, "cannot read '" + (folder / job / name).string() + "'");
+  }
+  if (opened < 0) return std::nullopt;
+  StoredFile file(opened);
+  return is_regular(opened) ? std::optional(std::move(file)) : std::nullopt;
+}
+
+StoredFile::StoredFile(StoredFile&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+
+StoredFile::~StoredFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+std::uint64_t StoredFile::size() const {
+  struct stat status {};
+  return ::fstat(file_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
+std::string StoredFile::read(std::uint64_t offset, std::uint64_t bytes) const {
+  std::string part(bytes, '\0');
+  for (std::uint64_t done = 0; done < bytes;) {
+    const ssize_t got = ::pread(file_, part.data() + done, bytes - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_to_store(errno, "cannot read an artifact");
+    if (got == 0) throw StorageError("an artifact became shorter while it was read");
+    done += static_cast<std::uint64_t>(got);
+  }
+  return part;
+}
+
+FileSeal StoredFile::seal() const {
+  Sha256 hash;
+  const std::uint64_t all = size();
+  for (std::uint64_t offset = 0; offset < all; offset += piece_bytes)
+    hash.add(read(offset, std::min(piece_bytes, all - offset)));
+  return {all, hash.hex()};
+}
+
+std::string fault_of_size(const std::optional<StoredFile>& file, const FileSeal& seal) {
+  if (!file) return "is missing, or no file";
+  if (file->size() == seal.size) return {};
+  return "has " + std::to_string(file->size()) + " bytes, not " + std::to_string(seal.size);
+}
+
+std::string fault_of(const std::optional<StoredFile>& file, const FileSeal& seal) {
+  const std::string fault = fault_of_size(file, seal);
+  if (!fault.empty()) return fault;
+  return file->seal().sha256 == seal.sha256 ? "" : "has other bytes than were stored";
+}
+
+}  // namespace sculpt

@@ -1,0 +1,196 @@
+#include "server/http/http_routes.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "proto/schema.hpp"
+#include "server/http/byte_range.hpp"
+#include "server/http/health.hpp"
+#include "server/http/http_guard.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
+constexpr std::string_view artifacts_path = "/v1/artifacts/";
+constexpr std::string_view schema_path = "/schema.json";
+constexpr std::size_t piece_bytes = 1 << 20;
+
+HttpReply ready_reply(const std::string& reason) {
+  if (reason.empty()) return {200, "text/plain; charset=utf-8", "ready\n"};
+  return {503, "text/plain; charset=utf-8", reason + "\n"};
+}
+
+void authorize(const HttpSources& sources, const Peer& peer, const HttpRequest& request) {
+  constexpr std::string_view scheme = "Bearer ";
+  const bool bearer = request.authorization.starts_with(scheme);
+  const std::string token = bearer ? request.authorization.substr(scheme.size()) : std::string();
+  require_scope(sources.access.identify(peer, token), Scope::read);
+}
+
+// JOB/NAME[?format=FORMAT]
+ArtifactReadParams read_artifact_path(std::string_view path) {
+  const std::size_t query = std::min(path.find('?'), path.size()), slash = path.find('/');
+  if (slash > query) {
+    throw ProtocolError("not_found", "an artifact's path is /v1/artifacts/JOB/NAME[?format=FORMAT]");
+  }
+  ArtifactReadParams wanted{
+      std::string(path.substr(0, slash)), std::string(path.substr(slash + 1, query - slash - 1)), {}, 0, piece_bytes};
+  if (query == path.size()) return wanted;
+  constexpr std::string_view format = "?format=";
+  if (!path.substr(query).starts_with(format)) {
+    throw ProtocolError("params_invalid", "the only thing that may follow an artifact's path is ?format=FORMAT");
+  }
+  wanted.format = path.substr(query + format.size());
+  return wanted;
+}
+
+const char* media_type(const std::string& format) {
+  if (format == "json") return "application/json";
+  if (format == "ndjson") return "application/x-ndjson";
+  return format == "csv" ? "text/csv; charset=utf-8" : "application/octet-stream";
+}
+
+// Of an artifact's own form its hash; the others are always made alike from it.
+std::string entity_tag(const std::vector<StoredArtifact>& stored, const ArtifactReadParams& wanted,
+                       const std::string& format) {
+  const auto found = std::ranges::find(stored, wanted.artifact, &StoredArtifact::artifact);
+  if (found == stored.end()) {
+    throw ProtocolError("wrong_state", "the " + wanted.artifact + " of job " + wanted.job +
+                                           " still grows: HTTP gives what is final; follow it with artifact.read");
+  }
+  return "\"" + found->sha256 + (format == found->format ? "" : "-" + format) + "\"";
+}
+
+bool names_tag(const std::string& header, const std::string& tag) {
+  return header == "*" || header.find(tag) != std::string::npos;
+}
+
+HttpReply artifact_reply(const HttpSources& sources, ArtifactReadParams wanted, const HttpRequest& request) {
+  wanted.bytes = 0;
+  const auto so_far = std::make_shared<WholeRead>();
+  const ArtifactChunk now = sources.artifacts.read(wanted, *so_far);
+  wanted.format = now.format;
+  wanted.bytes = piece_bytes;
+  const std::string tag = entity_tag(sources.store.artifacts(wanted.job), wanted, now.format);
+  HttpReply reply{200, media_type(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
+  if (!request.if_none_match.empty() && names_tag(request.if_none_match, tag)) {
+    reply.status = 304;
+    return reply;
+  }
+  const bool stale = !request.if_range.empty() && request.if_range != tag;
+  const ByteRange range = stale ? ByteRange{} : read_range(request.range, now.size);
+  const std::string size = std::to_string(now.size);
+  if (range.kind == ByteRange::Kind::unsatisfiable) {
+    reply.status = 416;
+    reply.headers.emplace_back("Content-Range", "bytes */" + size);
+    return reply;
+  }
+  if (range.kind == ByteRange::Kind::whole && now.size <= piece_bytes) {
+    reply.body = sources.artifacts.read(wanted, *so_far).bytes;
+    return reply;
+  }
+  reply.part = {wanted, now.size, so_far};
+  if (range.kind == ByteRange::Kind::part) {
+    reply.status = 206;
+    reply.part->at.offset = range.offset;
+    reply.part->bytes = range.bytes;
+    reply.headers.emplace_back("Content-Range", "bytes " + std::to_string(range.offset) + "-" +
+                                                    std::to_string(range.offset + range.bytes - 1) + "/" + size);
+  }
+  return reply;
+}
+
+Route artifact_route(const HttpSources& sources, const HttpRequest& request) {
+  const ArtifactReadParams wanted = read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
+  return {nullptr,
+          [sources, wanted, request] {
+            sources.artifacts.make_export(wanted);
+            return artifact_reply(sources, wanted, request);
+          },
+          [sources, wanted] {
+            find_job(sources.store, wanted.job);
+            return sources.artifacts.needs_export(wanted) ? &sources.exports : &sources.disk;
+          }};
+}
+
+unsigned status_of(std::string_view code) {
+  if (code == "not_found") return 404;
+  if (code == "gone") return 410;
+  if (code == "params_invalid" || code == "bad_request") return 400;
+  if (code == "auth_required") return 401;
+  if (code == "forbidden" || code == "origin_refused") return 403;
+  if (code == "method_refused") return 405;
+  if (code == "wrong_state") return 409;
+  if (code == "host_refused") return 421;
+  return code == "stopping" || code == "too_many_connections" ? 503 : 500;
+}
+
+[[noreturn]] void refuse_page(const Peer& peer, const HttpRequest& request, const char* code,
+                              const std::string& sentence) {
+  // As JSON, so that no header can forge a line of the log.
+  spdlog::info("conn={} {} host={} origin={}", peer.number, code, write_json(request.host), write_json(request.origin));
+  throw ProtocolError(code, sentence);
+}
+
+}  // namespace
+
+HttpReply error_reply(const Json& error) {
+  HttpReply reply{status_of(error["data"]["code"].get<std::string>()), "application/json", write_json(error) + "\n"};
+  if (reply.status == 401) reply.headers.emplace_back("WWW-Authenticate", "Bearer");
+  if (reply.status == 405) reply.headers.emplace_back("Allow", "GET, HEAD");
+  return reply;
+}
+
+void check_page(const Config& config, const Peer& peer, const HttpRequest& request) {
+  if (!peer.browsable) return;
+  std::vector<std::string> names = config.host_names;
+  names.insert(names.end(), {config.host, peer.address});
+  if (!host_allowed(request.host, names)) {
+    refuse_page(peer, request, "host_refused",
+                "this server is not called '" + request.host + "': use its address, or add the name to host_names");
+  }
+  if (!origin_allowed(request.origin, request.host, config.origins)) {
+    refuse_page(peer, request, "origin_refused", "pages of another origin may not call this server: add it to origins");
+  }
+}
+
+void check_room(const Peer& peer, const HttpRequest& request) {
+  if (peer.spare && request.target != live_path && request.target != ready_path)
+    throw ProtocolError("too_many_connections", full_sentence);
+}
+
+Route find_route(const HttpSources& sources, const ConnectionContext& context, const Peer& peer,
+                 const HttpRequest& request) {
+  if (request.method != "GET" && request.method != "HEAD") {
+    throw ProtocolError("method_refused", "HTTP only reads here (GET, HEAD): give work over " +
+                                              std::string(web_socket_path) + " or newline-delimited JSON-RPC");
+  }
+  if (request.target == live_path)
+    return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
+  if (request.target == ready_path) {
+    // Copied here: a reload changes the config while the disk is looked at.
+    return {&sources.disk,
+            [&store = sources.store, data = context.config.data, floor = context.config.disk_floor_bytes] {
+              return ready_reply(why_not_ready(data, floor, store));
+            }};
+  }
+  authorize(sources, peer, request);
+  if (request.target == "/metrics") {
+    return {&sources.reads, [metrics = sources.metrics, open = context.connections.count(), data = context.config.data] {
+              return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(metrics, open, data)};
+            }};
+  }
+  if (request.target == schema_path) {
+    return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(schema_text())}; }};
+  }
+  if (request.target.starts_with(artifacts_path)) return artifact_route(sources, request);
+  throw ProtocolError("not_found",
+                      "there is nothing at this path: there are /livez, /readyz, /metrics, /schema.json, "
+                      "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
+                          std::string(web_socket_path));
+}
+
+}  // namespace sculpt

@@ -1,0 +1,237 @@
+#include "server/results/artifacts.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "server/base/crash_point.hpp"
+#include "server/files/durable.hpp"
+#include "server/results/exported_file.hpp"
+#include "server/files/orphans.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Kind {
+  const char* artifact;
+  std::array<const char*, 3> formats;  // the first is the artifact's own; nullptr: none
+};
+
+constexpr std::array kinds{Kind{"trajectory", {"ndjson", "csv", "binary"}},
+                           Kind{"voxels", {"binvox", nullptr, nullptr}}, Kind{"residue", {"ndjson", nullptr, nullptr}},
+                           Kind{"report", {"json", nullptr, nullptr}}};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+const Kind& find_kind(const std::string& artifact) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) {
+    if (artifact == kind.artifact) return kind;
+    names.emplace_back(kind.artifact);
+  }
+  throw ProtocolError("params_invalid", "there is no artifact '" + artifact + "': there are " + joined(names),
+                      "/params/artifact");
+}
+
+std::vector<std::string> formats(const Kind& kind) {
+  std::vector<std::string> names;
+  for (const char* format : kind.formats) {
+    if (format != nullptr) names.emplace_back(format);
+  }
+  return names;
+}
+
+std::string choose_format(const ArtifactReadParams& wanted) {
+  const std::vector<std::string> names = formats(find_kind(wanted.artifact));
+  if (wanted.format.empty()) return names.front();
+  if (std::ranges::find(names, wanted.format) == names.end()) {
+    throw ProtocolError(
+        "params_invalid",
+        "the artifact " + wanted.artifact + " has no format '" + wanted.format + "': it has " + joined(names),
+        "/params/format");
+  }
+  return wanted.format;
+}
+
+std::string file_name(const std::string& artifact, const std::string& format) {
+  return artifact + "." + (format == "binary" ? "sct" : format);
+}
+
+bool is_export(const std::string& file) {
+  return file == "trajectory.csv" || file == "trajectory.sct";
+}
+
+// Those that were made of a final artifact, with their seals.
+Json list_exports(const fs::path& folder, const std::string& job, const Kind& kind) {
+  Json made = Json::array();
+  for (const std::string& format : formats(kind)) {
+    const std::optional<FileSeal> seal = read_seal(folder, job, file_name(kind.artifact, format));
+    if (seal) made.push_back({{"format", format}, {"size", seal->size}, {"sha256", seal->sha256}});
+  }
+  return made;
+}
+
+std::optional<StoredArtifact> find_stored(const std::vector<StoredArtifact>& all, const std::string& artifact) {
+  const auto found = std::ranges::find(all, artifact, &StoredArtifact::artifact);
+  return found == all.end() ? std::nullopt : std::optional(*found);
+}
+
+[[noreturn]] void refuse_missing(const JobRecord& job, const std::string& what) {
+  const std::string why = job.error_sentence.empty() ? "" : " (" + job.error_sentence + ")";
+  throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + why + " and has no " + what);
+}
+
+std::uint64_t size_now(const std::optional<StoredFile>& file) {
+  return file ? file->size() : 0;
+}
+
+bool continues(const WholeRead& so_far, const ArtifactReadParams& wanted, const std::string& format) {
+  return so_far.job == wanted.job && so_far.artifact == wanted.artifact && so_far.format == format &&
+         so_far.next == wanted.offset;
+}
+
+}  // namespace
+
+void Artifacts::discard_leftovers(const std::string& job) const {
+  const std::optional<JobRecord> record = store_.find(job);
+  if (record && (!is_final(record->state) || !store_.artifacts(job).empty())) return;
+  std::error_code ignored;
+  if (!record && !store_.was_removed(job)) {
+    if (fs::exists(fs::symlink_status(job_folder(job), ignored))) put_aside(folder_, job);
+    return;
+  }
+  fs::remove_all(job_folder(job), ignored);
+}
+
+Json Artifacts::list(const JobRecord& job) const {
+  const std::vector<StoredArtifact> stored = store_.artifacts(job.id);
+  Json list = Json::array();
+  for (const Kind& kind : kinds) {
+    Json entry{{"artifact", kind.artifact}, {"formats", formats(kind)}};
+    if (const std::optional<StoredArtifact> artifact = find_stored(stored, kind.artifact)) {
+      entry.update({{"size", artifact->size}, {"final", true}, {"sha256", artifact->sha256}});
+      if (Json made = list_exports(folder_, job.id, kind); !made.empty()) entry["made"] = std::move(made);
+    } else {
+      const bool grows = entry["artifact"] == "trajectory";
+      entry.update(
+          {{"size", grows ? size_now(StoredFile::open(folder_, job.id, "trajectory.ndjson")) : 0}, {"final", false}});
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const std::string& artifact,
+                                           const std::string& format) const {
+  const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
+  if (!stored) return std::nullopt;
+  if (format == stored->format) return FileSeal{stored->size, stored->sha256};
+  return read_seal(folder_, job.id, file_name(artifact, format));
+}
+
+ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted, WholeRead& so_far) const {
+  ArtifactChunk chunk;
+  chunk.format = choose_format(wanted);
+  const JobRecord job = find_job(store_, wanted.job);
+  const std::optional<FileSeal> seal = seal_of(job, wanted.artifact, chunk.format);
+  chunk.final = seal.has_value();
+  const bool grows = wanted.artifact == "trajectory" && chunk.format == "ndjson" && !is_final(job.state);
+  if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
+  const std::string name = file_name(wanted.artifact, chunk.format);
+  const std::optional<StoredFile> file = StoredFile::open(folder_, job.id, name);
+  if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
+    refuse_damaged(job.id, name, fault);
+  chunk.size = size_now(file);
+  if (chunk.final && wanted.offset > chunk.size) {
+    throw ProtocolError("params_invalid",
+                        "offset " + std::to_string(wanted.offset) + " is beyond the artifact's " +
+                            std::to_string(chunk.size) + " bytes",
+                        "/params/offset");
+  }
+  const std::uint64_t left = chunk.size > wanted.offset ? chunk.size - wanted.offset : 0;
+  if (file) chunk.bytes = file->read(wanted.offset, std::min<std::uint64_t>(left, wanted.bytes));
+  follow(wanted, chunk, seal.value_or(FileSeal{}), so_far);
+  return chunk;
+}
+
+// A growing trajectory is followed too: it may be final at its last piece.
+void Artifacts::follow(const ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
+                       WholeRead& so_far) const {
+  if (wanted.offset == 0) so_far = {wanted.job, wanted.artifact, chunk.format, 0, {}};
+  if (!continues(so_far, wanted, chunk.format)) return;
+  so_far.hash.add(chunk.bytes);
+  so_far.next += chunk.bytes.size();
+  if (!chunk.final || so_far.next < chunk.size || so_far.hash.hex() == seal.sha256) return;
+  const std::string name = file_name(wanted.artifact, chunk.format);
+  const std::string fault = fault_of(StoredFile::open(folder_, wanted.job, name), seal);
+  if (!fault.empty()) refuse_damaged(wanted.job, name, fault);
+  throw StorageError("the " + wanted.artifact + " of job " + wanted.job + " changed while it was read: read it again");
+}
+
+void Artifacts::refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const {
+  find_job(store_, job);  // it may be gone by now, and its files with it
+  const std::string sentence = "the file " + file + " of job " + job + " is damaged: it " + fault;
+  spdlog::error("job={} {}", job, sentence);
+  if (is_export(file)) {
+    break_seal(folder_, job, file);
+    throw ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
+  }
+  store_.note_damage(job, sentence + ": plan it again with 'sculpt retry " + job + "'");
+  throw ProtocolError("artifact_damaged", sentence + ": plan it again with 'sculpt retry " + job + "'");
+}
+
+bool Artifacts::needs_export(const ArtifactReadParams& wanted) const {
+  const std::string format = choose_format(wanted);
+  if (wanted.artifact != "trajectory" || format == "ndjson") return false;
+  return !read_seal(folder_, wanted.job, file_name(wanted.artifact, format));
+}
+
+void Artifacts::make_export(const ArtifactReadParams& wanted) const {
+  if (!needs_export(wanted)) return;
+  const JobRecord job = find_job(store_, wanted.job);
+  if (!find_stored(store_.artifacts(job.id), wanted.artifact)) {
+    refuse_missing(job, "final trajectory to make " + wanted.format + " from; ndjson can be read while it grows");
+  }
+  check_whole(job, wanted.artifact);
+  const std::string name = file_name(wanted.artifact, wanted.format);
+  const fs::path file = job_folder(job.id) / name;
+  const fs::path draft = file.string() + ".draft";
+  std::ifstream in(trajectory(job.id), std::ios::binary);
+  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+  (wanted.format == "csv" ? planner_.to_csv : planner_.to_binary)(in, out);
+  out.close();
+  if (!out) throw StorageError("cannot write '" + draft.string() + "': check the free space");
+  sync_to_disk(draft);
+  crash_point(CrashPoint::export_synced);
+  fs::rename(draft, file);
+  write_seal(folder_, job.id, name);
+}
+
+std::string Artifacts::read_whole(const JobRecord& job, const std::string& artifact) const {
+  ArtifactReadParams all{job.id, artifact, {}, 0, 0};
+  const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
+  if (!stored) refuse_missing(job, artifact);
+  all.bytes = stored->size;
+  WholeRead whole;
+  return read(all, whole).bytes;
+}
+
+void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) const {
+  const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
+  if (!stored) refuse_missing(job, artifact);
+  const std::string name = file_name(artifact, stored->format);
+  const std::string fault = fault_of(StoredFile::open(folder_, job.id, name), {stored->size, stored->sha256});
+  if (!fault.empty()) refuse_damaged(job.id, name, fault);
+}
+
+}  // namespace sculpt

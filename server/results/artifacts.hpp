@@ -1,0 +1,71 @@
+// The files that a job makes: jobs/ID/trajectory.ndjson grows while it runs, the others come at the end.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/sha256.hpp"
+#include "proto/messages.hpp"
+#include "server/store/job_store.hpp"
+#include "server/run/planner.hpp"
+#include "server/files/stored_file.hpp"
+
+namespace sculpt {
+
+struct ArtifactChunk {
+  std::string format;
+  std::string bytes;
+  std::uint64_t size = 0;  ///< of the artifact, now
+  bool final = false;      ///< it will not grow any more
+};
+
+/// One reader's way through an artifact, piece by piece. Read from its first byte to its last it is held against its
+/// hash; who begins elsewhere, or leaps, has to do that himself.
+struct WholeRead {
+  std::string job, artifact, format;
+  std::uint64_t next = 0;
+  Sha256 hash;
+};
+
+/// Safe from any thread, but `make_export` belongs to one.
+class Artifacts {
+ public:
+  Artifacts(std::filesystem::path folder, JobStore& store, const Planner& planner)
+      : folder_(std::move(folder)), store_(store), planner_(planner) {}
+
+  std::filesystem::path job_folder(const std::string& job) const { return folder_ / job; }
+  std::filesystem::path trajectory(const std::string& job) const { return job_folder(job) / "trajectory.ndjson"; }
+
+  /// Removes the files of a job that has ended without artifacts, or was removed; those of one that the store has never
+  /// known are put aside (orphans.hpp).
+  void discard_leftovers(const std::string& job) const;
+
+  /// The names and formats in the order of PROTOCOL.md; of an artifact that is not there yet size 0 and no hash.
+  Json list(const JobRecord& job) const;
+  /// Throws ProtocolError `params_invalid` (unknown artifact or format), `wrong_state` (not there, and why),
+  /// `artifact_damaged` (another size than it was stored with, or the last piece of other bytes): the job says so from
+  /// then on.
+  ArtifactChunk read(const ArtifactReadParams& wanted, WholeRead& so_far) const;
+  /// True when `read` needs make_export first.
+  bool needs_export(const ArtifactReadParams& wanted) const;
+  /// Makes the trajectory's csv or binary from the final ndjson. Throws as read.
+  void make_export(const ArtifactReadParams& wanted) const;
+  /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
+  std::string read_whole(const JobRecord& job, const std::string& artifact) const;
+  /// Its file is the one that was stored. Throws as read_whole.
+  void check_whole(const JobRecord& job, const std::string& artifact) const;
+
+ private:
+  std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
+  void follow(const ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
+              WholeRead& so_far) const;
+  [[noreturn]] void refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const;
+
+  std::filesystem::path folder_;
+  JobStore& store_;
+  const Planner& planner_;
+};
+
+}  // namespace sculpt

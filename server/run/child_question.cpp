@@ -1,0 +1,69 @@
+#include "server/run/child_question.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "server/run/child_process.hpp"
+
+namespace sculpt {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds look_every{50};
+constexpr std::size_t longest_answer = 16u << 20;
+
+std::optional<Json> read_object(const std::string& heard) try {
+  Json said = parse_json(heard);
+  return said.is_object() ? std::optional(std::move(said)) : std::nullopt;
+} catch (const JsonError&) {
+  return std::nullopt;
+}
+
+Json report(const char* code, const std::string& sentence) {
+  return {{"code", code}, {"sentence", sentence}};
+}
+
+}  // namespace
+
+ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, const char* option,
+                      std::optional<std::chrono::milliseconds> patience, const std::stop_token& stop) {
+  const auto start = Clock::now();
+  ChildProcess child(isolation.worker, option);
+  child.send(describe(stored, isolation));
+  std::string heard;
+  while (heard.size() <= longest_answer) {
+    if (stop.stop_requested()) throw Cancelled{};
+    if (patience && Clock::now() - start > *patience) return {std::nullopt, {}, true};
+    const std::optional<std::string> bytes = child.read(look_every);
+    if (!bytes) continue;
+    if (bytes->empty()) return {read_object(heard), child.wait()};
+    heard += *bytes;
+  }
+  return {};
+}
+
+int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, const Job&)>& find) {
+  std::FILE* out = take_output();
+  const std::optional<DescribedJob> described = take_description(std::cin);
+  if (!described) return EXIT_FAILURE;
+  Json said;
+  try {
+    said = find(*described, load_and_confine(*described, use));
+  } catch (const InputError& error) {
+    said = report(error.code().c_str(), error.what());
+  } catch (const ProtocolError& error) {
+    said = report(error.code().c_str(), error.what());
+  } catch (const std::bad_alloc&) {
+    said = report("out_of_memory", "there is not enough memory to read the mesh: use a smaller one");
+  }
+  std::fputs(write_json(said).c_str(), out);
+  std::fclose(out);
+  return EXIT_SUCCESS;
+}
+
+void rethrow_reported(const Json& said) {
+  if (said.contains("code")) throw InputError(said.at("code"), said.at("sentence").get<std::string>());
+}
+
+}  // namespace sculpt

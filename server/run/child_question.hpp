@@ -1,0 +1,32 @@
+// A question to a process of its own: it is told of a job, works on it, and prints one JSON object.
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "server/run/job_description.hpp"
+
+namespace sculpt {
+
+struct ChildAnswer {
+  std::optional<Json> said;  ///< nothing if the process said nothing, or nonsense, or not all
+  std::string end;           ///< as ChildProcess::wait; "" after an end in order
+  bool too_late = false;     ///< it was killed when its time was over
+};
+
+/// Starts the worker with `option` and waits for its answer, at most for `patience` where there is one. Throws
+/// Cancelled on a stop; std::system_error when there can be no process. Call on a thread that lives as long as the
+/// process.
+ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, const char* option,
+                      std::optional<std::chrono::milliseconds> patience, const std::stop_token& stop);
+
+/// The child's side: confines this process, lets `find` work on the job and prints what it returns, or what it throws
+/// as
+/// {"code","sentence"}. Gives the exit code.
+int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, const Job&)>& find);
+
+/// Throws the InputError that the child reported, if it did.
+void rethrow_reported(const Json& said);
+
+}  // namespace sculpt

@@ -1,0 +1,97 @@
+#include "server/run/job_run.hpp"
+
+#include <fstream>
+#include <vector>
+
+#include "core/base/sha256.hpp"
+#include "core/plan/checkpoint_folder.hpp"
+#include "server/base/crash_point.hpp"
+#include "server/files/durable.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t read_bytes = 1 << 20;
+
+StoredArtifact stored(const fs::path& file, const std::string& artifact, const std::string& format) {
+  std::ifstream in(file, std::ios::binary);
+  Sha256 hash;
+  StoredArtifact out{artifact, format, 0, {}};
+  std::vector<char> buffer(read_bytes);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+    hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+    out.size += static_cast<std::uint64_t>(in.gcount());
+  }
+  out.sha256 = hash.hex();
+  return out;
+}
+
+std::string finished_report(const JobRecord& job, const Ending& ending, const std::string& report_json) {
+  Json report{{"job", job.id}, {"state", name(ending.state)}};
+  report.update(parse_json(report_json));
+  return write_json(report);
+}
+
+Ending judged(const PlanFiles& files) {
+  if (files.clean) return {JobState::succeeded, {}, {}, {}};
+  return {JobState::failed,
+          "verify_failed",
+          "the replay of the plan found " + std::to_string(files.collisions) +
+              " faults, so it must not be run; the first: " + files.first_finding,
+          {}};
+}
+
+}  // namespace
+
+Ending run_in_folder(const JobRecord& record, const Job& job, const fs::path& folder, const Planner& planner,
+                     const Watch& watch) {
+  const fs::path trajectory = folder / "trajectory.ndjson";
+  const PlanFiles files = planner.run(job, trajectory, watch);
+  crash_point(CrashPoint::trajectory_planned);
+  Ending ending = judged(files);
+  write_durably(folder / "voxels.binvox", files.voxels_binvox);
+  write_durably(folder / "residue.ndjson", files.residue_ndjson);
+  write_durably(folder / "report.json", finished_report(record, ending, files.report_json));
+  sync_to_disk(trajectory);
+  sync_to_disk(folder);
+  crash_point(CrashPoint::artifacts_synced);
+  ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
+                      stored(folder / "residue.ndjson", "residue", "ndjson"),
+                      stored(folder / "report.json", "report", "json")};
+  remove_checkpoints(folder);
+  return ending;
+}
+
+void prepare_job_folder(const fs::path& folder) {
+  if (fs::is_symlink(fs::symlink_status(folder))) fs::remove(folder);
+  fs::create_directories(folder);
+  std::vector<fs::path> stale;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string kind = entry.path().extension();
+    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".seal") stale.push_back(entry.path());
+  }
+  for (const fs::path& file : stale) fs::remove(file);
+  sync_to_disk(folder.parent_path());
+}
+
+JobSpec read_stored_spec(const JobRecord& job) {
+  try {
+    const Json json = parse_json(job.spec);
+    return read_job_spec(Fields(json, "/params/spec"));
+  } catch (const std::runtime_error& error) {
+    throw StorageError("the stored spec of job " + job.id + " cannot be read: " + error.what());
+  }
+}
+
+RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
+  return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
+    const fs::path folder = jobs / record.id;
+    prepare_job_folder(folder);
+    const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
+    return run_in_folder(record, job, folder, planner, watch);
+  };
+}
+
+}  // namespace sculpt

@@ -1,0 +1,51 @@
+#include "server/run/planner.hpp"
+
+#include <fstream>
+
+#include "core/cell/shipped_cells.hpp"
+#include "core/material/binvox.hpp"
+#include "core/trajectory/export.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
+  const JobResult result = resume_job(job, trajectory, {trajectory.parent_path()}, watch);
+  PlanFiles files;
+  files.report_json = report_json(result.report);
+  files.residue_ndjson = residue_ndjson(result.residue);
+  files.voxels_binvox = write_binvox(result.voxels.keep, result.grid);
+  files.clean = result.report.verify.clean;
+  files.collisions = result.report.verify.collisions;
+  if (!result.report.findings.empty()) files.first_finding = result.report.findings.front();
+  return files;
+}
+
+Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
+  const Cell cell = parse_cell(job.cell);
+  const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
+  std::ifstream in(trajectory, std::ios::binary);
+  if (!in) throw InputError("trajectory_invalid", "the stored trajectory of the job cannot be read");
+  Verdict verdict = verify_trajectory(in, cell, voxels, watch, job.threads);
+  return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings),
+          std::move(verdict.exempt_pairs)};
+}
+
+}  // namespace
+
+Planner make_planner(std::vector<fs::path> folders) {
+  Planner planner;
+  planner.cells = [folders] { return cell_names(folders); };
+  planner.read_cell = [folders](const std::string& name) { return read_cell_files(find_cell(name, folders)); };
+  planner.check = check_job;
+  planner.predict_memory = predict_memory;
+  planner.run = run;
+  planner.verify = verify;
+  planner.to_csv = export_csv;
+  planner.to_binary = export_binary;
+  return planner;
+}
+
+}  // namespace sculpt

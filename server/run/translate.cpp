@@ -1,0 +1,98 @@
+#include "server/run/translate.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace sculpt {
+namespace {
+
+Vec3 to_vector(const std::array<double, 3>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+const std::string cell_pointer = "/params/spec/robot/cell/blob", mesh_pointer = "/params/spec/mesh",
+                  stock_pointer = "/params/spec/stock/mesh";
+
+std::string require_kind(const BlobRef& ref, const std::string& pointer) {
+  std::string kind = mesh_kind(ref.name);
+  if (kind.empty()) {
+    throw ProtocolError(
+        "params_invalid",
+        "the mesh name '" + ref.name + "' has no extension, so its kind is unknown: name it as the file is named",
+        pointer + "/name");
+  }
+  return kind;
+}
+
+MeshFile read_mesh(const BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
+  std::string kind = require_kind(ref, pointer);
+  return {blobs.read(ref.sha256, pointer + "/blob"), std::move(kind), ref.name};
+}
+
+JobSizes::File measure(const BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
+  std::string kind = require_kind(ref, pointer);
+  return {blobs.size(ref.sha256, pointer + "/blob"), std::move(kind)};
+}
+
+CellBundle read_bundle(const std::string& hash, const Blobs& blobs) {
+  if (const std::uint64_t size = blobs.size(hash, cell_pointer); size > max_cell_bundle_bytes)
+    throw ProtocolError("too_large",
+                        "the cell bundle has " + std::to_string(size) + " bytes, over the limit of " +
+                            std::to_string(max_cell_bundle_bytes) + ": it only lists the files of the cell, by hash",
+                        cell_pointer);
+  return read_cell_bundle(blobs.read(hash, cell_pointer));
+}
+
+CellFiles read_cell(const std::string& hash, const Blobs& blobs) {
+  const CellBundle bundle = read_bundle(hash, blobs);
+  CellFiles files{bundle.name, bundle.cell_json, {}};
+  for (const auto& [reference, sha256] : bundle.files) files.files[reference] = blobs.read(sha256, cell_pointer);
+  return files;
+}
+
+}  // namespace
+
+std::string mesh_kind(const std::string& name) {
+  std::string kind = std::filesystem::path(name).extension().string();
+  if (!kind.empty()) kind.erase(0, 1);
+  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return kind;
+}
+
+JobSizes measure(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {
+  JobSizes sizes;
+  sizes.resolution = static_cast<int>(spec.resolution);
+  sizes.mesh = measure(spec.mesh, blobs, mesh_pointer);
+  if (spec.stock_mesh) sizes.stock = measure(*spec.stock_mesh, blobs, stock_pointer);
+  const CellBundle bundle = read_bundle(cell_bundle, blobs);
+  sizes.cell_bytes = bundle.cell_json.size();
+  for (const auto& [reference, sha256] : bundle.files) sizes.cell_bytes += blobs.size(sha256, cell_pointer);
+  return sizes;
+}
+
+Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults) {
+  Job job;
+  job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
+  job.cell = read_cell(cell_bundle, blobs);
+  job.resolution = static_cast<int>(spec.resolution);
+  if (spec.search) job.search = *spec.search;
+  job.seed = spec.seed;
+  job.threads = spec.threads.value_or(defaults.threads);
+  job.allow_freed = spec.allow_freed;
+  job.placement.scale_m = spec.placement.scale_m;
+  job.placement.rotation_rad = to_vector(spec.placement.rotation_rad);
+  job.placement.offset_m = to_vector(spec.placement.offset_m);
+  job.placement.margin_m = spec.placement.margin_m;
+  if (spec.stock_box) job.stock.box = Stock::Box{to_vector(spec.stock_box->min_m), to_vector(spec.stock_box->max_m)};
+  if (spec.stock_mesh) job.stock.mesh = read_mesh(*spec.stock_mesh, blobs, stock_pointer);
+  job.memory_cap_bytes = defaults.memory_cap_bytes;
+  return job;
+}
+
+std::string store_cell(const CellFiles& files, Blobs& blobs) {
+  CellBundle bundle{files.name, files.cell_json, {}};
+  for (const auto& [reference, bytes] : files.files) bundle.files[reference] = blobs.add(bytes);
+  return blobs.add(write_cell_bundle(bundle));
+}
+
+}  // namespace sculpt

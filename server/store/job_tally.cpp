@@ -1,0 +1,50 @@
+#include "server/store/job_tally.hpp"
+
+namespace sculpt {
+
+void JobTally::apply(const std::vector<TallyMove>& moves) {
+  const std::lock_guard lock(mutex_);
+  for (const TallyMove& move : moves) {
+    if (move.from) leave(move, *move.from);
+    if (move.to) enter(move, *move.to);
+  }
+}
+
+void JobTally::enter(const TallyMove& move, JobState state) {
+  ++counts_[state];
+  if (state == JobState::queued) queue_.insert({move.rank, move.id});
+  if (!is_final(state) && !move.owner.empty()) ++open_by_owner_[move.owner];
+}
+
+void JobTally::leave(const TallyMove& move, JobState state) {
+  --counts_[state];
+  if (state == JobState::queued) queue_.erase({move.rank, move.id});
+  if (is_final(state) || move.owner.empty()) return;
+  const auto open = open_by_owner_.find(move.owner);
+  if (--open->second == 0) open_by_owner_.erase(open);
+}
+
+std::map<JobState, std::uint64_t> JobTally::counts() const {
+  const std::lock_guard lock(mutex_);
+  std::map<JobState, std::uint64_t> counts = counts_;
+  for (const JobState state : job_states) counts.try_emplace(state, 0);
+  return counts;
+}
+
+std::uint64_t JobTally::open(const std::string& owner) const {
+  const std::lock_guard lock(mutex_);
+  if (!owner.empty()) {
+    const auto found = open_by_owner_.find(owner);
+    return found == open_by_owner_.end() ? 0 : found->second;
+  }
+  std::uint64_t open = 0;
+  for (const auto& [state, count] : counts_) open += is_final(state) ? 0 : count;
+  return open;
+}
+
+std::uint64_t JobTally::position(std::int64_t rank, const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  return queue_.order_of_key({rank, id});
+}
+
+}  // namespace sculpt

@@ -1,0 +1,15 @@
+// How the end of a run changes its job: what it ended with -> its next state. Call inside a transaction.
+#pragma once
+
+#include "server/store/job_table.hpp"
+
+namespace sculpt {
+
+/// The run of a job in a state that is_active has ended as it says, and its process lives.
+void end_run(JobTable& jobs, const StoreRules& rules, JobRow& row, const Ending& ending);
+/// The same for a run that was stopped before its end.
+void stop_run(JobTable& jobs, JobRow& row);
+/// The same for one that a killed daemon left: nobody knows how it ended.
+void abandon_run(JobTable& jobs, JobRow& row);
+
+}  // namespace sculpt

@@ -1,0 +1,13 @@
+// The tables of the job store, and how those of older versions become today's.
+#pragma once
+
+#include "server/store/sqlite.hpp"
+
+namespace sculpt {
+
+inline constexpr std::int64_t schema_version = 4;
+
+/// In one transaction; does nothing to a database that is up to date. Throws StorageError for one that is newer.
+void update_schema(Database& database, const std::filesystem::path& file);
+
+}  // namespace sculpt

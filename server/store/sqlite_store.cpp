@@ -1,0 +1,350 @@
+// The job store in SQLite: WAL, synchronous=FULL, so that a returned call survives a killed daemon and a power cut.
+#include <algorithm>
+#include <mutex>
+
+#include "proto/error_codes.hpp"
+#include "server/store/job_id.hpp"
+#include "server/store/job_store.hpp"
+#include "server/store/job_table.hpp"
+#include "server/store/run_ending.hpp"
+#include "server/store/sqlite_schema.hpp"
+#include "server/store/store_reader.hpp"
+
+namespace sculpt {
+namespace {
+
+using enum JobState;
+
+constexpr const char* damage_code = "artifact_damaged";
+constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
+
+[[noreturn]] void refuse(const JobRecord& job, const std::string& what) {
+  throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
+}
+
+// The file, once what is in it is of this version.
+const std::filesystem::path& up_to_date(const std::filesystem::path& file) {
+  Database database(file);
+  database.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;");
+  update_schema(database, file);
+  return file;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& id) {
+  throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+}
+
+class SqliteStore : public JobStore {
+ public:
+  SqliteStore(const std::filesystem::path& file, StoreRules rules)
+      : rules_(std::move(rules)), database_(up_to_date(file)), readable_(file, Database::Use::read) {
+    database_.run("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864;");
+    epoch_ = read_text("SELECT value FROM meta WHERE name='epoch'");
+    ids_ = IdMaker(read_text("SELECT max(id) FROM (SELECT id FROM job UNION ALL SELECT id FROM removed)"));
+    Statement latest(database_, "SELECT max(rank + ? * priority) FROM job");
+    latest.bind(ageing()).step();
+    last_rank_ms_ = latest.number(0);
+    if (rules_.committed) database_.on_commit([this] { tell_changes(); });
+    count_jobs();
+  }
+
+  std::string epoch() override { return epoch_; }
+
+  Submitted submit(const NewJob& wanted) override {
+    Change change(*this);
+    if (const std::optional<JobRow> first = jobs_.find_key(wanted.key); first && !wanted.key.empty()) {
+      if (first->job.spec != wanted.spec) {
+        throw ProtocolError("key_conflict",
+                            "the key '" + wanted.key + "' belongs to job " + first->job.id +
+                                ", which has another spec: use a new key for a new job",
+                            "/params/key");
+      }
+      return {first->job, true};
+    }
+    refuse_too_many(wanted.owner);
+    const JobRow row = jobs_.insert(new_record(wanted));
+    change.commit();
+    return {row.job, false};
+  }
+
+  std::optional<JobRecord> claim() override {
+    Change change(*this);
+    if (queue_is_paused()) return std::nullopt;
+    std::optional<JobRow> next =
+        jobs_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
+                                "(crashes=0 OR NOT EXISTS(SELECT 1 FROM job WHERE isolated=1 AND crashes>0 AND ") +
+                        active + ")) ORDER BY rank, number",
+                    {jobs_.now()});
+    if (!next || !has_room(next->job)) return std::nullopt;
+    JobRecord& job = next->job;
+    job.isolated = rules_.isolate || job.crashes > 0;
+    if (!job.isolated) ++job.crashes;  // taken back when the run ends while the daemon lives
+    job.error_code.clear();
+    job.error_sentence.clear();
+    jobs_.move(*next, running, "claimed");
+    change.commit();
+    return job;
+  }
+
+  bool finish(const std::string& id, int attempt, const Ending& ending) override {
+    Change change(*this);
+    std::optional<JobRow> row = owned(id, attempt);
+    if (!row) return false;
+    end_run(jobs_, rules_, *row, ending);
+    change.commit();
+    return true;
+  }
+
+  bool release(const std::string& id, int attempt) override {
+    Change change(*this);
+    std::optional<JobRow> row = owned(id, attempt);
+    if (!row) return false;
+    stop_run(jobs_, *row);
+    change.commit();
+    return true;
+  }
+
+  int recover() override {
+    Change change(*this);
+    std::vector<JobRow> left = jobs_.all(std::string(active) + " ORDER BY number", {});
+    for (JobRow& row : left) abandon_run(jobs_, row);
+    change.commit();
+    return static_cast<int>(left.size());
+  }
+
+  std::vector<std::string> wake_due() override {
+    std::unique_lock lock(mutex_);
+    const std::string now = jobs_.now();
+    // The + keep SQLite to the index of the times: that of the states, or the table, holds the whole queue.
+    std::vector<JobRow> late =
+        jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND +state IN ('held', 'queued') ORDER BY +number", {now});
+    std::vector<JobRow> due = jobs_.all(
+        "state IN ('held', 'backoff') AND wake_at<=?1 AND (start_by='' OR start_by>=?1 OR attempt>0) ORDER BY number",
+        {now});
+    if (late.empty() && due.empty()) return {};
+    Change change(*this, std::move(lock));
+    std::vector<std::string> changed;
+    for (JobRow& row : late) {
+      row.job.error_code = "expired";
+      row.job.error_sentence =
+          "it could not start by " + row.job.schedule.start_by + ": submit it again with more time";
+      jobs_.move(row, expired, "start_by_passed");
+      changed.push_back(row.job.id);
+    }
+    for (JobRow& row : due) {
+      jobs_.move(row, queued, "due");
+      changed.push_back(row.job.id);
+    }
+    change.commit();
+    return changed;
+  }
+
+  JobState cancel(const std::string& id) override {
+    return change_job(id, [this](JobRow& row) {
+      const JobState state = row.job.state;
+      if (state == cancelled || state == cancelling) return;
+      if (is_final(state)) refuse(row.job, "cancelled any more");
+      jobs_.move(row, is_active(state) ? cancelling : cancelled, "cancel_requested");
+    });
+  }
+
+  JobState pause(const std::string& id) override {
+    return change_job(id, [this](JobRow& row) {
+      const JobState state = row.job.state;
+      if (state == paused || state == pausing) return;
+      if (is_final(state) || state == cancelling) refuse(row.job, "paused");
+      jobs_.move(row, state == running ? pausing : paused, "pause_requested");
+    });
+  }
+
+  JobState resume(const std::string& id) override {
+    return change_job(id, [this](JobRow& row) {
+      JobRecord& job = row.job;
+      if (is_final(job.state) || job.state == cancelling) refuse(job, "resumed");
+      if (job.state == pausing) refuse(job, "resumed before it is paused: try again in a moment");
+      if (job.state != paused) return;
+      const bool early = job.schedule.not_before > jobs_.now();
+      if (early) job.wake_at = job.schedule.not_before;
+      jobs_.move(row, early ? held : queued, "resumed");
+    });
+  }
+
+  JobState retry(const std::string& id) override {
+    return change_job(id, [this](JobRow& row) {
+      JobRecord& job = row.job;
+      const bool damaged = job.error_code == damage_code;
+      if (job.state != quarantined && !damaged)
+        refuse(job, "retried: only quarantined jobs are, and those with a damaged artifact");
+      job.crashes = damaged ? 0 : std::max(1, rules_.max_crashes - 1);
+      Statement(database_, "DELETE FROM artifact WHERE job=?").bind(row.number).run();
+      job.failures = 0;
+      job.error_code.clear();
+      job.error_sentence.clear();
+      jobs_.move(row, queued, "retried");
+    });
+  }
+
+  void set_queue_paused(bool wanted) override {
+    const std::lock_guard lock(mutex_);
+    Statement(database_, "INSERT INTO meta VALUES('queue_paused', ?1) ON CONFLICT(name) DO UPDATE SET value=?1")
+        .bind(wanted ? "1" : "0")
+        .run();
+  }
+
+  bool queue_paused() override { return reader_.queue_paused(); }
+
+  void note_damage(const std::string& id, const std::string& sentence) override {
+    const std::lock_guard lock(mutex_);
+    Statement update(database_,
+                     "UPDATE job SET error_code=?, error_sentence=? WHERE id=? AND state IN ('succeeded', 'failed') "
+                     "AND EXISTS(SELECT 1 FROM artifact WHERE artifact.job = job.number)");
+    update.bind(damage_code).bind(sentence).bind(id).run();
+  }
+
+  void pin(const std::string& id, bool pinned) override {
+    const std::lock_guard lock(mutex_);
+    Statement update(database_, "UPDATE job SET pinned=? WHERE id=?");
+    if (update.bind(pinned ? 1 : 0).bind(id).run() != 1) refuse_unknown(id);
+  }
+
+  bool remove(const std::string& id) override {
+    Change change(*this);
+    const std::optional<JobRow> row = jobs_.find(id);
+    if (!row || !is_final(row->job.state) || row->job.pinned) return false;
+    jobs_.erase(*row);
+    change.commit();
+    return true;
+  }
+
+  bool was_removed(const std::string& id) override { return reader_.was_removed(id); }
+  std::optional<JobRecord> find(const std::string& id) override { return reader_.find(id); }
+  std::optional<JobRecord> find_key(const std::string& key) override { return reader_.find_key(key); }
+  JobPage list(const JobWindow& window) override { return reader_.list(window); }
+  std::uint64_t queue_age_s() override { return reader_.queue_age_s(); }
+  std::uint64_t last_event(const std::string& job) override { return reader_.last_event(job); }
+  std::vector<StoredArtifact> artifacts(const std::string& id) override { return reader_.artifacts(id); }
+  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override {
+    return reader_.events(job, after, limit);
+  }
+
+  std::map<JobState, std::uint64_t> counts() override { return tally_.counts(); }
+  std::uint64_t position(const JobRecord& job) override { return tally_.position(job.rank, job.id); }
+  const Histogram& commit_times() override { return database_.commit_times(); }
+
+ private:
+  // What is committed is so, even if the database cannot be asked any more.
+  void tell_changes() try { rules_.committed(jobs_.changes()); } catch (const StorageError&) {
+  }
+
+  /// One change of the store: its lock, and a transaction that is undone unless committed. What moved is counted when
+  /// it is committed.
+  class Change {
+   public:
+    explicit Change(SqliteStore& store) : Change(store, std::unique_lock(store.mutex_)) {}
+    Change(SqliteStore& store, std::unique_lock<std::mutex> lock)
+        : store_(store), lock_(std::move(lock)), transaction_(store.database_) {
+      store.jobs_.take_moves();
+    }
+    void commit() {
+      transaction_.commit();
+      store_.tally_.apply(store_.jobs_.take_moves());
+    }
+
+   private:
+    SqliteStore& store_;
+    std::unique_lock<std::mutex> lock_;
+    Transaction transaction_;
+  };
+
+  std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
+
+  std::string read_text(const char* sql) {
+    Statement query(database_, sql);
+    return query.step() ? query.text(0) : std::string();
+  }
+
+  bool queue_is_paused() { return read_text("SELECT value FROM meta WHERE name='queue_paused'") == "1"; }
+
+  // The rank counts from a time that never goes back, so that a clock that was set back lets no new job overtake.
+  JobRecord new_record(const NewJob& wanted) {
+    const std::uint64_t now_ms = rules_.now_ms();
+    last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
+    JobRecord job;
+    job.id = ids_.next(now_ms);
+    job.key = wanted.key;
+    job.owner = wanted.owner;
+    job.schedule = wanted.schedule;
+    job.spec = wanted.spec;
+    job.cell_bundle = wanted.cell_bundle;
+    job.memory_bytes = wanted.memory_bytes;
+    job.rank = last_rank_ms_ - ageing() * wanted.schedule.priority;
+    job.submitted_at = utc_text(now_ms);
+    if (wanted.schedule.not_before > job.submitted_at) {
+      job.state = held;
+      job.wake_at = wanted.schedule.not_before;
+    }
+    return job;
+  }
+
+  void refuse_too_many(const std::string& owner) {
+    if (tally_.open() >= static_cast<std::uint64_t>(rules_.max_jobs)) {
+      throw ProtocolError("queue_full",
+                          "the server has " + std::to_string(rules_.max_jobs) +
+                              " jobs that have not ended, as many as it may: try again when some have, or "
+                              "raise max_jobs");
+    }
+    if (!owner.empty() && tally_.open(owner) >= static_cast<std::uint64_t>(rules_.max_jobs_per_owner)) {
+      throw ProtocolError("quota", "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
+                                       " jobs that have not ended, as many as one may: try again when some have, or "
+                                       "raise max_jobs_per_owner");
+    }
+  }
+
+  // A row in a state that nobody knows is not counted.
+  void count_jobs() {
+    Statement query(database_, "SELECT rank, id, owner, state FROM job");
+    while (query.step())
+      tally_.apply({{query.number(0), query.text(1), query.text(2), std::nullopt, find_state(query.text(3))}});
+  }
+
+  bool has_room(const JobRecord& job) {
+    Statement query(database_, std::string("SELECT count(*), coalesce(sum(memory_bytes), 0) FROM job WHERE ") + active);
+    query.step();
+    const auto taken = static_cast<std::uint64_t>(query.number(1));
+    return query.number(0) == 0 || rules_.memory_bytes == 0 || taken + job.memory_bytes <= rules_.memory_bytes;
+  }
+
+  std::optional<JobRow> owned(const std::string& id, int attempt) {
+    std::optional<JobRow> row = jobs_.find(id);
+    return row && row->job.attempt == attempt && is_active(row->job.state) ? row : std::nullopt;
+  }
+
+  template <typename Act>
+  JobState change_job(const std::string& id, Act act) {
+    Change change(*this);
+    std::optional<JobRow> row = jobs_.find(id);
+    if (!row) refuse_unknown(id);
+    act(*row);
+    change.commit();
+    return row->job.state;
+  }
+
+  std::mutex mutex_;  // of what changes; the reader and the tally have their own
+  StoreRules rules_;
+  Database database_;
+  JobTable jobs_{database_, rules_};
+  Database readable_;  // closed before the one that writes, which tidies up
+  StoreReader reader_{readable_};
+  JobTally tally_;
+  std::string epoch_;
+  IdMaker ids_;
+  std::int64_t last_rank_ms_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules) {
+  return std::make_unique<SqliteStore>(file, std::move(rules));
+}
+
+}  // namespace sculpt
