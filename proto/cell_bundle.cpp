@@ -2,7 +2,7 @@
 
 #include "proto/fields.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr std::size_t max_cell_bytes = 1 << 20;
@@ -35,4 +35,4 @@ CellBundle read_cell_bundle(std::string_view bytes) {
   return bundle;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::proto {
 
 inline constexpr std::uint64_t max_cell_bundle_bytes = 8u << 20;  ///< of the bundle's own JSON
 
@@ -22,4 +22,4 @@ std::string write_cell_bundle(const CellBundle& bundle);
 /// Throws ProtocolError `params_invalid` with a pointer into the bundle.
 CellBundle read_cell_bundle(std::string_view bytes);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::proto {
 
 /// 8 lower-case hex digits.
 std::string crc32_hex(std::string_view bytes);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr int planner_number = 5100;
@@ -60,4 +60,4 @@ Json error_object(const std::string& word, const std::string& sentence, const st
   return {{"code", code.number}, {"message", sentence}, {"data", std::move(data)}};
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -8,7 +8,7 @@
 
 #include "proto/json.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 struct ErrorCode {
   std::string_view word;
@@ -40,4 +40,4 @@ class ProtocolError : public std::runtime_error {
 /// The `error` object of a reply.
 Json error_object(const std::string& word, const std::string& sentence, const std::string& pointer = {});
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

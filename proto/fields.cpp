@@ -4,7 +4,7 @@
 #include <cmath>
 #include <regex>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 std::string escaped(const std::string& field) {
@@ -150,4 +150,4 @@ void Fields::refuse(const std::string& field, const std::string& sentence) const
   throw ProtocolError("params_invalid", pointer_to(field) + " " + sentence, pointer_to(field));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -10,7 +10,7 @@
 
 #include "proto/error_codes.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 /// Every method throws ProtocolError `params_invalid` with the field's pointer when it is missing or not what was asked
 /// for. Refers to the object, which must outlive it.
@@ -49,4 +49,4 @@ class Fields {
   std::set<std::string> known_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

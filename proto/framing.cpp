@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::proto {
 
 void FrameReader::feed(std::string_view bytes) {
   if (!broken_) buffer_.append(bytes);
@@ -53,4 +53,4 @@ void FrameReader::drop_taken() {
   at_ = 0;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

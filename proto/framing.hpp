@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::proto {
 
 inline constexpr std::size_t max_line_bytes = 1 << 20;  ///< without its end
 inline constexpr std::size_t max_chunk_bytes = 4 << 20;
@@ -51,4 +51,4 @@ class FrameReader {
   bool broken_ = false;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

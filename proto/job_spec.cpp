@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr double huge = 1e6;  // metres or radians: beyond this a value is surely a mistake
@@ -112,4 +112,4 @@ Json to_json(const JobSpec& spec) {
   return json;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -8,7 +8,7 @@
 
 #include "proto/fields.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 struct BlobRef {
   std::string sha256;
@@ -47,4 +47,4 @@ JobSpec read_job_spec(Fields fields);
 /// Fields at their default are left out, the rest stands in a fixed order: equal specs give equal text.
 Json to_json(const JobSpec& spec);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -1,10 +1,13 @@
 #include "proto/json.hpp"
 
+#include <utf8.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 void check_depth(std::string_view text) {
@@ -60,24 +63,6 @@ std::string without_prefix(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-// Length of the UTF-8 sequence at the start of `text`, or 0 if there is none (overlong forms, surrogates and cut ones
-// included).
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  if (lead == 0xe0 && byte(1) < 0xa0) return 0;
-  if (lead == 0xed && byte(1) > 0x9f) return 0;
-  if (lead == 0xf0 && byte(1) < 0x90) return 0;
-  if (lead == 0xf4 && byte(1) > 0x8f) return 0;
-  return length;
-}
-
 }  // namespace
 
 Json parse_json(std::string_view text) {
@@ -97,14 +82,10 @@ std::string write_json(const Json& value) {
 }
 
 bool is_text(std::string_view line) {
-  while (!line.empty()) {
-    const auto lead = static_cast<std::uint8_t>(line.front());
-    if ((lead < 0x20 && lead != '\t' && lead != '\r') || lead == 0x7f) return false;
-    const std::size_t length = sequence_length(line);
-    if (length == 0) return false;
-    line.remove_prefix(length);
-  }
-  return true;
+  const auto is_control = [](char c) {
+    return (static_cast<std::uint8_t>(c) < 0x20 && c != '\t' && c != '\r') || c == 0x7f;
+  };
+  return std::ranges::none_of(line, is_control) && utf8::is_valid(line.begin(), line.end());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

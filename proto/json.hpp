@@ -8,8 +8,12 @@
 
 namespace sculpt {
 
-/// Fields keep the order in which they were written.
+/// The value that all who speak the wire share. Fields keep the order in which they were written.
 using Json = nlohmann::ordered_json;
+
+}  // namespace sculpt
+
+namespace sculpt::proto {
 
 inline constexpr int max_json_depth = 64;
 inline constexpr std::size_t max_json_fields = 1000;  ///< of one object: ordered_json looks fields up one by one
@@ -31,4 +35,4 @@ std::string write_json(const Json& value);
 /// UTF-8 without control characters other than tab and carriage return.
 bool is_text(std::string_view line);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -2,7 +2,7 @@
 
 #include "proto/framing.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr std::size_t max_id_bytes = 64;
@@ -163,4 +163,4 @@ Json to_json(const EventMessage& event) {
   return json;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -7,7 +7,7 @@
 
 #include "proto/job_spec.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 inline constexpr int protocol_major = 1;
 inline constexpr int protocol_minor = 0;
@@ -94,4 +94,4 @@ struct EventMessage {
 };
 Json to_json(const EventMessage& event);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -3,7 +3,7 @@
 #include "proto/fields.hpp"
 #include "proto/framing.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr std::size_t max_id_bytes = 128;
@@ -91,4 +91,4 @@ std::string event_line(const Json& params) {
   return write_json({{"jsonrpc", "2.0"}, {"method", "event"}, {"params", params}});
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -7,7 +7,7 @@
 
 #include "proto/error_codes.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 /// One request line. `id` is a string or an integer, or null when the line was too broken to have one.
 struct Request {
@@ -35,4 +35,4 @@ std::string reply_line(const Json& id, const Json& result);
 std::string error_line(const Json& id, const Json& error_object);
 std::string event_line(const Json& params);
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -5,7 +5,7 @@
 
 #include "proto/error_codes.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 constexpr std::string_view definitions_path = "#/$defs/";
@@ -52,4 +52,4 @@ Json protocol_schema(const std::string& method) {
   return part;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

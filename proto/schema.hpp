@@ -6,7 +6,7 @@
 
 #include "proto/json.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 
 /// The file as it is.
 std::string_view schema_text();
@@ -15,4 +15,4 @@ std::string_view schema_text();
 /// ProtocolError `params_invalid` if there is no such method.
 Json protocol_schema(const std::string& method = {});
 
-}  // namespace sculpt
+}  // namespace sculpt::proto

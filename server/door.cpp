@@ -8,7 +8,7 @@
 #include "server/net/session.hpp"
 #include "server/net/stream_transport.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr char tls_handshake = 0x16;
@@ -79,7 +79,8 @@ void Door::close(const char* reason) {
   done_ = true;
   spdlog::debug("conn={} closed: {}", peer_.number, reason);
   if (peer_.spare && !stream_.encrypted()) {
-    const std::string line = error_line(nullptr, error_object("too_many_connections", full_sentence)) + "\n";
+    const std::string line =
+        proto::error_line(nullptr, proto::error_object("too_many_connections", full_sentence)) + "\n";
     ::send(stream_.socket().native_handle(), line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
   stream_.close();
@@ -92,4 +93,4 @@ void Door::check_deadlines(Clock::time_point now) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,7 +10,7 @@
 #include "server/net/connection_context.hpp"
 #include "server/net/stream.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Door : public Connection, public std::enable_shared_from_this<Door> {
  public:
@@ -39,4 +39,4 @@ class Door : public Connection, public std::enable_shared_from_this<Door> {
   bool done_ = false;  // closed, or handed over
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 
 #include "server/door.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using tcp = net::ip::tcp;
@@ -170,4 +170,4 @@ Peer Listener::peer_of(Protocol::socket& socket) const {
   return peer;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

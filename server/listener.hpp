@@ -13,7 +13,7 @@ namespace boost::asio::ssl {
 class context;
 }
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The address cannot be listened on; what() says which, why and the cure.
 class ListenError : public std::runtime_error {
@@ -58,4 +58,4 @@ class Listener {
   bool short_of_files_ = false;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

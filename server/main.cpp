@@ -11,26 +11,27 @@
 #include <optional>
 
 #include "proto/version.hpp"
+#include "server/access/token_command.hpp"
 #include "server/base/config.hpp"
 #include "server/base/crash_point.hpp"
+#include "server/base/log.hpp"
+#include "server/base/settings.hpp"
+#include "server/base/settled_config.hpp"
 #include "server/files/folder_lock.hpp"
+#include "server/files/store_mark.hpp"
+#include "server/listener.hpp"
 #include "server/ops/folder_command.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/isolated_run.hpp"
-#include "server/store/job_store.hpp"
-#include "server/listener.hpp"
-#include "server/base/log.hpp"
 #include "server/run/planner.hpp"
 #include "server/server.hpp"
-#include "server/base/settings.hpp"
-#include "server/base/settled_config.hpp"
-#include "server/files/store_mark.hpp"
-#include "server/access/token_command.hpp"
+#include "server/store/job_store.hpp"
 
 namespace {
 
-using namespace sculpt;
+using namespace sculpt::server;
+namespace proto = sculpt::proto;
 
 constexpr int usage_error = 2;
 
@@ -68,7 +69,7 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("sculptd: ") + error.what() + "; see --help\n";
   });
-  app.set_version_flag("--version", server_name);
+  app.set_version_flag("--version", proto::server_name);
   app.add_option("--config", line.sources.file, "JSON file with settings; the flags below win over it")
       ->type_name("FILE");
   add_setting_flags(app, line.sources);
@@ -102,12 +103,12 @@ void serve(const Config& config, const ConfigSources& sources) {
   Server server(config, make_planner(config.cells));
   server.stop_on_signals();
   server.reload_on_hangup([&sources] { return settle_config(sources).config; });
-  std::cout << server_name << " listening on " << server.host() << ":" << server.port() << std::endl;
+  std::cout << proto::server_name << " listening on " << server.host() << ":" << server.port() << std::endl;
   server.run();
 }
 
 void show(const SettledConfig& settled, bool json) {
-  std::cout << (json ? write_json(settings_json(settled)) + "\n" : settings_table(settled));
+  std::cout << (json ? proto::write_json(settings_json(settled)) + "\n" : settings_table(settled));
 }
 
 int run(const CommandLine& line, const SettledConfig& settled) {

@@ -7,25 +7,25 @@
 #include <csignal>
 #include <thread>
 
-#include "server/run/confinement.hpp"
+#include "server/api/handlers.hpp"
 #include "server/base/counters.hpp"
 #include "server/base/crash_point.hpp"
+#include "server/base/log.hpp"
+#include "server/base/settled_config.hpp"
 #include "server/files/data_folder.hpp"
-#include "server/queue/drain_limit.hpp"
+#include "server/listener.hpp"
+#include "server/net/net.hpp"
+#include "server/net/tls.hpp"
+#include "server/ops/drain_limit.hpp"
+#include "server/ops/service_manager.hpp"
+#include "server/ops/store_opening.hpp"
+#include "server/queue/stage_times.hpp"
+#include "server/results/retention.hpp"
+#include "server/run/confinement.hpp"
 #include "server/run/isolated_run.hpp"
 #include "server/run/job_run.hpp"
-#include "server/listener.hpp"
-#include "server/base/log.hpp"
-#include "server/net/net.hpp"
-#include "server/results/retention.hpp"
-#include "server/ops/service_manager.hpp"
-#include "server/api/handlers.hpp"
-#include "server/base/settled_config.hpp"
-#include "server/queue/stage_times.hpp"
-#include "server/ops/store_opening.hpp"
-#include "server/net/tls.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::chrono::milliseconds tick_time{250};
@@ -119,8 +119,7 @@ struct Server::Impl {
           submit_handlers({answers, config, *store, blobs, scheduler, planner, job_defaults(config), isolation,
                            admission, checks, passed}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
-          control_handlers({answers, *store, scheduler, changes, change}),
-          event_handlers({answers, *store, streams}),
+          control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
           artifact_handlers({answers, *store, artifacts, changes, disk, exports})})
       all.merge(group);
     return all;
@@ -250,7 +249,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue : {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports})
+  for (TaskQueue* queue :
+       {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports})
     queue->stop();
   impl_->checks.stop();
 }
@@ -281,4 +281,4 @@ void Server::reload_on_hangup(std::function<Config()> reread) {
   impl_->await_hangup();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include "server/base/config.hpp"
 #include "server/run/planner.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Server {
  public:
@@ -35,4 +35,4 @@ class Server {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

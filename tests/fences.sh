@@ -37,6 +37,13 @@ forbid "search knows no arm" "$(include 'core/(cell|collision|motion|trajectory|
 forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
+# The folders of the server, each above those before it; server/*.cpp joins them.
+server_folders=(base files store run queue results access net events api http ops)
+for ((i = 0; i < ${#server_folders[@]}; ++i)); do
+  above=$(IFS='|' && echo "${server_folders[*]:i+1}")
+  forbid "server/${server_folders[i]} stands below ${above//|/, }" "$(include "server/(${above:+($above)/|}[a-z_]+\.hpp)")" -- "server/${server_folders[i]}"
+done
+
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
 fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
 forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
@@ -49,7 +56,7 @@ forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/po
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
   "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
-forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
+forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/run/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.
 forbid "no header of core names fcl::, ompl::, octomap:: or ai..." '\b(fcl|ompl|octomap|urdf)::|\bai(Scene|Mesh|Node|Vector3D)\b' "\.cpp$|$(door "($fcl_headers)\.hpp")" -- core

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 enum ExitCode : int {
   exit_fine = 0,
@@ -27,4 +27,4 @@ class Failure : public std::runtime_error {
   std::string code_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

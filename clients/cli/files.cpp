@@ -8,7 +8,7 @@
 
 #include "clients/cli/exit_code.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace fs = std::filesystem;
 
@@ -60,4 +60,4 @@ void PartFile::finish() {
         "cannot complete " + path_.string() + " (" + std::strerror(errno) + "): check the space left on the disk");
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

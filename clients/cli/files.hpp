@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 /// Throws Failure (usage) `file_missing` or `file_unreadable`; `what` names the thing in the sentence, e.g. "mesh".
 std::string read_input(const std::filesystem::path& path, const std::string& what);
@@ -32,4 +32,4 @@ class PartFile {
   std::ofstream stream_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -5,7 +5,7 @@
 
 #include "clients/cli/exit_code.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -39,4 +39,4 @@ Interrupt::~Interrupt() {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

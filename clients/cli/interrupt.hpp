@@ -4,7 +4,7 @@
 #include <functional>
 #include <thread>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 /// From construction to destruction SIGINT and SIGTERM do not end the process: the first one calls `action` once, a
 /// second one ends the process. Construct it before any other thread starts: threads inherit the blocked signals.
@@ -19,4 +19,4 @@ class Interrupt {
   std::jthread waiter_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

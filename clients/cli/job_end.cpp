@@ -6,7 +6,7 @@
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/report_table.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -18,7 +18,7 @@ Doubts read_doubts(const Json& progress) {
 
 }  // namespace
 
-Json follow_job(Client& client, const std::string& job, ProgressLine& progress) {
+Json follow_job(client::Client& client, const std::string& job, ProgressLine& progress) {
   client.when_lost([&progress](const std::string& sentence) { progress.say(sentence); });
   client.subscribe(job);
   bool warned = false;
@@ -37,8 +37,8 @@ Json follow_job(Client& client, const std::string& job, ProgressLine& progress) 
       const std::string to = data.value("to", "");
       const std::string reason = data.value("reason", "");
       progress.say(reason == "interrupted" ? to + " again: the daemon was stopped while it ran" : to);
-      if (!is_final(to)) continue;
-      ended = is_final(client.call("job.get", {{"job", job}}).value("state", ""));
+      if (!client::is_final(to)) continue;
+      ended = client::is_final(client.call("job.get", {{"job", job}}).value("state", ""));
       if (!ended) client.subscribe(job, event.value("seq", std::uint64_t{0}));  // quarantined, and retried since
     }
   }
@@ -47,7 +47,7 @@ Json follow_job(Client& client, const std::string& job, ProgressLine& progress) 
   return client.call("job.get", {{"job", job}});
 }
 
-Json wait_job(Client& client, const std::string& job) {
+Json wait_job(client::Client& client, const std::string& job) {
   constexpr int longest_wait_s = 3600;
   while (client.call("job.wait", {{"job", job}, {"timeout_s", longest_wait_s}}).value("timed_out", false)) {
   }
@@ -67,4 +67,4 @@ int end_exit_code(const Json& job) {
   return exit_failed;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -10,7 +10,7 @@
 #include "clients/cli/files.hpp"
 #include "core/cell/shipped_cells.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace fs = std::filesystem;
 
@@ -154,4 +154,4 @@ Job read_job(const JobOptions& options) {
   return job;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -9,7 +9,7 @@
 
 #include "core/plan/plan.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 /// As given on the command line: lengths in metres, angles in degrees.
 struct PlacementOptions {
@@ -55,4 +55,4 @@ void check_resolution(int n);
 /// Everything read from disk, ready for the planner.
 Job read_job(const JobOptions& options);
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

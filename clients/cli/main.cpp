@@ -3,12 +3,15 @@
 #include <iostream>
 #include <new>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cpp/client.hpp"
 #include "core/base/watch.hpp"
 
 namespace {
+
+namespace cli = sculpt::cli;
+namespace client = sculpt::client;
 
 int complain(int exit_code, const std::string& code, const std::string& sentence) {
   std::cout.flush();
@@ -17,49 +20,49 @@ int complain(int exit_code, const std::string& code, const std::string& sentence
 }
 
 /// Runs the command; whatever it throws becomes a line on stderr and an exit code.
-int run(const sculpt::Invocation& invocation) try { return invocation.run(); } catch (const sculpt::Failure& failure) {
+int run(const cli::Invocation& invocation) try { return invocation.run(); } catch (const cli::Failure& failure) {
   return complain(failure.exit_code(), failure.code(), failure.what());
-} catch (const sculpt::ServerUnreachable& error) {
-  return complain(sculpt::exit_unreachable, "unreachable", error.what());
-} catch (const sculpt::ServerError& error) {
+} catch (const client::ServerUnreachable& error) {
+  return complain(cli::exit_unreachable, "unreachable", error.what());
+} catch (const client::ServerError& error) {
   const bool damaged = error.code() == "artifact_damaged";
-  return complain(damaged ? sculpt::exit_failed : sculpt::exit_refused, error.code(), error.what());
+  return complain(damaged ? cli::exit_failed : cli::exit_refused, error.code(), error.what());
 } catch (const sculpt::InputError& error) {
-  return complain(sculpt::exit_refused, error.code(), error.what());
+  return complain(cli::exit_refused, error.code(), error.what());
 } catch (const sculpt::Cancelled&) {
-  return complain(sculpt::exit_failed, "cancelled", "interrupted: nothing was written");
+  return complain(cli::exit_failed, "cancelled", "interrupted: nothing was written");
 } catch (const std::bad_alloc&) {
-  return complain(sculpt::exit_failed, "out_of_memory", "not enough memory: lower --resolution or use a smaller mesh");
+  return complain(cli::exit_failed, "out_of_memory", "not enough memory: lower --resolution or use a smaller mesh");
 } catch (const std::exception& error) {
-  return complain(sculpt::exit_failed, "internal_error", error.what());
+  return complain(cli::exit_failed, "internal_error", error.what());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const char* named = std::getenv("SCULPT_SERVER");
-  sculpt::Invocation invocation{named != nullptr && *named != '\0' ? named : "127.0.0.1:7878", {}};
+  cli::Invocation invocation{named != nullptr && *named != '\0' ? named : "127.0.0.1:7878", {}};
   CLI::App app{"Plans robot carving: turns a mesh into a checked, collision-free joint trajectory", "sculpt"};
-  sculpt::add_common_options(app, invocation);
+  cli::add_common_options(app, invocation);
   app.require_subcommand(1);
-  sculpt::add_submit(app, invocation);
-  sculpt::add_list(app, invocation);
-  sculpt::add_status(app, invocation);
-  sculpt::add_top(app, invocation);
-  sculpt::add_watch(app, invocation);
-  sculpt::add_wait(app, invocation);
-  sculpt::add_cancel(app, invocation);
-  sculpt::add_pause(app, invocation);
-  sculpt::add_resume(app, invocation);
-  sculpt::add_retry(app, invocation);
-  sculpt::add_pin(app, invocation);
-  sculpt::add_queue(app, invocation);
-  sculpt::add_report(app, invocation);
-  sculpt::add_fetch(app, invocation);
-  sculpt::add_verify(app, invocation);
-  sculpt::add_voxelize(app, invocation);
-  sculpt::add_plan(app, invocation);
-  sculpt::add_completion(app, invocation);
+  cli::add_submit(app, invocation);
+  cli::add_list(app, invocation);
+  cli::add_status(app, invocation);
+  cli::add_top(app, invocation);
+  cli::add_watch(app, invocation);
+  cli::add_wait(app, invocation);
+  cli::add_cancel(app, invocation);
+  cli::add_pause(app, invocation);
+  cli::add_resume(app, invocation);
+  cli::add_retry(app, invocation);
+  cli::add_pin(app, invocation);
+  cli::add_queue(app, invocation);
+  cli::add_report(app, invocation);
+  cli::add_fetch(app, invocation);
+  cli::add_verify(app, invocation);
+  cli::add_voxelize(app, invocation);
+  cli::add_plan(app, invocation);
+  cli::add_completion(app, invocation);
   app.footer(
       "Exit codes: 0 fine, 1 the job failed or the check found something, 2 usage, 3 server unreachable, 4 refused.\n"
       "sculpt COMMAND --help says more about each command.");
@@ -68,7 +71,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(sculpt::exit_usage, "usage", std::string(error.what()) + " (see sculpt COMMAND --help)");
+    return complain(cli::exit_usage, "usage", std::string(error.what()) + " (see sculpt COMMAND --help)");
   }
   return run(invocation);
 }

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -95,4 +95,4 @@ void ProgressLine::write(const std::string& text) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

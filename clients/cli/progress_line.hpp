@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 /// What is written where there is no terminal.
 enum class PlainLines {
@@ -49,4 +49,4 @@ class ProgressLine {
   bool on_screen_ = false;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

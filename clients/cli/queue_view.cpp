@@ -6,7 +6,7 @@
 
 #include "clients/cli/job_end.hpp"
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -96,7 +96,7 @@ std::vector<std::string> head_lines(const Json& server, const Layout& layout, in
 
 }  // namespace
 
-Json OpenJobs::read(Client& client) {
+Json OpenJobs::read(client::Client& client) {
   refresh(client);
   add_new(client);
   std::vector<Json> jobs;
@@ -105,32 +105,32 @@ Json OpenJobs::read(Client& client) {
   return jobs;
 }
 
-void OpenJobs::refresh(Client& client) {
+void OpenJobs::refresh(client::Client& client) {
   for (auto entry = open_.begin(); entry != open_.end();) {
     try {
       entry->second = client.call("job.get", {{"job", entry->first}});
-    } catch (const ServerError&) {  // it is not there any more
+    } catch (const client::ServerError&) {  // it is not there any more
       entry = open_.erase(entry);
       continue;
     }
-    entry = is_final(text(entry->second, "state")) ? open_.erase(entry) : std::next(entry);
+    entry = client::is_final(text(entry->second, "state")) ? open_.erase(entry) : std::next(entry);
   }
 }
 
-void OpenJobs::add_new(Client& client) {
+void OpenJobs::add_new(client::Client& client) {
   for (bool more = true; more;) {
     Json params{{"limit", 1000}};
     if (!last_seen_.empty()) params["after"] = last_seen_;
     const Json page = client.call("job.list", params);
     for (const Json& job : page.at("jobs")) {
       last_seen_ = job.at("job");
-      if (!is_final(text(job, "state"))) open_[last_seen_] = job;
+      if (!client::is_final(text(job, "state"))) open_[last_seen_] = job;
     }
     more = page.value("more", false) && !page.at("jobs").empty();
   }
 }
 
-Json read_queue(Client& client, OpenJobs& jobs) {
+Json read_queue(client::Client& client, OpenJobs& jobs) {
   return {{"server", client.call("server.info")}, {"jobs", jobs.read(client)}};
 }
 
@@ -149,4 +149,4 @@ std::string queue_text(const Json& queue, int columns, int rows) {
   return all;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string report_table(const Json& report) {
   return table;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

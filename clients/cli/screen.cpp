@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 namespace {
 
@@ -52,4 +52,4 @@ bool Screen::quit_pressed(std::chrono::milliseconds patience) {
   return read(STDIN_FILENO, &key, 1) != 1 || key == 'q' || key == ctrl_c;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::cli {
 
 /// While it lives, standard output shows a page of its own and keys come one by one; then all is as before.
 class Screen {
@@ -33,4 +33,4 @@ class Screen {
   termios before_{};
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -13,7 +13,7 @@
 #include "proto/messages.hpp"
 #include "proto/request.hpp"
 
-namespace sculpt {
+namespace sculpt::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -91,7 +91,7 @@ Client::Client(Client&&) noexcept = default;
 void Client::open() {
   connection_ = std::make_unique<Connection>(server_, login_);
   const std::string method = "hello";
-  Json hello{{"protocol", {protocol_major, protocol_minor}}, {"client", name_}};
+  Json hello{{"protocol", {proto::protocol_major, proto::protocol_minor}}, {"client", name_}};
   if (!login_.token.empty()) hello["token"] = login_.token;
   hello_ = ask({method, hello, {}, nullptr});
 }
@@ -146,7 +146,7 @@ Json Client::exchange(const Exchange& exchange) {
 
 Json Client::ask(const Exchange& exchange) {
   const std::int64_t id = ++last_id_;
-  std::string bytes = request_line(id, exchange.method, exchange.params) + "\n";
+  std::string bytes = proto::request_line(id, exchange.method, exchange.params) + "\n";
   if (exchange.chunk) bytes.append(*exchange.chunk).append("\n");
   connection_->send(bytes);
   while (true) {
@@ -166,8 +166,8 @@ std::optional<Json> Client::receive(std::optional<double> timeout_s, std::string
   if (!line) return std::nullopt;
   Json message;
   try {
-    message = parse_json(*line);
-  } catch (const JsonError& error) {
+    message = proto::parse_json(*line);
+  } catch (const proto::JsonError& error) {
     throw ServerUnreachable(std::string("the server does not speak the protocol: ") + error.what());
   }
   if (!message.is_object()) throw ServerUnreachable("the server does not speak the protocol: a line is no object");
@@ -256,7 +256,7 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
     params["offset"] = offset;
     params["bytes"] = request.chunk_bytes;
     const Json result = exchange({method, params, {}, &chunk});
-    if (crc32_hex(chunk) != result.at("crc32").get<std::string>()) {
+    if (proto::crc32_hex(chunk) != result.at("crc32").get<std::string>()) {
       throw ServerUnreachable("a chunk of the artifact was damaged on its way: fetch again");
     }
     hash.add(chunk);
@@ -337,4 +337,4 @@ std::optional<Json> Client::next_event(std::optional<double> timeout_s) {
   return event;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::client

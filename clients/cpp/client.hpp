@@ -22,7 +22,7 @@
 #include "clients/cpp/connection.hpp"
 #include "proto/json.hpp"
 
-namespace sculpt {
+namespace sculpt::client {
 
 /// The server answered with an error of the catalogue (proto/PROTOCOL.md section 6); what() is its sentence.
 class ServerError : public std::runtime_error {
@@ -144,4 +144,4 @@ class Client {
   std::int64_t last_id_ = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -15,7 +15,7 @@
 #include <cstring>
 #include <memory>
 
-namespace sculpt {
+namespace sculpt::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -149,25 +149,25 @@ void Connection::end_sending() {
 }
 
 std::optional<std::string> Connection::read_line(std::optional<double> timeout_s) {
-  std::optional<WireFrame> frame = read_frame(timeout_s);
+  std::optional<proto::WireFrame> frame = read_frame(timeout_s);
   if (!frame) return std::nullopt;
-  if (frame->kind != WireFrame::Kind::line) fail("the server sent a line that is too long");
+  if (frame->kind != proto::WireFrame::Kind::line) fail("the server sent a line that is too long");
   return std::move(frame->bytes);
 }
 
 std::string Connection::read_chunk(std::size_t bytes) {
-  if (bytes > max_chunk_bytes) fail("the server announced a chunk that is too large");
+  if (bytes > proto::max_chunk_bytes) fail("the server announced a chunk that is too large");
   frames_.expect_chunk(bytes);
-  std::optional<WireFrame> frame = read_frame(std::nullopt);
-  if (frame->kind != WireFrame::Kind::chunk) fail("the server sent a chunk of another size than announced");
+  std::optional<proto::WireFrame> frame = read_frame(std::nullopt);
+  if (frame->kind != proto::WireFrame::Kind::chunk) fail("the server sent a chunk of another size than announced");
   return std::move(frame->bytes);
 }
 
-std::optional<WireFrame> Connection::read_frame(std::optional<double> timeout_s) {
+std::optional<proto::WireFrame> Connection::read_frame(std::optional<double> timeout_s) {
   const auto start = Clock::now();
   std::array<char, 1 << 16> buffer{};
   while (true) {
-    if (std::optional<WireFrame> frame = frames_.next()) return frame;
+    if (std::optional<proto::WireFrame> frame = frames_.next()) return frame;
     int wait_ms = -1;
     if (timeout_s) {
       const double left = *timeout_s - std::chrono::duration<double>(Clock::now() - start).count();
@@ -180,4 +180,4 @@ std::optional<WireFrame> Connection::read_frame(std::optional<double> timeout_s)
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -10,7 +10,7 @@
 #include "clients/cpp/tls_link.hpp"
 #include "proto/framing.hpp"
 
-namespace sculpt {
+namespace sculpt::client {
 
 /// Nobody answers at the address, or the connection broke. The sentence names the address.
 class ServerUnreachable : public std::runtime_error {
@@ -36,7 +36,7 @@ class Connection {
   void end_sending();
 
  private:
-  std::optional<WireFrame> read_frame(std::optional<double> timeout_s);
+  std::optional<proto::WireFrame> read_frame(std::optional<double> timeout_s);
   std::size_t receive(char* buffer, std::size_t bytes);
   bool wait_for_bytes(int timeout_ms);
   [[noreturn]] void fail(const std::string& what) const;
@@ -44,7 +44,7 @@ class Connection {
   std::string server_;
   int socket_ = -1;
   std::unique_ptr<TlsLink> tls_;  // null: plain
-  FrameReader frames_;
+  proto::FrameReader frames_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::client

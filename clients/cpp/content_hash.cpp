@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::client {
 namespace {
 
 constexpr std::size_t read_bytes = 1 << 20;
@@ -56,4 +56,4 @@ StreamHash content_hash(std::istream& in) {
   return result;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::client

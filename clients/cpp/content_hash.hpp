@@ -9,7 +9,7 @@
 
 struct evp_md_ctx_st;
 
-namespace sculpt {
+namespace sculpt::client {
 
 /// Of what is added piece by piece. Throws std::runtime_error where OpenSSL fails.
 class ContentHash {
@@ -33,4 +33,4 @@ struct StreamHash {
 /// From where the stream stands to its end.
 StreamHash content_hash(std::istream& in);
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::client {
 namespace {
 
 std::string variable(const char* name) {
@@ -31,4 +31,4 @@ Login login_from_environment() {
   return login;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::client

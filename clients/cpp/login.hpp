@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace sculpt {
+namespace sculpt::client {
 
 struct Login {
   std::string token;             ///< from the operator (sculptd token add); empty: none
@@ -15,4 +15,4 @@ struct Login {
 /// Throws std::runtime_error naming the file that cannot be read.
 Login login_from_environment();
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::client {
 namespace {
 
 std::string last_error(const SSL* link) {
@@ -106,4 +106,4 @@ bool TlsLink::pending() const {
   return ::SSL_pending(impl_->link.get()) > 0;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -6,7 +6,7 @@
 
 #include "clients/cpp/login.hpp"
 
-namespace sculpt {
+namespace sculpt::client {
 
 class TlsLink {
  public:
@@ -25,4 +25,4 @@ class TlsLink {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::client

@@ -6,7 +6,7 @@
 
 int main(int count, char** arguments) {
   if (count != 3) return std::cerr << "usage: 02_watch SERVER JOB\n", 2;
-  sculpt::Client client(arguments[1], "02_watch");
+  sculpt::client::Client client(arguments[1], "02_watch");
   client.when_lost([](const std::string& sentence) { std::cerr << sentence << "\n"; });
 
   client.subscribe(arguments[2]);  // from the first event on, also of a job that has ended
@@ -18,6 +18,6 @@ int main(int count, char** arguments) {
     if (event.at("type") != "state") continue;
     const std::string state = event.at("data").at("to");
     std::cout << event.at("seq") << " " << state << "\n";
-    if (sculpt::is_final(state)) return state == "succeeded" ? 0 : 1;
+    if (sculpt::client::is_final(state)) return state == "succeeded" ? 0 : 1;
   }
 }

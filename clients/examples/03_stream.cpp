@@ -7,7 +7,7 @@
 
 int main(int count, char** arguments) {
   if (count != 3) return std::cerr << "usage: 03_stream SERVER JOB\n", 2;
-  sculpt::Client client(arguments[1], "03_stream");
+  sculpt::client::Client client(arguments[1], "03_stream");
 
   std::stringstream lines;
   int cuts = 0, moves = 0;

@@ -6,7 +6,7 @@
 #include "server/base/config.hpp"
 #include "server/base/time_stamp.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 namespace fs = std::filesystem;
 
@@ -20,16 +20,17 @@ Access::Access(const Config& config) : file_(config.tokens), certificates_(!conf
 Identity Access::identify(const Peer& peer, const std::string& token) {
   if (token.empty() || !has_tokens()) {
     if (peer.identity) return *peer.identity;
-    throw ProtocolError("auth_required",
-                        "this server must know who you are: give \"token\" in hello (sculpt: set SCULPT_TOKEN), or "
-                        "HTTP's Authorization: Bearer TOKEN",
-                        "/params/token");
+    throw proto::ProtocolError(
+        "auth_required",
+        "this server must know who you are: give \"token\" in hello (sculpt: set SCULPT_TOKEN), or "
+        "HTTP's Authorization: Bearer TOKEN",
+        "/params/token");
   }
   read_again_if_changed();
   if (const Token* found = find_token(tokens_, token, utc_text(unix_ms()))) return {found->name, found->scope};
-  throw ProtocolError("auth_required",
-                      "the token is not known or has expired: ask the operator for one (sculptd token add)",
-                      "/params/token");
+  throw proto::ProtocolError("auth_required",
+                             "the token is not known or has expired: ask the operator for one (sculptd token add)",
+                             "/params/token");
 }
 
 // A file that cannot be read leaves the tokens as they were.
@@ -47,8 +48,8 @@ void Access::read_again_if_changed() {
 
 void require_scope(const Identity& identity, Scope needed) {
   if (identity.scope >= needed) return;
-  throw ProtocolError("forbidden", std::string("this needs the scope ") + name(needed) + ", and you have " +
-                                       name(identity.scope) + ": use a token with that scope");
+  throw proto::ProtocolError("forbidden", std::string("this needs the scope ") + name(needed) + ", and you have " +
+                                              name(identity.scope) + ": use a token with that scope");
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include "server/access/peer.hpp"
 #include "server/access/tokens.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Config;
 
@@ -37,4 +37,4 @@ class Access {
 /// Throws ProtocolError `forbidden` unless the identity's scope reaches `needed`.
 void require_scope(const Identity& identity, Scope needed);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

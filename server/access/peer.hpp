@@ -7,7 +7,7 @@
 
 #include "server/access/tokens.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Identity {
   std::string owner;  ///< name of the token or certificate, "uid:N" of a unix socket's peer; empty: nobody has a name
@@ -24,4 +24,4 @@ struct Peer {
   bool spare = false;                ///< came when the server was full: it may only ask for its health
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <ostream>
 
+#include "server/access/tokens.hpp"
 #include "server/base/config.hpp"
 #include "server/base/time_stamp.hpp"
-#include "server/access/tokens.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ void run_token_command(const TokenCommand& command, const fs::path& file, std::o
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct TokenCommand {
   enum class Verb { none, add, list, remove };
@@ -24,4 +24,4 @@ void add_token_command(CLI::App& app, TokenCommand& command);
 /// ConfigError, StorageError.
 void run_token_command(const TokenCommand& command, const std::filesystem::path& file, std::ostream& out);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -14,7 +14,7 @@
 #include "server/base/config.hpp"
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::array scopes{Scope::read, Scope::submit, Scope::admin};
@@ -40,7 +40,7 @@ std::string salted_hash(const std::string& salt, const std::string& secret) {
   return sha256_hex(salt + secret);
 }
 
-Token read_token(Fields fields) {
+Token read_token(proto::Fields fields) {
   Token token;
   token.name = fields.text("name", max_name_bytes);
   token.scope = scope_named(fields.text("scope"));
@@ -72,14 +72,14 @@ std::vector<Token> read_tokens(const std::filesystem::path& file) {
   }
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   try {
-    const Json json = parse_json(text);
-    Fields fields(json, "");
+    const Json json = proto::parse_json(text);
+    proto::Fields fields(json, "");
     const Json& list = fields.value("tokens");
     if (!list.is_array()) fields.refuse("tokens", "must be an array");
     fields.done();
     std::vector<Token> tokens;
     for (const Json& entry : list) {
-      tokens.push_back(read_token(Fields(entry, "/tokens/" + std::to_string(tokens.size()))));
+      tokens.push_back(read_token(proto::Fields(entry, "/tokens/" + std::to_string(tokens.size()))));
     }
     return tokens;
   } catch (const std::runtime_error& error) {
@@ -121,4 +121,4 @@ const Token* find_token(const std::vector<Token>& tokens, const std::string& sec
   return found;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

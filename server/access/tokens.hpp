@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Each includes those before it.
 enum class Scope { read, submit, admin };
@@ -34,4 +34,4 @@ std::string make_secret(Token& token);
 /// Takes the same time whatever the secret is. Null: not there, or expired at `now`.
 const Token* find_token(const std::vector<Token>& tokens, const std::string& secret, const std::string& now);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

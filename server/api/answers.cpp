@@ -2,7 +2,7 @@
 
 #include "proto/request.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 void Answers::with(std::shared_ptr<Call> call, const std::function<Answer()>& work) const {
   const Json id = call->id;
@@ -10,7 +10,7 @@ void Answers::with(std::shared_ptr<Call> call, const std::function<Answer()>& wo
       std::move(call),
       [&] {
         Answer answer = work();
-        return Reply{reply_line(id, answer.result), std::move(answer.chunk)};
+        return Reply{proto::reply_line(id, answer.result), std::move(answer.chunk)};
       },
       [](const Call& answered, Reply reply) { answered.session->answer(answered.id, std::move(reply)); });
 }
@@ -29,4 +29,4 @@ void Answers::read(Call call, std::function<Json()> work) const {
   });
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

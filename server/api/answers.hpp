@@ -13,7 +13,7 @@
 #include "server/net/net.hpp"
 #include "server/net/session.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The way back to the I/O thread. Lives as long as the queues.
 class Answers {
@@ -83,4 +83,4 @@ void Answers::read_then(Call call, Work work, Next next) const {
       reads_, std::move(call), [work = std::move(work)](const std::stop_token&) { return work(); }, next);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

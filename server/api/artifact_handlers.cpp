@@ -1,10 +1,10 @@
 #include "proto/crc32.hpp"
 #include "server/api/handlers.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
-Answer read_chunk(const Artifacts& artifacts, const ArtifactReadParams& wanted, WholeRead& so_far) {
+Answer read_chunk(const Artifacts& artifacts, const proto::ArtifactReadParams& wanted, WholeRead& so_far) {
   ArtifactChunk chunk = artifacts.read(wanted, so_far);
   const bool eof = chunk.final && wanted.offset + chunk.bytes.size() == chunk.size;
   Json result{{"job", wanted.job},
@@ -15,12 +15,12 @@ Answer read_chunk(const Artifacts& artifacts, const ArtifactReadParams& wanted, 
               {"size", chunk.size},
               {"final", chunk.final},
               {"eof", eof},
-              {"crc32", crc32_hex(chunk.bytes)}};
+              {"crc32", proto::crc32_hex(chunk.bytes)}};
   return {std::move(result), std::move(chunk.bytes)};
 }
 
 void on_artifact_list(const ArtifactGroup& group, Call call) {
-  const std::string job = read_job_id(call.params);
+  const std::string job = proto::read_job_id(call.params);
   call.session->hold();
   group.answers.from(group.disk, std::move(call), [group, job](const std::stop_token&) {
     return Answer{{{"job", job}, {"artifacts", group.artifacts.list(find_job(group.store, job))}}, std::nullopt};
@@ -28,7 +28,7 @@ void on_artifact_list(const ArtifactGroup& group, Call call) {
 }
 
 void on_artifact_pin(const ArtifactGroup& group, Call call) {
-  const PinParams pin = read_pin(call.params);
+  const proto::PinParams pin = proto::read_pin(call.params);
   call.session->hold();
   group.answers.from(group.changes, std::move(call), [&store = group.store, pin](const std::stop_token&) {
     find_job(store, pin.job);
@@ -38,7 +38,7 @@ void on_artifact_pin(const ArtifactGroup& group, Call call) {
 }
 
 void on_artifact_read(const ArtifactGroup& group, Call call) {
-  const ArtifactReadParams wanted = read_artifact_read(call.params);
+  const proto::ArtifactReadParams wanted = proto::read_artifact_read(call.params);
   call.session->hold();  // so that nobody else goes on with so_far
   std::shared_ptr<WholeRead>& so_far_here = call.session->whole_read();
   if (!so_far_here) so_far_here = std::make_shared<WholeRead>();
@@ -50,10 +50,10 @@ void on_artifact_read(const ArtifactGroup& group, Call call) {
       },
       [group, wanted, so_far = so_far_here](Call known, bool to_export) {
         group.answers.from(to_export ? group.exports : group.disk, std::move(known),
-                    [&artifacts = group.artifacts, wanted, to_export, so_far](const std::stop_token&) {
-                      if (to_export) artifacts.make_export(wanted);
-                      return read_chunk(artifacts, wanted, *so_far);
-                    });
+                           [&artifacts = group.artifacts, wanted, to_export, so_far](const std::stop_token&) {
+                             if (to_export) artifacts.make_export(wanted);
+                             return read_chunk(artifacts, wanted, *so_far);
+                           });
       });
 }
 
@@ -67,4 +67,4 @@ Handlers artifact_handlers(const ArtifactGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

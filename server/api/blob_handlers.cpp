@@ -1,6 +1,6 @@
 #include "server/api/handlers.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 Answer blob_answer(const std::string& sha256, const BlobState& state) {
@@ -8,7 +8,7 @@ Answer blob_answer(const std::string& sha256, const BlobState& state) {
 }
 
 void on_blob_has(const BlobGroup& group, Call call) {
-  const std::string sha256 = read_blob_name(call.params);
+  const std::string sha256 = proto::read_blob_name(call.params);
   call.session->hold();
   group.answers.from(group.disk, std::move(call), [&blobs = group.blobs, sha256](const std::stop_token&) {
     return blob_answer(sha256, blobs.use(sha256));
@@ -16,7 +16,7 @@ void on_blob_has(const BlobGroup& group, Call call) {
 }
 
 void on_blob_put(const BlobGroup& group, Call call) {
-  const BlobPutParams put = read_blob_put(call.params);
+  const proto::BlobPutParams put = proto::read_blob_put(call.params);
   call.session->hold();
   const auto chunk = std::make_shared<const std::string>(std::move(call.chunk));
   group.answers.from(group.disk, std::move(call), [&blobs = group.blobs, put, chunk](const std::stop_token&) {
@@ -33,4 +33,4 @@ Handlers blob_handlers(const BlobGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -3,14 +3,14 @@
 
 #include "server/api/handlers.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using Command = JobState (JobStore::*)(const std::string&);
 
 // Tells the store, then whoever runs the job or could run it now.
 void command(const ControlGroup& group, Call call, Command told) {
-  const std::string job = read_job_id(call.params);
+  const std::string job = proto::read_job_id(call.params);
   call.session->hold();
   group.answers.detour(
       group.changes, std::move(call),
@@ -27,7 +27,7 @@ void command(const ControlGroup& group, Call call, Command told) {
 }
 
 void set_queue(const ControlGroup& group, Call call, bool paused) {
-  read_nothing(call.params);
+  proto::read_nothing(call.params);
   call.session->hold();
   group.answers.from(group.changes, std::move(call), [group, paused](const std::stop_token&) {
     group.store.set_queue_paused(paused);
@@ -47,10 +47,13 @@ Handlers control_handlers(const ControlGroup& group) {
     return [group, paused](Call call) { set_queue(group, std::move(call), paused); };
   };
   return {
-      {"job.cancel", commanded(&JobStore::cancel)}, {"job.pause", commanded(&JobStore::pause)},
-      {"job.resume", commanded(&JobStore::resume)}, {"job.retry", commanded(&JobStore::retry)},
-      {"queue.pause", queue_set(true)},             {"queue.resume", queue_set(false)},
+      {"job.cancel", commanded(&JobStore::cancel)},
+      {"job.pause", commanded(&JobStore::pause)},
+      {"job.resume", commanded(&JobStore::resume)},
+      {"job.retry", commanded(&JobStore::retry)},
+      {"queue.pause", queue_set(true)},
+      {"queue.resume", queue_set(false)},
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

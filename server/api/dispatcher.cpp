@@ -8,7 +8,7 @@
 #include "server/base/current_error.hpp"
 #include "server/net/session.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::string_view hello = "hello";
@@ -27,7 +27,7 @@ void Dispatcher::take(Call call, const std::string& method) {
   try {
     const auto& [name, scope] = find_method(method);
     if (!session->identity() && name != hello) {
-      throw ProtocolError(
+      throw proto::ProtocolError(
           "hello_required",
           "say hello first: {\"id\":1,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"NAME\"}}");
     }
@@ -43,4 +43,4 @@ void Dispatcher::on_closed(Session& session) {
   waits_.drop(session);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -9,7 +9,7 @@
 #include "server/events/streams.hpp"
 #include "server/events/waits.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Runs on the I/O thread and must not block. Answers the call, now or later, or throws.
 using Handler = std::function<void(Call)>;
@@ -31,4 +31,4 @@ class Dispatcher : public RequestHandler {
   Waits& waits_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

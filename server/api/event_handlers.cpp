@@ -1,19 +1,19 @@
 #include "server/api/handlers.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::size_t max_subscriptions = 1000;
 
 // Of one job, or of all where no job is named.
-std::uint64_t last_event(JobStore& store, const SubscribeParams& wanted) {
+std::uint64_t last_event(JobStore& store, const proto::SubscribeParams& wanted) {
   if (!wanted.job.empty()) find_job(store, wanted.job);
   const std::uint64_t last = store.last_event(wanted.job);
   if (wanted.after > last) {
-    throw ProtocolError("replay_gap",
-                        "after is " + std::to_string(wanted.after) + ", but the last event is " + std::to_string(last) +
-                            ": the store was replaced, start again from 0",
-                        "/params/after");
+    throw proto::ProtocolError("replay_gap",
+                               "after is " + std::to_string(wanted.after) + ", but the last event is " +
+                                   std::to_string(last) + ": the store was replaced, start again from 0",
+                               "/params/after");
   }
   return last;
 }
@@ -25,10 +25,10 @@ Json named(const std::string& job) {
 }
 
 void on_subscribe(const EventGroup& group, Call call) {
-  const SubscribeParams wanted = read_subscribe(call.params);
+  const proto::SubscribeParams wanted = proto::read_subscribe(call.params);
   if (call.session->subscriptions().size() >= max_subscriptions) {
-    throw ProtocolError("bad_request",
-                        "one connection may follow at most " + std::to_string(max_subscriptions) + " jobs");
+    throw proto::ProtocolError("bad_request",
+                               "one connection may follow at most " + std::to_string(max_subscriptions) + " jobs");
   }
   group.answers.read_then(
       std::move(call), [&store = group.store, wanted] { return last_event(store, wanted); },
@@ -41,7 +41,7 @@ void on_subscribe(const EventGroup& group, Call call) {
 }
 
 void on_unsubscribe(const EventGroup& group, Call call) {
-  const std::string job = read_unsubscribe(call.params);
+  const std::string job = proto::read_unsubscribe(call.params);
   group.answers.read_then(
       std::move(call),
       [&store = group.store, job] {
@@ -62,4 +62,4 @@ Handlers event_handlers(const EventGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

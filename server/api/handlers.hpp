@@ -16,7 +16,7 @@
 #include "server/run/job_description.hpp"
 #include "server/run/planner.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// hello, ping, server.info, server.schema.
 struct ServerGroup {
@@ -99,4 +99,4 @@ struct ArtifactGroup {
 };
 Handlers artifact_handlers(const ArtifactGroup& group);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,8 +1,8 @@
 #include "server/api/handlers.hpp"
-#include "server/run/isolated_replay.hpp"
 #include "server/api/job_page.hpp"
+#include "server/run/isolated_replay.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 ViewSources view_sources(const JobGroup& group) {
@@ -28,46 +28,46 @@ Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token
 }
 
 void on_get(const JobGroup& group, Call call) {
-  const std::string job = read_job_id(call.params);
+  const std::string job = proto::read_job_id(call.params);
   group.answers.read(std::move(call),
-              [sources = view_sources(group), job] { return job_view(sources, find_job(sources.store, job)); });
+                     [sources = view_sources(group), job] { return job_view(sources, find_job(sources.store, job)); });
 }
 
 void on_list(const JobGroup& group, Call call) {
-  const ListParams list = read_list(call.params);
+  const proto::ListParams list = proto::read_list(call.params);
   const std::size_t max_line = call.session->max_line();
   group.answers.read(std::move(call),
-              [sources = view_sources(group), list, max_line] { return job_page(sources, list, max_line); });
+                     [sources = view_sources(group), list, max_line] { return job_page(sources, list, max_line); });
 }
 
 void on_wait(const JobGroup& group, Call call) {
-  const WaitParams wait = read_wait(call.params);
+  const proto::WaitParams wait = proto::read_wait(call.params);
   group.waits.add(std::move(call), wait.job, wait.timeout_s);
 }
 
 void on_report(const JobGroup& group, Call call) {
-  const std::string job = read_job_id(call.params);
+  const std::string job = proto::read_job_id(call.params);
   call.session->hold();
   group.answers.from(group.disk, std::move(call), [group, job](const std::stop_token&) {
-    return Answer{parse_json(group.artifacts.read_whole(find_job(group.store, job), "report")), std::nullopt};
+    return Answer{proto::parse_json(group.artifacts.read_whole(find_job(group.store, job), "report")), std::nullopt};
   });
 }
 
 void on_verify(const JobGroup& group, Call call) {
-  const std::string id = read_job_id(call.params);
+  const std::string id = proto::read_job_id(call.params);
   group.answers.detour(
       group.reads, std::move(call),
       [&store = group.store, id](const std::stop_token&) {
         JobRecord job = find_job(store, id);
         if (store.artifacts(id).empty()) {
-          throw ProtocolError("wrong_state",
-                              "job " + id + " is " + name(job.state) + " and has no final trajectory to replay");
+          throw proto::ProtocolError("wrong_state",
+                                     "job " + id + " is " + name(job.state) + " and has no final trajectory to replay");
         }
         return job;
       },
       [group](Call known, const JobRecord& job) {
         group.answers.from(group.replays, std::move(known),
-                    [group, job](const std::stop_token& stop) { return replay(group, job, stop); });
+                           [group, job](const std::stop_token& stop) { return replay(group, job, stop); });
       });
 }
 
@@ -83,4 +83,4 @@ Handlers job_handlers(const JobGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

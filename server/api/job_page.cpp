@@ -1,6 +1,6 @@
 #include "server/api/job_page.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // Of a reply line, for everything around the jobs.
@@ -32,7 +32,7 @@ class Page {
 
  private:
   bool take_room(const Json& entry) {
-    const std::size_t bytes = write_json(entry).size() + 1;
+    const std::size_t bytes = proto::write_json(entry).size() + 1;
     const bool fits = bytes <= left_;
     left_ -= std::min(bytes, left_);
     return fits;
@@ -60,7 +60,7 @@ bool add_views(const ViewSources& sources, const JobPage& found, Page& page) {
 
 }  // namespace
 
-Json job_page(const ViewSources& sources, const ListParams& list, std::size_t max_line) {
+Json job_page(const ViewSources& sources, const proto::ListParams& list, std::size_t max_line) {
   // Read first: what happens meanwhile comes as an event behind it.
   const std::uint64_t last_event = sources.store.last_event({});
   JobWindow window{list.after, list.before, list.newest, list.limit};
@@ -74,4 +74,4 @@ Json job_page(const ViewSources& sources, const ListParams& list, std::size_t ma
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

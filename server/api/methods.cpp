@@ -5,7 +5,7 @@
 
 #include "proto/error_codes.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::array table{
@@ -45,7 +45,7 @@ const Method& find_method(const std::string& name) {
   if (found != table.end()) return *found;
   std::string names;
   for (const Method& method : table) names += (names.empty() ? "" : ", ") + std::string(method.name);
-  throw ProtocolError("unknown_method", "there is no method '" + name + "': there are " + names, "/method");
+  throw proto::ProtocolError("unknown_method", "there is no method '" + name + "': there are " + names, "/method");
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@
 
 #include "server/access/tokens.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Method {
   std::string_view name;
@@ -19,4 +19,4 @@ std::span<const Method> methods();
 /// Throws ProtocolError `unknown_method`.
 const Method& find_method(const std::string& name);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

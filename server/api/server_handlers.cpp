@@ -4,17 +4,17 @@
 #include "proto/version.hpp"
 #include "server/api/handlers.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
-void greet(const ServerGroup& group, Session& session, const HelloParams& hello) {
+void greet(const ServerGroup& group, Session& session, const proto::HelloParams& hello) {
   Identity identity = group.access.identify(session.peer(), hello.token);
   const bool known = session.identity() != nullptr && session.owner() == identity.owner;
   const auto most = static_cast<std::size_t>(group.config.max_connections_per_owner);
   if (!known && group.connections.count_of(identity.owner) >= most) {
-    throw ProtocolError("too_many_connections", "you have " + std::to_string(most) +
-                                                    " connections already: use one for many requests, or raise "
-                                                    "max_connections_per_owner");
+    throw proto::ProtocolError("too_many_connections", "you have " + std::to_string(most) +
+                                                           " connections already: use one for many requests, or raise "
+                                                           "max_connections_per_owner");
   }
   session.greet(hello, std::move(identity));
 }
@@ -28,42 +28,43 @@ void turn_away(const Call& call, const Json& error) {
 }
 
 void on_hello(const ServerGroup& group, Call call) {
-  const HelloParams hello = read_hello(call.params);
-  if (hello.major != protocol_major) {
-    return turn_away(call, error_object("protocol_unsupported",
-                                        "this server speaks protocol [1,0], not [" + std::to_string(hello.major) + "," +
-                                            std::to_string(hello.minor) + "]",
-                                        "/params/protocol"));
+  const proto::HelloParams hello = proto::read_hello(call.params);
+  if (hello.major != proto::protocol_major) {
+    return turn_away(
+        call, proto::error_object("protocol_unsupported",
+                                  "this server speaks protocol [1,0], not [" + std::to_string(hello.major) + "," +
+                                      std::to_string(hello.minor) + "]",
+                                  "/params/protocol"));
   }
   try {
     greet(group, *call.session, hello);
-  } catch (const ProtocolError& error) {
-    return turn_away(call, error_object(error.code(), error.what(), error.pointer()));
+  } catch (const proto::ProtocolError& error) {
+    return turn_away(call, proto::error_object(error.code(), error.what(), error.pointer()));
   }
-  answer(call, {{"protocol", {protocol_major, protocol_minor}},
-                {"server", server_name},
+  answer(call, {{"protocol", {proto::protocol_major, proto::protocol_minor}},
+                {"server", proto::server_name},
                 {"epoch", group.store.epoch()},
                 {"features", {"chunk", "events", "verify"}},
                 {"limits",
                  {{"line", call.session->line_limit()},
-                  {"chunk", max_chunk_bytes},
+                  {"chunk", proto::max_chunk_bytes},
                   {"blob", group.config.blob_limit_bytes},
-                  {"depth", max_json_depth}}}});
+                  {"depth", proto::max_json_depth}}}});
 }
 
 void on_ping(const ServerGroup&, Call call) {
-  read_nothing(call.params);
+  proto::read_nothing(call.params);
   answer(call, Json::object());
 }
 
 void on_server_info(const ServerGroup& group, Call call) {
-  read_nothing(call.params);
+  proto::read_nothing(call.params);
   group.answers.read(std::move(call), [group] {
     const auto uptime = std::chrono::steady_clock::now() - group.started;
     Json jobs = Json::object();
     for (const auto& [state, count] : group.store.counts()) jobs[name(state)] = count;
-    return Json{{"server", server_name},
-                {"protocol", {protocol_major, protocol_minor}},
+    return Json{{"server", proto::server_name},
+                {"protocol", {proto::protocol_major, proto::protocol_minor}},
                 {"epoch", group.store.epoch()},
                 {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
                 {"workers", group.workers},
@@ -74,8 +75,8 @@ void on_server_info(const ServerGroup& group, Call call) {
 }
 
 void on_server_schema(const ServerGroup& group, Call call) {
-  const std::string method = read_schema_method(call.params);
-  group.answers.read(std::move(call), [method] { return protocol_schema(method); });
+  const std::string method = proto::read_schema_method(call.params);
+  group.answers.read(std::move(call), [method] { return proto::protocol_schema(method); });
 }
 
 }  // namespace
@@ -89,4 +90,4 @@ Handlers server_handlers(const ServerGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

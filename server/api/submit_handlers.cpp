@@ -1,15 +1,15 @@
 #include <spdlog/spdlog.h>
 
-#include "server/base/crash_point.hpp"
 #include "server/api/handlers.hpp"
+#include "server/base/crash_point.hpp"
 #include "server/run/isolated_check.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 /// A submit on its way: what the client wants, and the job that comes of it.
 struct Admission {
-  SubmitParams submit;
+  proto::SubmitParams submit;
   std::string client;  ///< whose checks stand in one line
   std::chrono::milliseconds check_time;
   NewJob job;
@@ -31,7 +31,7 @@ Answer store_job(const SubmitGroup& group, const Admission& admission) {
 bool prepare(const SubmitGroup& group, Admission& admission) {
   NewJob& job = admission.job;
   if (!job.key.empty() && group.store.find_key(job.key)) return true;
-  const JobSpec& spec = admission.submit.spec;
+  const proto::JobSpec& spec = admission.submit.spec;
   if (job.cell_bundle.empty()) job.cell_bundle = store_cell(group.planner.read_cell(spec.robot), group.blobs);
   const JobSizes sizes = measure(spec, job.cell_bundle, group.blobs);
   check_sizes(sizes, group.defaults.memory_cap_bytes);
@@ -55,20 +55,19 @@ void admit(const SubmitGroup& group, std::shared_ptr<Call> call, const std::shar
     return group.answers.with(std::move(call), []() -> Answer { throw; });
   }
   if (known) return group.answers.with(std::move(call), [&] { return store_job(group, *admission); });
-  group.checks.add(admission->client,
-                      [group, call = std::move(call), admission](const std::stop_token& stop) mutable {
-                        group.answers.with(std::move(call), [&] {
-                          check(group, *admission, stop);
-                          return store_job(group, *admission);
-                        });
-                      });
+  group.checks.add(admission->client, [group, call = std::move(call), admission](const std::stop_token& stop) mutable {
+    group.answers.with(std::move(call), [&] {
+      check(group, *admission, stop);
+      return store_job(group, *admission);
+    });
+  });
 }
 
 void on_submit(const SubmitGroup& group, Call call) {
-  SubmitParams submit = read_submit(call.params);
+  proto::SubmitParams submit = proto::read_submit(call.params);
   NewJob job{submit.key,
              {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s},
-             write_json(to_json(submit.spec)),
+             proto::write_json(to_json(submit.spec)),
              submit.spec.cell_bundle,
              0,
              call.session->owner()};
@@ -78,7 +77,7 @@ void on_submit(const SubmitGroup& group, Call call) {
   const auto admission =
       std::make_shared<Admission>(Admission{std::move(submit), client, group.config.check_time, std::move(job), {}});
   group.admission.add([group, call = std::make_shared<Call>(std::move(call)),
-                          admission](const std::stop_token&) mutable { admit(group, std::move(call), admission); });
+                       admission](const std::stop_token&) mutable { admit(group, std::move(call), admission); });
 }
 
 }  // namespace
@@ -89,4 +88,4 @@ Handlers submit_handlers(const SubmitGroup& group) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::server {
 
 // Linux keeps a nice value for each thread, which POSIX knows for whole processes only. 0 is the calling thread.
 void work_in_background() {
@@ -12,4 +12,4 @@ void work_in_background() {
   setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + more, most));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

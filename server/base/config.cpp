@@ -6,7 +6,7 @@
 
 #include "core/cell/shipped_cells.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ void set_listen(const std::string& address, Config& config) {
   config.port = static_cast<std::uint16_t>(std::stoi(port));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The config cannot be used; what() names the file and the field.
 class ConfigError : public std::runtime_error {
@@ -56,4 +56,4 @@ Config default_config();
 /// "HOST:PORT" or "[V6]:PORT". Throws ConfigError.
 void set_listen(const std::string& address, Config& config);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

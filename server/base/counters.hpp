@@ -8,7 +8,7 @@
 #include "core/base/watch.hpp"
 #include "server/base/histogram.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Safe from any thread.
 struct Counters {
@@ -18,4 +18,4 @@ struct Counters {
   std::array<Histogram, 6> stage_times;                    ///< by Stage
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -12,7 +12,7 @@
 
 #include "server/base/config.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // In the order of the enum.
@@ -55,4 +55,4 @@ void visit_crash_point(CrashPoint point) {
   if (point == armed && --visits_left == 0) ::kill(::getpid(), SIGKILL);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

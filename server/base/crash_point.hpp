@@ -2,7 +2,7 @@
 // Without that variable a place costs one branch.
 #pragma once
 
-namespace sculpt {
+namespace sculpt::server {
 
 enum class CrashPoint {
   recovered,           // jobs of the daemon before are back in the queue
@@ -36,4 +36,4 @@ inline void crash_point(CrashPoint point) {
   if (crash_point_armed) visit_crash_point(point);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

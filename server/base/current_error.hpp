@@ -3,9 +3,9 @@
 
 #include "proto/json.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Call inside a catch block: the exception as the `error` object of a reply. Logs what is the server's own fault.
 Json current_error();
 
-}  // namespace sculpt
+}  // namespace sculpt::server

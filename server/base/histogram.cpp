@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::server {
 
 void Histogram::add(std::chrono::nanoseconds time) {
   const double seconds = std::chrono::duration<double>(time).count();
@@ -27,4 +27,4 @@ std::string Histogram::text(const std::string& name, const std::string& labels) 
   return text + fmt::format("{}_sum{} {}\n{}_count{} {}\n", name, all, seconds, name, all, sum);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Safe from any thread.
 class Histogram {
@@ -23,4 +23,4 @@ class Histogram {
   std::atomic<std::uint64_t> sum_ns_ = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include "proto/json.hpp"
 #include "server/base/time_stamp.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::array<std::string_view, 3> field_names{"job", "conn", "attempt"};
@@ -88,7 +88,7 @@ std::string json_line(const std::string& time, std::string_view level, std::stri
   while (const std::optional<LogField> field = take_field(message))
     line[std::string(field->name)] = field_value(field->value);
   line["message"] = message;
-  return printable(write_json(line));
+  return printable(proto::write_json(line));
 }
 
 std::string text_line(const std::string& time, std::string_view level, std::string_view message) {
@@ -120,4 +120,4 @@ void set_log(const Config& config) {
   spdlog::set_level(spdlog::level::from_str(config.log));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

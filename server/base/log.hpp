@@ -11,7 +11,7 @@
 
 #include "server/base/config.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 enum class LogForm { text, json };
 
@@ -31,4 +31,4 @@ void start_log(const Config& config);
 /// Takes level and form from the config; any time, from any thread.
 void set_log(const Config& config);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -232,7 +232,7 @@ std::string variable_of(const Setting& setting) {
 }
 
 void read_settings(const Json& object, const fs::path& folder, Config& config) {
-  Fields fields(object, "");
+  proto::Fields fields(object, "");
   for (const auto& [name, value] : object.items()) {
     const Setting* setting = find_setting(name);
     if (setting == nullptr) {
@@ -244,12 +244,12 @@ void read_settings(const Json& object, const fs::path& folder, Config& config) {
 }
 
 void read_setting(const Setting& setting, const std::string& text, Config& config) try {
-  const Json object{{setting.name, setting.is_text ? Json(text) : parse_json(text)}};
+  const Json object{{setting.name, setting.is_text ? Json(text) : proto::parse_json(text)}};
   read_settings(object, {}, config);
-} catch (const JsonError&) {
+} catch (const proto::JsonError&) {
   throw ConfigError(setting.name + " must be a number (" + setting.type + "), not '" + text + "'");
-} catch (const ProtocolError& error) {
+} catch (const proto::ProtocolError& error) {
   throw ConfigError(error.what());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,14 +10,14 @@
 #include "proto/fields.hpp"
 #include "server/base/config.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// When another value takes effect.
 enum class Change { at_start, at_reload };
 
 /// The place of one setting in a JSON object; relative paths are relative to the folder.
 struct SettingEntry {
-  Fields& fields;
+  proto::Fields& fields;
   const std::string& name;
   const std::filesystem::path& folder;
 };
@@ -47,4 +47,4 @@ void read_settings(const Json& object, const std::filesystem::path& folder, Conf
 /// One setting, as a flag or a variable gives it. Throws ConfigError.
 void read_setting(const Setting& setting, const std::string& text, Config& config);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

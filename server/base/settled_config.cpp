@@ -6,13 +6,13 @@
 #include <fstream>
 #include <iterator>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::string shown(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : write_json(value);
+  return value.is_string() ? value.get<std::string>() : proto::write_json(value);
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ std::vector<std::string> read_config(const fs::path& file, Config& config) {
   if (!in) throw ConfigError("cannot read the config file '" + file.string() + "'");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   try {
-    const Json json = parse_json(text);
+    const Json json = proto::parse_json(text);
     read_settings(json, fs::absolute(file).parent_path(), config);
     std::vector<std::string> names;
     for (const auto& [name, value] : json.items()) names.push_back(name);
@@ -94,4 +94,4 @@ Json settings_json(const SettledConfig& settled) {
   return {{"settings", std::move(list)}};
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

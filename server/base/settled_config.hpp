@@ -8,7 +8,7 @@
 
 #include "server/base/settings.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Overwrites what the file (JSON, see config/server.json) sets, and gives the names of that; relative paths are
 /// relative to the file. Throws ConfigError.
@@ -34,4 +34,4 @@ std::vector<std::string> changes_that_need_a_start(const Config& running, const 
 std::string settings_table(const SettledConfig& settled);
 Json settings_json(const SettledConfig& settled);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

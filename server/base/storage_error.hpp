@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The disk or the database failed; nothing was acknowledged.
 class StorageError : public std::runtime_error {
@@ -17,4 +17,4 @@ class StorageFull : public StorageError {
   using StorageError::StorageError;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include "server/base/background.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 TaskQueue::TaskQueue(Pace pace) : thread_([this, pace](std::stop_token stop) { work(pace, std::move(stop)); }) {}
 
@@ -35,4 +35,4 @@ void TaskQueue::work(Pace pace, std::stop_token stop) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace sculpt {
+namespace sculpt::server {
 
 enum class Pace { prompt, background };
 
@@ -32,4 +32,4 @@ class TaskQueue {
   std::jthread thread_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

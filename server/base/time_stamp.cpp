@@ -6,7 +6,7 @@
 #include <ctime>
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::server {
 
 std::uint64_t unix_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -31,4 +31,4 @@ std::uint64_t unix_ms_of(const std::string& utc_text) {
   return 1000 * static_cast<std::uint64_t>(timegm(&parts)) + std::stoul(rest + 1);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

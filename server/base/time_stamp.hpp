@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 std::uint64_t unix_ms();
 /// "2026-01-31T12:00:00.000Z"
@@ -12,4 +12,4 @@ std::string utc_text(std::uint64_t unix_milliseconds);
 /// The other way, of what utc_text made.
 std::uint64_t unix_ms_of(const std::string& utc_text);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include "server/run/job_run.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 std::string expiry(const JobRecord& job, std::chrono::milliseconds keep) {
@@ -30,7 +30,7 @@ Json error_view(const JobRecord& job) {
 }
 
 Json job_view(const ViewSources& sources, const JobRecord& job) {
-  const JobSpec spec = read_stored_spec(job);
+  const proto::JobSpec spec = read_stored_spec(job);
   Json view{{"job", job.id}, {"state", name(job.state)}};
   if (!job.key.empty()) view["key"] = job.key;
   if (!job.owner.empty()) view["owner"] = job.owner;
@@ -58,4 +58,4 @@ Json job_view(const ViewSources& sources, const JobRecord& job) {
   return view;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

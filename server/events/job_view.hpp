@@ -7,7 +7,7 @@
 #include "server/queue/scheduler.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What a view shows beside the record. Any thread.
 struct ViewSources {
@@ -24,4 +24,4 @@ Json progress_view(const Progress& progress);
 /// `{code, message}` of a job's last failure.
 Json error_view(const JobRecord& job);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

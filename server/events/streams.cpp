@@ -2,11 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/base/task_queue.hpp"
 #include "server/events/job_view.hpp"
-#include "server/queue/scheduler.hpp"
 #include "server/net/session.hpp"
+#include "server/queue/scheduler.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr int events_at_once = 64;
@@ -19,8 +20,8 @@ bool same(const Progress& a, const Progress& b) {
 // Null, which the client sees as left out, where the row is damaged.
 Json data_of(const StateEvent& event) {
   try {
-    return parse_json(event.data);
-  } catch (const JsonError& error) {
+    return proto::parse_json(event.data);
+  } catch (const proto::JsonError& error) {
     spdlog::error("job={} event {} in the database cannot be read: {}", event.job, event.seq, error.what());
     return nullptr;
   }
@@ -107,7 +108,7 @@ void Streams::take(const std::string& job, Subscription& subscription, const std
   Session& session = *subscription.session;
   subscription.reading = false;
   for (const StateEvent& event : events) {
-    EventMessage message{event.job, event.seq, event.time, "state", data_of(event)};
+    proto::EventMessage message{event.job, event.seq, event.time, "state", data_of(event)};
     if (job.empty()) message.number = event.number;
     session.send_event(message);
     subscription.after = job.empty() ? event.number : event.seq;
@@ -132,4 +133,4 @@ void Streams::tell(const std::string& job, Subscription& subscription, const Pro
   subscription.told_at = now;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/base/watch.hpp"
-#include "server/store/job_store.hpp"
 #include "server/net/net.hpp"
+#include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Scheduler;
 class Session;
@@ -66,4 +66,4 @@ class Streams {
   std::uint64_t last_serial_ = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,10 +2,10 @@
 
 #include <chrono>
 
-#include "server/events/job_view.hpp"
 #include "server/base/current_error.hpp"
+#include "server/events/job_view.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 Json end_of(const JobRecord& job) {
@@ -77,4 +77,4 @@ void Waits::drop(Session& session) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "server/base/task_queue.hpp"
-#include "server/store/job_store.hpp"
 #include "server/net/net.hpp"
 #include "server/net/session.hpp"
+#include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Waits {
  public:
@@ -40,4 +40,4 @@ class Waits {
   std::multimap<std::string, Wait> waits_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -12,10 +12,10 @@
 #include "core/base/sha256.hpp"
 #include "proto/error_codes.hpp"
 #include "server/base/crash_point.hpp"
-#include "server/files/durable.hpp"
 #include "server/base/storage_error.hpp"
+#include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,18 +119,18 @@ void Blobs::remove_unused(const std::set<std::string>& needed, std::chrono::seco
 BlobState Blobs::put(const std::string& sha256, std::uint64_t size, std::uint64_t offset, std::string_view bytes) {
   if (const BlobState before = use(sha256); before.complete) return before;
   if (size > max_bytes_) {
-    throw ProtocolError("too_large",
-                        "a blob of " + std::to_string(size) + " bytes is over this server's limit of " +
-                            std::to_string(max_bytes_) + ": send a smaller mesh or raise blob_limit_bytes",
-                        "/params/size");
+    throw proto::ProtocolError("too_large",
+                               "a blob of " + std::to_string(size) + " bytes is over this server's limit of " +
+                                   std::to_string(max_bytes_) + ": send a smaller mesh or raise blob_limit_bytes",
+                               "/params/size");
   }
   const fs::path file = part(sha256, size);
   const std::uint64_t before = size_of(file);
   if (offset > before) {
-    throw ProtocolError("offset_mismatch",
-                        "the server has " + std::to_string(before) + " bytes of this blob, uploaded as one of " +
-                            std::to_string(size) + " bytes: go on there, not at " + std::to_string(offset),
-                        "/params/offset");
+    throw proto::ProtocolError("offset_mismatch",
+                               "the server has " + std::to_string(before) + " bytes of this blob, uploaded as one of " +
+                                   std::to_string(size) + " bytes: go on there, not at " + std::to_string(offset),
+                               "/params/offset");
   }
   write_at(file, offset, bytes);
   crash_point(CrashPoint::blob_written);
@@ -147,9 +147,9 @@ void Blobs::complete(const std::string& sha256, std::uint64_t size) {
   std::error_code error;
   if (fs::file_size(file, error) != size || file_hash(file) != sha256) {
     fs::remove(file, error);
-    throw ProtocolError("blob_mismatch",
-                        "the uploaded bytes do not have the hash " + sha256 + "; they were dropped: upload them again",
-                        "/params/sha256");
+    throw proto::ProtocolError(
+        "blob_mismatch", "the uploaded bytes do not have the hash " + sha256 + "; they were dropped: upload them again",
+        "/params/sha256");
   }
   rename_durably(file, place(sha256));
 }
@@ -173,8 +173,8 @@ std::string Blobs::add(std::string_view bytes) {
 std::uint64_t Blobs::size(const std::string& sha256, const std::string& pointer) const {
   const BlobState blob = use(sha256);
   if (!blob.complete) {
-    throw ProtocolError("blob_missing",
-                        "the blob " + sha256 + " is not (completely) uploaded: send it with blob.put first", pointer);
+    throw proto::ProtocolError(
+        "blob_missing", "the blob " + sha256 + " is not (completely) uploaded: send it with blob.put first", pointer);
   }
   return blob.have;
 }
@@ -187,4 +187,4 @@ std::string Blobs::read(const std::string& sha256, const std::string& pointer) c
   return bytes;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

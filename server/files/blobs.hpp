@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct BlobState {
   std::uint64_t have = 0;  ///< bytes from the start
@@ -50,4 +50,4 @@ class Blobs {
   mutable std::mutex removal_;  ///< a blob is used, or found unused and removed
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ DataFolder::DataFolder(const fs::path& data, std::chrono::milliseconds patience)
   remove_drafts(blobs(), jobs());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 
 #include "server/files/folder_lock.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct FolderPaths {
   std::filesystem::path folder;
@@ -28,4 +28,4 @@ class DataFolder : public FolderPaths {
   FolderLock lock_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -13,7 +13,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 namespace fs = std::filesystem;
 
@@ -64,4 +64,4 @@ void remove_drafts_in(const fs::path& folder) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

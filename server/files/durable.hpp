@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// A sync failed with EIO: the kernel may have dropped what it held, and a second try would hide that. Logs, and ends
 /// the process with EX_IOERR: everything acknowledged is on disk, and the next daemon reads it from there. Any thread.
@@ -22,4 +22,4 @@ void write_durably(const std::filesystem::path& file, std::string_view bytes);
 /// Removes what a process that died left of files that it was writing as a whole, in this folder alone.
 void remove_drafts_in(const std::filesystem::path& folder);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ void await_runs(const fs::path& jobs) {
   ::close(folder);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The folder cannot be used; what() names it, the reason and the cure.
 class DataFolderError : public std::runtime_error {
@@ -35,4 +35,4 @@ void hold_until_exit(const std::filesystem::path& jobs);
 /// Waits for the end of all processes that hold so. Call with the folder's lock.
 void await_runs(const std::filesystem::path& jobs);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace sculpt {
+namespace sculpt::server {
 
 namespace fs = std::filesystem;
 
@@ -27,4 +27,4 @@ fs::path put_aside(const fs::path& jobs, const std::string& name) {
   return place;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Where they are put: jobs.orphaned beside jobs.
 std::filesystem::path orphan_folder(const std::filesystem::path& jobs);
@@ -13,4 +13,4 @@ std::filesystem::path orphan_folder(const std::filesystem::path& jobs);
 /// cannot be moved, which is logged too.
 std::filesystem::path put_aside(const std::filesystem::path& jobs, const std::string& name);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -15,14 +15,14 @@
 #include "proto/crc32.hpp"
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::string line_of(const Mark& mark) {
   const std::string said = fmt::format("sculptd-mark 1 store {} changes {:020}", mark.store, mark.changes);
-  return said + " check " + crc32_hex(said) + "\n";
+  return said + " check " + proto::crc32_hex(said) + "\n";
 }
 
 std::optional<Mark> read_line(const std::string& line) {
@@ -73,4 +73,4 @@ void MarkFile::raise(std::uint64_t changes) {
   if (written == static_cast<ssize_t>(line.size())) next_line_ = 1 - next_line_;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What is in the folder cannot be taken for the store that was there before; what() says what is missing and the
 /// cures.
@@ -60,4 +60,4 @@ class MarkFile {
   int next_line_ = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/base/sha256.hpp"
-#include "server/files/durable.hpp"
 #include "server/base/storage_error.hpp"
+#include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ std::string fault_of(const std::optional<StoredFile>& file, const FileSeal& seal
   return file->seal().sha256 == seal.sha256 ? "" : "has other bytes than were stored";
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What a file must be.
 struct FileSeal {
@@ -40,4 +40,4 @@ std::string fault_of_size(const std::optional<StoredFile>& file, const FileSeal&
 /// The same, of its bytes too. Throws StorageError.
 std::string fault_of(const std::optional<StoredFile>& file, const FileSeal& seal);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <optional>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 std::optional<std::uint64_t> read_number(std::string_view text) {
@@ -37,4 +37,4 @@ ByteRange read_range(std::string_view header, std::uint64_t size) {
   return {ByteRange::Kind::part, *first, open ? size - *first : std::min(*last - *first, size - *first - 1) + 1};
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct ByteRange {
   enum class Kind {
@@ -19,4 +19,4 @@ struct ByteRange {
 /// The header's value, empty if there was none, for something of `size` bytes. Never throws.
 ByteRange read_range(std::string_view header, std::uint64_t size);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

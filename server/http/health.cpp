@@ -3,7 +3,7 @@
 #include "server/files/durable.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store) {
   std::error_code error;
@@ -22,4 +22,4 @@ std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_
   return {};
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 class JobStore;
 
 /// Why the server is not ready, as a sentence; empty: it is. Touches the disk: not on the I/O thread.
 std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -13,7 +13,7 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace http = boost::beast::http;
@@ -72,7 +72,8 @@ void HttpConnection::on_request(const boost::system::error_code& error) {
   plain_ = !error && parser_->get().method() == http::verb::head;
   keep_ = !error && parser_->is_done() && parser_->get().keep_alive() && !peer_.spare;
   enter(Phase::working);
-  if (error) return reply(error_reply(error_object("bad_request", "this is no HTTP request: " + error.message())));
+  if (error)
+    return reply(error_reply(proto::error_object("bad_request", "this is no HTTP request: " + error.message())));
   try {
     const HttpRequest request = read_head(parser_->get());
     spdlog::debug("conn={} {} {}", peer_.number, request.method, request.target);
@@ -226,4 +227,4 @@ void HttpConnection::check_deadlines(Clock::time_point now) {
   if (phase_ == Phase::lingering && still > linger_time) close("lingered too long");
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -14,7 +14,7 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/parser.hpp>
 
-namespace sculpt {
+namespace sculpt::server {
 
 class WebSocket;
 
@@ -57,4 +57,4 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   bool plain_ = false;  // HEAD: no body
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 
 #include "server/net/net.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -49,4 +49,4 @@ bool origin_allowed(std::string_view origin, std::string_view host_header, const
   return std::ranges::find(origins, origin) != origins.end();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The host of "HOST[:PORT]" or "[V6][:PORT]", in lower case; empty where the text is neither.
 std::string host_of(std::string_view authority);
@@ -18,4 +18,4 @@ bool host_allowed(std::string_view host_header, const std::vector<std::string>& 
 /// `origins`.
 bool origin_allowed(std::string_view origin, std::string_view host_header, const std::vector<std::string>& origins);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,7 +10,7 @@
 #include "proto/json.hpp"
 #include "proto/messages.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct WholeRead;
 
@@ -22,7 +22,7 @@ struct HttpRequest {
 
 /// Bytes of an artifact, read while they are sent: from `at.offset` on, `bytes` in all.
 struct FilePart {
-  ArtifactReadParams at;
+  proto::ArtifactReadParams at;
   std::uint64_t bytes = 0;
   std::shared_ptr<WholeRead> so_far = {};
 };
@@ -38,4 +38,4 @@ struct HttpReply {
 /// The error of the catalogue as the body, under the status that fits it.
 HttpReply error_reply(const Json& error_object);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

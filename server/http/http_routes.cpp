@@ -10,7 +10,7 @@
 #include "server/http/health.hpp"
 #include "server/http/http_guard.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
@@ -31,17 +31,17 @@ void authorize(const HttpSources& sources, const Peer& peer, const HttpRequest& 
 }
 
 // JOB/NAME[?format=FORMAT]
-ArtifactReadParams read_artifact_path(std::string_view path) {
+proto::ArtifactReadParams read_artifact_path(std::string_view path) {
   const std::size_t query = std::min(path.find('?'), path.size()), slash = path.find('/');
   if (slash > query) {
-    throw ProtocolError("not_found", "an artifact's path is /v1/artifacts/JOB/NAME[?format=FORMAT]");
+    throw proto::ProtocolError("not_found", "an artifact's path is /v1/artifacts/JOB/NAME[?format=FORMAT]");
   }
-  ArtifactReadParams wanted{
+  proto::ArtifactReadParams wanted{
       std::string(path.substr(0, slash)), std::string(path.substr(slash + 1, query - slash - 1)), {}, 0, piece_bytes};
   if (query == path.size()) return wanted;
   constexpr std::string_view format = "?format=";
   if (!path.substr(query).starts_with(format)) {
-    throw ProtocolError("params_invalid", "the only thing that may follow an artifact's path is ?format=FORMAT");
+    throw proto::ProtocolError("params_invalid", "the only thing that may follow an artifact's path is ?format=FORMAT");
   }
   wanted.format = path.substr(query + format.size());
   return wanted;
@@ -54,12 +54,13 @@ const char* media_type(const std::string& format) {
 }
 
 // Of an artifact's own form its hash; the others are always made alike from it.
-std::string entity_tag(const std::vector<StoredArtifact>& stored, const ArtifactReadParams& wanted,
+std::string entity_tag(const std::vector<StoredArtifact>& stored, const proto::ArtifactReadParams& wanted,
                        const std::string& format) {
   const auto found = std::ranges::find(stored, wanted.artifact, &StoredArtifact::artifact);
   if (found == stored.end()) {
-    throw ProtocolError("wrong_state", "the " + wanted.artifact + " of job " + wanted.job +
-                                           " still grows: HTTP gives what is final; follow it with artifact.read");
+    throw proto::ProtocolError("wrong_state",
+                               "the " + wanted.artifact + " of job " + wanted.job +
+                                   " still grows: HTTP gives what is final; follow it with artifact.read");
   }
   return "\"" + found->sha256 + (format == found->format ? "" : "-" + format) + "\"";
 }
@@ -68,7 +69,7 @@ bool names_tag(const std::string& header, const std::string& tag) {
   return header == "*" || header.find(tag) != std::string::npos;
 }
 
-HttpReply artifact_reply(const HttpSources& sources, ArtifactReadParams wanted, const HttpRequest& request) {
+HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams wanted, const HttpRequest& request) {
   wanted.bytes = 0;
   const auto so_far = std::make_shared<WholeRead>();
   const ArtifactChunk now = sources.artifacts.read(wanted, *so_far);
@@ -104,7 +105,8 @@ HttpReply artifact_reply(const HttpSources& sources, ArtifactReadParams wanted, 
 }
 
 Route artifact_route(const HttpSources& sources, const HttpRequest& request) {
-  const ArtifactReadParams wanted = read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
+  const proto::ArtifactReadParams wanted =
+      read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
   return {nullptr,
           [sources, wanted, request] {
             sources.artifacts.make_export(wanted);
@@ -131,14 +133,16 @@ unsigned status_of(std::string_view code) {
 [[noreturn]] void refuse_page(const Peer& peer, const HttpRequest& request, const char* code,
                               const std::string& sentence) {
   // As JSON, so that no header can forge a line of the log.
-  spdlog::info("conn={} {} host={} origin={}", peer.number, code, write_json(request.host), write_json(request.origin));
-  throw ProtocolError(code, sentence);
+  spdlog::info("conn={} {} host={} origin={}", peer.number, code, proto::write_json(request.host),
+               proto::write_json(request.origin));
+  throw proto::ProtocolError(code, sentence);
 }
 
 }  // namespace
 
 HttpReply error_reply(const Json& error) {
-  HttpReply reply{status_of(error["data"]["code"].get<std::string>()), "application/json", write_json(error) + "\n"};
+  HttpReply reply{status_of(error["data"]["code"].get<std::string>()), "application/json",
+                  proto::write_json(error) + "\n"};
   if (reply.status == 401) reply.headers.emplace_back("WWW-Authenticate", "Bearer");
   if (reply.status == 405) reply.headers.emplace_back("Allow", "GET, HEAD");
   return reply;
@@ -159,14 +163,14 @@ void check_page(const Config& config, const Peer& peer, const HttpRequest& reque
 
 void check_room(const Peer& peer, const HttpRequest& request) {
   if (peer.spare && request.target != live_path && request.target != ready_path)
-    throw ProtocolError("too_many_connections", full_sentence);
+    throw proto::ProtocolError("too_many_connections", full_sentence);
 }
 
 Route find_route(const HttpSources& sources, const ConnectionContext& context, const Peer& peer,
                  const HttpRequest& request) {
   if (request.method != "GET" && request.method != "HEAD") {
-    throw ProtocolError("method_refused", "HTTP only reads here (GET, HEAD): give work over " +
-                                              std::string(web_socket_path) + " or newline-delimited JSON-RPC");
+    throw proto::ProtocolError("method_refused", "HTTP only reads here (GET, HEAD): give work over " +
+                                                     std::string(web_socket_path) + " or newline-delimited JSON-RPC");
   }
   if (request.target == live_path)
     return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
@@ -179,18 +183,19 @@ Route find_route(const HttpSources& sources, const ConnectionContext& context, c
   }
   authorize(sources, peer, request);
   if (request.target == "/metrics") {
-    return {&sources.reads, [metrics = sources.metrics, open = context.connections.count(), data = context.config.data] {
+    return {&sources.reads,
+            [metrics = sources.metrics, open = context.connections.count(), data = context.config.data] {
               return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(metrics, open, data)};
             }};
   }
   if (request.target == schema_path) {
-    return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(schema_text())}; }};
+    return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(proto::schema_text())}; }};
   }
   if (request.target.starts_with(artifacts_path)) return artifact_route(sources, request);
-  throw ProtocolError("not_found",
-                      "there is nothing at this path: there are /livez, /readyz, /metrics, /schema.json, "
-                      "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
-                          std::string(web_socket_path));
+  throw proto::ProtocolError("not_found",
+                             "there is nothing at this path: there are /livez, /readyz, /metrics, /schema.json, "
+                             "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
+                                 std::string(web_socket_path));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

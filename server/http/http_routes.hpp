@@ -10,7 +10,7 @@
 #include "server/net/connection_context.hpp"
 #include "server/results/artifacts.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 inline constexpr const char* web_socket_path = "/v1/ws";
 
@@ -42,4 +42,4 @@ void check_room(const Peer& peer, const HttpRequest& request);
 Route find_route(const HttpSources& sources, const ConnectionContext& context, const Peer& peer,
                  const HttpRequest& request);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

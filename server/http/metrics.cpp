@@ -8,7 +8,7 @@
 
 #include "proto/version.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::array<Stage, 6> stages{Stage::load, Stage::voxelize, Stage::octree,
@@ -71,7 +71,7 @@ std::string storage_text(const MetricSources& sources, const std::filesystem::pa
 std::string process_text(const MetricSources& sources) {
   const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - sources.started;
   return head("sculptd_build_info", "gauge", "Always 1; the label says which build runs.") +
-         fmt::format("sculptd_build_info{{server=\"{}\"}} 1\n", server_name) +
+         fmt::format("sculptd_build_info{{server=\"{}\"}} 1\n", proto::server_name) +
          single("sculptd_uptime_seconds", "gauge", "Time since the start.", uptime.count()) +
          single("process_resident_memory_bytes", "gauge", "Memory in use.", resident_bytes());
 }
@@ -83,4 +83,4 @@ std::string metrics_text(const MetricSources& sources, std::size_t connections, 
          process_text(sources);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

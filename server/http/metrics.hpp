@@ -9,7 +9,7 @@
 #include "server/base/counters.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What the figures are taken from.
 struct MetricSources {
@@ -23,4 +23,4 @@ struct MetricSources {
 /// any other. Throws StorageError.
 std::string metrics_text(const MetricSources& sources, std::size_t connections, const std::filesystem::path& data);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

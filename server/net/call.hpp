@@ -7,7 +7,7 @@
 
 #include "proto/json.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Session;
 
@@ -42,4 +42,4 @@ class RequestHandler {
   virtual void on_closed(Session& session) = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::server {
 
 void Connections::for_each(const std::function<void(Connection&)>& visit) {
   for (auto entry = list_.begin(); entry != list_.end();) {
@@ -36,4 +36,4 @@ void Connections::thin_spare(std::size_t most) {
   for (std::size_t i = 0; i + most < spare.size(); ++i) spare[i]->close("the server is full");
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

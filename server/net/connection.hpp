@@ -10,7 +10,7 @@
 
 #include "server/access/peer.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What a peer that came when the server was full is told.
 inline constexpr const char* full_sentence =
@@ -46,4 +46,4 @@ class Connections {
   std::list<std::weak_ptr<Connection>> list_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

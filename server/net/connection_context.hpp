@@ -7,7 +7,7 @@
 #include "server/net/connection.hpp"
 #include "server/net/net.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// I/O thread only, but for `io` and `counters`.
 struct ConnectionContext {
@@ -18,4 +18,4 @@ struct ConnectionContext {
   RequestHandler& requests;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

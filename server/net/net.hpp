@@ -18,6 +18,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace net = boost::asio;
-}  // namespace sculpt
+}  // namespace sculpt::server

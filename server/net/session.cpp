@@ -6,7 +6,7 @@
 
 #include "server/net/net.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::size_t read_bytes = 64 << 10;
@@ -23,24 +23,21 @@ constexpr int lost_probes = 3;
 
 // The error as a line of at most max_line bytes: its sentence is cut, then its pointer is left out.
 std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
-  std::string line = error_line(id, error);
+  std::string line = proto::error_line(id, error);
   while (line.size() > max_line) {
     const std::string sentence = error["message"];
     if (sentence.empty()) break;
     error["message"] = sentence.substr(0, sentence.size() - std::min(sentence.size(), line.size() - max_line));
-    line = error_line(id, error);
+    line = proto::error_line(id, error);
   }
   if (line.size() > max_line) error["data"].erase("pointer");
-  return error_line(id, error);
+  return proto::error_line(id, error);
 }
 
 }  // namespace
 
 Session::Session(std::unique_ptr<Transport> transport, Peer peer, ConnectionContext& context)
-    : transport_(std::move(transport)),
-      peer_(std::move(peer)),
-      context_(context),
-      reader_(short_line_bytes) {}
+    : transport_(std::move(transport)), peer_(std::move(peer)), context_(context), reader_(short_line_bytes) {}
 
 void Session::start(std::string_view first) {
   spdlog::debug("conn={} session", peer_.number);
@@ -53,13 +50,13 @@ void Session::turn_away(const char* code, const std::string& sentence) {
   fail_connection(nullptr, code, sentence);
 }
 
-void Session::greet(const HelloParams& hello, Identity identity) {
+void Session::greet(const proto::HelloParams& hello, Identity identity) {
   identity_ = std::move(identity);
   max_line_ = hello.max_line;
-  reader_.set_line_limit(identity_->scope == Scope::read ? short_line_bytes : max_line_bytes);
+  reader_.set_line_limit(identity_->scope == Scope::read ? short_line_bytes : proto::max_line_bytes);
   // As JSON, so that no name can forge a line of the log.
   spdlog::log(identity_->owner.empty() ? spdlog::level::debug : spdlog::level::info, "conn={} owner={} client={}",
-              peer_.number, identity_->owner, write_json(hello.client));
+              peer_.number, identity_->owner, proto::write_json(hello.client));
 }
 
 bool Session::writable() const {
@@ -118,25 +115,25 @@ bool Session::may_take_requests() const {
 
 void Session::pump_input() {
   while (may_take_requests()) {
-    std::optional<WireFrame> frame = reader_.next();
+    std::optional<proto::WireFrame> frame = reader_.next();
     if (!frame) return read();
     on_frame(std::move(*frame));
   }
   if (finishing_) read();
 }
 
-void Session::on_frame(WireFrame frame) {
+void Session::on_frame(proto::WireFrame frame) {
   switch (frame.kind) {
-    case WireFrame::Kind::line:
+    case proto::WireFrame::Kind::line:
       return on_line(std::move(frame.bytes));
-    case WireFrame::Kind::chunk:
+    case proto::WireFrame::Kind::chunk:
       return handle(std::exchange(waiting_, {}), std::move(frame.bytes));
-    case WireFrame::Kind::too_long:
+    case proto::WireFrame::Kind::too_long:
       return fail_connection(nullptr, "line_too_long",
                              "a line is over the limit of " + std::to_string(reader_.line_limit()) +
                                  (identity_ ? " bytes: send bulk with blob.put" : " bytes before hello") +
                                  "; the connection is closed");
-    case WireFrame::Kind::bad_chunk:
+    case proto::WireFrame::Kind::bad_chunk:
       return fail_connection(waiting_.request.id, "bad_request",
                              "the chunk is not followed by LF, so \"bytes\" was wrong; the connection is closed",
                              "/params/bytes");
@@ -145,14 +142,14 @@ void Session::on_frame(WireFrame frame) {
 
 void Session::on_line(std::string line) {
   const bool first = std::exchange(first_line_, false);
-  if (!is_text(line) || (first && line.front() != '{')) {
+  if (!proto::is_text(line) || (first && line.front() != '{')) {
     return fail_connection(nullptr, "not_text",
                            "this is no line of JSON (control bytes, not UTF-8, or another protocol); sculptd speaks "
                            "newline-delimited JSON-RPC, see PROTOCOL.md; the connection is closed");
   }
-  ParsedLine parsed = parse_request(line);
+  proto::ParsedLine parsed = proto::parse_request(line);
   try {
-    if (const std::optional<std::size_t> bytes = announced_chunk(parsed.request)) {
+    if (const std::optional<std::size_t> bytes = proto::announced_chunk(parsed.request)) {
       if (!identity_) {
         return fail_connection(parsed.request.id, "hello_required",
                                "say hello before you send bulk; the connection is closed");
@@ -161,18 +158,18 @@ void Session::on_line(std::string line) {
       reader_.expect_chunk(*bytes);
       return;
     }
-  } catch (const ProtocolError& error) {
+  } catch (const proto::ProtocolError& error) {
     return fail_connection(parsed.request.id, error.code().c_str(), error.what(), error.pointer());
   }
   handle(std::move(parsed), {});
 }
 
-void Session::handle(ParsedLine parsed, std::string chunk) {
+void Session::handle(proto::ParsedLine parsed, std::string chunk) {
   ++pending_;
   ++context_.counters.requests;
   if (parsed.error) {
-    const ProtocolError& error = *parsed.error;
-    return refuse(parsed.request.id, error_object(error.code(), error.what(), error.pointer()));
+    const proto::ProtocolError& error = *parsed.error;
+    return refuse(parsed.request.id, proto::error_object(error.code(), error.what(), error.pointer()));
   }
   taken_ = parsed.request.id;
   context_.requests.take(
@@ -183,7 +180,7 @@ void Session::handle(ParsedLine parsed, std::string chunk) {
 void Session::fail_connection(const Json& id, const char* code, const std::string& sentence,
                               const std::string& pointer) {
   spdlog::info("conn={} {}", peer_.number, code);
-  send(error_line(id, error_object(code, sentence, pointer)) + "\n");
+  send(proto::error_line(id, proto::error_object(code, sentence, pointer)) + "\n");
   finish();
 }
 
@@ -191,10 +188,10 @@ void Session::fail_connection(const Json& id, const char* code, const std::strin
 
 void Session::answer(const Json& id, Reply reply) {
   if (reply.line.size() > max_line_) {
-    return refuse(id, error_object("reply_too_long", "the reply has " + std::to_string(reply.line.size()) +
-                                                         " bytes, over this connection's max_line of " +
-                                                         std::to_string(max_line_) +
-                                                         ": ask for less or say hello with a greater max_line"));
+    return refuse(id, proto::error_object("reply_too_long", "the reply has " + std::to_string(reply.line.size()) +
+                                                                " bytes, over this connection's max_line of " +
+                                                                std::to_string(max_line_) +
+                                                                ": ask for less or say hello with a greater max_line"));
   }
   send(std::move(reply.line.append("\n")));
   if (reply.chunk) send(std::move(reply.chunk->append("\n")), Transport::Frame::chunk);
@@ -216,14 +213,14 @@ void Session::answered(const Json& id) {
   });
 }
 
-void Session::send_event(const EventMessage& event) {
-  std::string line = event_line(to_json(event));
+void Session::send_event(const proto::EventMessage& event) {
+  std::string line = proto::event_line(to_json(event));
   if (line.size() > max_line_ || (event.data.is_null() && event.seq)) {
-    EventMessage brief = event;
+    proto::EventMessage brief = event;
     brief.data = nullptr;
     Json params = to_json(brief);
     params["more"] = true;
-    line = event_line(params);
+    line = proto::event_line(params);
   }
   ++context_.counters.events;
   send(line + "\n");
@@ -305,7 +302,7 @@ void Session::check_deadlines(Clock::time_point now) {
 }
 
 void answer(const Call& call, const Json& result) {
-  call.session->answer(call.id, {reply_line(call.id, result), std::nullopt});
+  call.session->answer(call.id, {proto::reply_line(call.id, result), std::nullopt});
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

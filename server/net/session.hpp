@@ -15,7 +15,7 @@
 #include "server/net/connection_context.hpp"
 #include "server/net/transport.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct WholeRead;
 
@@ -30,7 +30,7 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   void answer(const Json& id, Reply reply);
   void refuse(const Json& id, const Json& error_object);
   /// An event over the client's max_line loses its data; a state event without data says that there is more.
-  void send_event(const EventMessage& event);
+  void send_event(const proto::EventMessage& event);
   /// Call from the handler of a request: no other of this connection is taken until that one is answered.
   void hold() { held_by_ = taken_; }
   /// Sends what is queued, then closes.
@@ -53,7 +53,7 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   const Identity* identity() const override { return identity_ ? &*identity_ : nullptr; }
   bool spare() const override { return peer_.spare && !closed_; }
   std::string owner() const { return identity_ ? identity_->owner : std::string(); }
-  void greet(const HelloParams& hello, Identity identity);
+  void greet(const proto::HelloParams& hello, Identity identity);
   std::size_t max_line() const { return max_line_; }
   /// Of the lines that it may send.
   std::size_t line_limit() const { return reader_.line_limit(); }
@@ -67,9 +67,9 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   void on_read(const boost::system::error_code& error, std::string_view bytes);
   void pump_input();
   bool may_take_requests() const;
-  void on_frame(WireFrame frame);
+  void on_frame(proto::WireFrame frame);
   void on_line(std::string line);
-  void handle(ParsedLine parsed, std::string chunk);
+  void handle(proto::ParsedLine parsed, std::string chunk);
   void fail_connection(const Json& id, const char* code, const std::string& sentence, const std::string& pointer = {});
   void answered(const Json& id);
   /// One frame, its LF included.
@@ -88,12 +88,12 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
   std::unique_ptr<Transport> transport_;
   Peer peer_;
   ConnectionContext& context_;
-  FrameReader reader_;
-  ParsedLine waiting_;  // the request whose chunk is being read
+  proto::FrameReader reader_;
+  proto::ParsedLine waiting_;  // the request whose chunk is being read
   std::deque<Outgoing> queue_;
   std::size_t queued_bytes_ = 0;
   std::size_t sent_ = 0;  // of the first in the queue
-  std::size_t max_line_ = max_line_bytes;
+  std::size_t max_line_ = proto::max_line_bytes;
   int pending_ = 0;  // dispatched and not yet answered
   Json taken_;       // id of the request that was dispatched last
   std::optional<Json> held_by_;
@@ -113,4 +113,4 @@ class Session : public Connection, public std::enable_shared_from_this<Session> 
 /// Answers at once.
 void answer(const Call& call, const Json& result);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

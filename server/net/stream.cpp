@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace sculpt {
+namespace sculpt::server {
 
 std::string Stream::certificate_name() {
   if (!tls_) return {};
@@ -39,4 +39,4 @@ void beast_close_socket(Stream& stream) {
   stream.close();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/core/role.hpp>
 
-namespace sculpt {
+namespace sculpt::server {
 
 namespace ssl = net::ssl;
 
@@ -75,4 +75,4 @@ void async_teardown(boost::beast::role_type role, Stream& stream, Handler&& hand
   net::post(stream.get_executor(), [handler = std::forward<Handler>(handler), error]() mutable { handler(error); });
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,6 +1,6 @@
 #include "server/net/stream_transport.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 void StreamTransport::read(std::size_t limit, ReadHandler handler) {
   buffer_.resize(limit);
@@ -14,4 +14,4 @@ void StreamTransport::write(std::string_view rest, Frame, WriteHandler handler) 
   stream_.async_write_some(net::buffer(rest.data(), rest.size()), std::move(handler));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 #include "server/net/stream.hpp"
 #include "server/net/transport.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class StreamTransport : public Transport {
  public:
@@ -23,4 +23,4 @@ class StreamTransport : public Transport {
   std::string buffer_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

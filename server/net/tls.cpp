@@ -9,7 +9,7 @@
 // Behind net.hpp.
 #include <boost/asio/ssl/context.hpp>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace ssl = net::ssl;
@@ -51,4 +51,4 @@ std::shared_ptr<ssl::context> make_tls(const Config& config) {
   return context;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@ namespace boost::asio::ssl {
 class context;
 }
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Config;
 
@@ -15,4 +15,4 @@ struct Config;
 /// authority, and must where there are no tokens. Null: TLS is not configured. Throws ConfigError naming the file.
 std::shared_ptr<boost::asio::ssl::context> make_tls(const Config& config);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

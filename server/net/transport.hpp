@@ -7,7 +7,7 @@
 
 #include "server/net/net.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// One read and one write at a time. A handler is never called from within the call that was given it, and keeps
 /// alive whoever owns the transport.
@@ -29,4 +29,4 @@ class Transport {
   virtual int native_handle() = 0;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

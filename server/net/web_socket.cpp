@@ -4,7 +4,7 @@
 
 #include "proto/framing.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace websocket = boost::beast::websocket;
@@ -15,7 +15,7 @@ constexpr std::size_t piece_bytes = 64 << 10;
 }  // namespace
 
 WebSocket::WebSocket(Stream stream) : socket_(std::move(stream)) {
-  socket_.read_message_max(max_chunk_bytes);
+  socket_.read_message_max(proto::max_chunk_bytes);
 }
 
 void WebSocket::accept(Request request, std::function<void(const boost::system::error_code&)> done) {
@@ -48,4 +48,4 @@ void WebSocket::end_sending(std::shared_ptr<void> owner) {
   socket_.async_close(websocket::close_code::normal, [owner = std::move(owner)](const boost::system::error_code&) {});
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,7 +10,7 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 class WebSocket : public Transport {
  public:
@@ -32,4 +32,4 @@ class WebSocket : public Transport {
   std::string buffer_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,4 +1,4 @@
-#include "server/queue/drain_limit.hpp"
+#include "server/ops/drain_limit.hpp"
 
 #include <spdlog/spdlog.h>
 #include <sysexits.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <mutex>
 
-namespace sculpt {
+namespace sculpt::server {
 
 DrainLimit::DrainLimit(std::chrono::milliseconds time)
     : timer_([time](std::stop_token stop) {
@@ -20,4 +20,4 @@ DrainLimit::DrainLimit(std::chrono::milliseconds time)
         std::_Exit(EX_TEMPFAIL);
       }) {}
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Unless it is destroyed before, ends the process with EX_TEMPFAIL (75) when the time is over. What was acknowledged
 /// is on disk by then; jobs that still run are interrupted as by a kill.
@@ -16,4 +16,4 @@ class DrainLimit {
   std::jthread timer_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

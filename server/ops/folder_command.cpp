@@ -7,7 +7,7 @@
 #include "server/ops/fsck.hpp"
 #include "server/ops/store_opening.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 void add_folder_command(CLI::App& app, FolderCommand& command) {
   using Verb = FolderCommand::Verb;
@@ -27,4 +27,4 @@ int run_folder_command(const FolderCommand& command, const Config& config, std::
   return EXIT_SUCCESS;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

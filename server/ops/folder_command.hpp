@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Config;
 
@@ -22,4 +22,4 @@ void add_folder_command(CLI::App& app, FolderCommand& command);
 /// Prints what was done or found, and gives the exit code. Throws DataFolderError, StoreLost, StorageError.
 int run_folder_command(const FolderCommand& command, const Config& config, std::ostream& out);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

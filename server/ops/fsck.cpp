@@ -4,12 +4,12 @@
 #include <iterator>
 #include <ostream>
 
-#include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
 #include "server/files/store_mark.hpp"
 #include "server/ops/store_opening.hpp"
+#include "server/store/job_store.hpp"
+#include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ int run_fsck(const FolderPaths& folder, bool repair, std::ostream& out) {
   return left == 0 ? 0 : 1;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

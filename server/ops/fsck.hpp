@@ -8,7 +8,7 @@
 
 #include "server/files/data_folder.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class Database;
 class JobStore;
@@ -36,4 +36,4 @@ std::vector<Fault> find_missing_blobs(const FolderPaths& folder, JobStore& store
 /// Folders of unknown jobs, drafts of files.
 std::vector<Fault> find_stray_faults(const FolderPaths& folder, JobStore& store);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

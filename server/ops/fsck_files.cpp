@@ -2,14 +2,15 @@
 
 #include "proto/cell_bundle.hpp"
 #include "server/files/blobs.hpp"
-#include "server/results/exported_file.hpp"
-#include "server/ops/fsck.hpp"
-#include "server/run/job_run.hpp"
 #include "server/files/orphans.hpp"
-#include "server/store/sqlite.hpp"
 #include "server/files/stored_file.hpp"
+#include "server/ops/fsck.hpp"
+#include "server/results/exported_file.hpp"
+#include "server/run/job_run.hpp"
+#include "server/store/job_store.hpp"
+#include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,7 +50,7 @@ void check_export(const fs::path& jobs, const std::string& job, const std::strin
 // A bundle whose hash is wrong is a fault already, and says nothing.
 std::vector<std::string> bundle_files(const Blobs& blobs, const std::string& bundle) try {
   std::vector<std::string> files;
-  for (const auto& [reference, sha256] : read_cell_bundle(blobs.read(bundle, "")).files) files.push_back(sha256);
+  for (const auto& [reference, sha256] : proto::read_cell_bundle(blobs.read(bundle, "")).files) files.push_back(sha256);
   return files;
 } catch (const std::runtime_error&) {
   return {};
@@ -62,7 +63,7 @@ std::map<std::string, std::string> needed_blobs(JobStore& store, const Blobs& bl
   for (bool more = true; more;) {
     const JobPage found = store.list(window);
     for (const JobRecord& job : found.jobs) {
-      const JobSpec spec = read_stored_spec(job);
+      const proto::JobSpec spec = read_stored_spec(job);
       needed.emplace(spec.mesh.sha256, job.id);
       if (spec.stock_mesh) needed.emplace(spec.stock_mesh->sha256, job.id);
       if (!needed.emplace(job.cell_bundle, job.id).second) continue;
@@ -150,4 +151,4 @@ std::vector<Fault> find_stray_faults(const FolderPaths& folder, JobStore& store)
   return faults;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include "server/store/job_store.hpp"
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr const char* restore = "restore a backup of the data folder";
@@ -45,4 +45,4 @@ std::vector<Fault> find_store_faults(Database& database) {
   return faults;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

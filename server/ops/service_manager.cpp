@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 std::string variable(const char* name) {
@@ -62,4 +62,4 @@ void ServiceManager::tell(const std::string& lines) {
            reinterpret_cast<const sockaddr*>(&address_), address_bytes_);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Does nothing where nobody asked to be told. One thread.
 class ServiceManager {
@@ -45,4 +45,4 @@ class ServiceManager {
   std::string status_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

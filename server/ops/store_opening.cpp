@@ -1,12 +1,12 @@
 #include "server/ops/store_opening.hpp"
 
-#include "server/store/job_id.hpp"
 #include "server/files/orphans.hpp"
+#include "server/files/store_mark.hpp"
+#include "server/store/job_id.hpp"
 #include "server/store/sqlite.hpp"
 #include "server/store/store_facts.hpp"
-#include "server/files/store_mark.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ std::vector<std::string> adopt_store(const DataFolder& folder) {
   return done;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 #include "server/files/data_folder.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The store is the one that belongs into the folder, and whole: there is one unless the folder is fresh, it is the one
 /// that the mark names, and knows no less than the mark. Changes nothing. Throws StoreLost, StorageError.
@@ -20,4 +20,4 @@ std::unique_ptr<JobStore> open_store(const DataFolder& folder, StoreRules rules)
 /// StoreLost (damaged: nothing to go on with), StorageError.
 std::vector<std::string> adopt_store(const DataFolder& folder);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::server {
 
 CheckDesk::CheckDesk(int at_once) : at_once_(at_once) {
   for (int i = 0; i < at_once; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
@@ -51,4 +51,4 @@ void CheckDesk::work(const std::stop_token& stop) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 
 #include "server/base/task_queue.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// As TaskQueue, with `at_once` (at least 2) threads. Of those one client gets all but one; among the waiting tasks the
 /// next is the first of a client that has the fewest at work.
@@ -42,4 +42,4 @@ class CheckDesk {
   std::vector<std::jthread> threads_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include "core/base/sha256.hpp"
 #include "core/plan/job_key.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::size_t most_kept = 1'000'000;  // 65 MB; then it begins anew
@@ -36,8 +36,8 @@ std::string nameless(const std::string& name) {
 
 }  // namespace
 
-std::string check_key(const JobSpec& spec, const std::string& cell_bundle, const JobDefaults& defaults) {
-  JobSpec checked = spec;
+std::string check_key(const proto::JobSpec& spec, const std::string& cell_bundle, const JobDefaults& defaults) {
+  proto::JobSpec checked = spec;
   checked.seed = 0;
   checked.threads.reset();
   checked.robot.clear();
@@ -45,7 +45,7 @@ std::string check_key(const JobSpec& spec, const std::string& cell_bundle, const
   checked.mesh.name = nameless(spec.mesh.name);
   if (checked.stock_mesh) checked.stock_mesh->name = nameless(spec.stock_mesh->name);
   Sha256 hash;
-  for (const std::string& field : {program_hash(), std::string("check"), write_json(to_json(checked)),
+  for (const std::string& field : {program_hash(), std::string("check"), proto::write_json(to_json(checked)),
                                    std::to_string(defaults.memory_cap_bytes)}) {
     hash.add(std::to_string(field.size()) + ":");  // where one ends, whatever is in it
     hash.add(field);
@@ -75,4 +75,4 @@ void PassedChecks::add(const std::string& key) {
                  std::strerror(errno));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

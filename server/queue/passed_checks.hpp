@@ -8,11 +8,11 @@
 
 #include "server/run/translate.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Names all that a check depends on: the files by their content, what is to be made of them, the limits, and the
 /// program that checks. Not the seed, the number of threads and the names of files. `cell_bundle` as in to_job.
-std::string check_key(const JobSpec& spec, const std::string& cell_bundle, const JobDefaults& defaults);
+std::string check_key(const proto::JobSpec& spec, const std::string& cell_bundle, const JobDefaults& defaults);
 
 /// Kept in one file, a line for each; an entry that a crash took only costs another check. Safe from any thread.
 class PassedChecks {
@@ -29,4 +29,4 @@ class PassedChecks {
   std::set<std::string> keys_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -11,7 +11,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 namespace {
 
@@ -35,10 +35,12 @@ namespace {
 constexpr std::chrono::seconds retry_time{1};
 
 Ending overdue(const JobRecord& job) {
-  return {JobState::failed, "run_time_exceeded",
+  return {JobState::failed,
+          "run_time_exceeded",
           "it ran longer than its max_runtime_s, " + std::to_string(job.schedule.max_runtime_s) +
               ": submit it with more, or with a lower resolution",
-          {}, Cause::job};
+          {},
+          Cause::job};
 }
 
 /// Once, when they are known.
@@ -227,4 +229,4 @@ bool Scheduler::store_ending(const JobRecord& job, const std::optional<Ending>& 
   return true;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -14,7 +14,7 @@
 #include "server/run/run_outcome.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// All methods are safe from any thread. Between them and a worker stands one mutex, which is never held while a job
 /// runs or the store is asked; only stop_run waits for a claim that is being written.
@@ -57,4 +57,4 @@ class Scheduler {
   std::vector<std::jthread> threads_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

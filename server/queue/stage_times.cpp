@@ -1,6 +1,6 @@
 #include "server/queue/stage_times.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 /// May be told from several threads.
@@ -47,4 +47,4 @@ RunJob with_stage_times(RunJob run, Counters& counters) {
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,10 +10,10 @@
 
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"
-#include "server/results/exported_file.hpp"
 #include "server/files/orphans.hpp"
+#include "server/results/exported_file.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,8 +39,8 @@ const Kind& find_kind(const std::string& artifact) {
     if (artifact == kind.artifact) return kind;
     names.emplace_back(kind.artifact);
   }
-  throw ProtocolError("params_invalid", "there is no artifact '" + artifact + "': there are " + joined(names),
-                      "/params/artifact");
+  throw proto::ProtocolError("params_invalid", "there is no artifact '" + artifact + "': there are " + joined(names),
+                             "/params/artifact");
 }
 
 std::vector<std::string> formats(const Kind& kind) {
@@ -51,11 +51,11 @@ std::vector<std::string> formats(const Kind& kind) {
   return names;
 }
 
-std::string choose_format(const ArtifactReadParams& wanted) {
+std::string choose_format(const proto::ArtifactReadParams& wanted) {
   const std::vector<std::string> names = formats(find_kind(wanted.artifact));
   if (wanted.format.empty()) return names.front();
   if (std::ranges::find(names, wanted.format) == names.end()) {
-    throw ProtocolError(
+    throw proto::ProtocolError(
         "params_invalid",
         "the artifact " + wanted.artifact + " has no format '" + wanted.format + "': it has " + joined(names),
         "/params/format");
@@ -88,14 +88,14 @@ std::optional<StoredArtifact> find_stored(const std::vector<StoredArtifact>& all
 
 [[noreturn]] void refuse_missing(const JobRecord& job, const std::string& what) {
   const std::string why = job.error_sentence.empty() ? "" : " (" + job.error_sentence + ")";
-  throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + why + " and has no " + what);
+  throw proto::ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + why + " and has no " + what);
 }
 
 std::uint64_t size_now(const std::optional<StoredFile>& file) {
   return file ? file->size() : 0;
 }
 
-bool continues(const WholeRead& so_far, const ArtifactReadParams& wanted, const std::string& format) {
+bool continues(const WholeRead& so_far, const proto::ArtifactReadParams& wanted, const std::string& format) {
   return so_far.job == wanted.job && so_far.artifact == wanted.artifact && so_far.format == format &&
          so_far.next == wanted.offset;
 }
@@ -139,7 +139,7 @@ std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const std::stri
   return read_seal(folder_, job.id, file_name(artifact, format));
 }
 
-ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted, WholeRead& so_far) const {
+ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const {
   ArtifactChunk chunk;
   chunk.format = choose_format(wanted);
   const JobRecord job = find_job(store_, wanted.job);
@@ -153,10 +153,10 @@ ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted, WholeRead& so_fa
     refuse_damaged(job.id, name, fault);
   chunk.size = size_now(file);
   if (chunk.final && wanted.offset > chunk.size) {
-    throw ProtocolError("params_invalid",
-                        "offset " + std::to_string(wanted.offset) + " is beyond the artifact's " +
-                            std::to_string(chunk.size) + " bytes",
-                        "/params/offset");
+    throw proto::ProtocolError("params_invalid",
+                               "offset " + std::to_string(wanted.offset) + " is beyond the artifact's " +
+                                   std::to_string(chunk.size) + " bytes",
+                               "/params/offset");
   }
   const std::uint64_t left = chunk.size > wanted.offset ? chunk.size - wanted.offset : 0;
   if (file) chunk.bytes = file->read(wanted.offset, std::min<std::uint64_t>(left, wanted.bytes));
@@ -165,7 +165,7 @@ ArtifactChunk Artifacts::read(const ArtifactReadParams& wanted, WholeRead& so_fa
 }
 
 // A growing trajectory is followed too: it may be final at its last piece.
-void Artifacts::follow(const ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
+void Artifacts::follow(const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
                        WholeRead& so_far) const {
   if (wanted.offset == 0) so_far = {wanted.job, wanted.artifact, chunk.format, 0, {}};
   if (!continues(so_far, wanted, chunk.format)) return;
@@ -184,19 +184,19 @@ void Artifacts::refuse_damaged(const std::string& job, const std::string& file, 
   spdlog::error("job={} {}", job, sentence);
   if (is_export(file)) {
     break_seal(folder_, job, file);
-    throw ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
+    throw proto::ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
   }
   store_.note_damage(job, sentence + ": plan it again with 'sculpt retry " + job + "'");
-  throw ProtocolError("artifact_damaged", sentence + ": plan it again with 'sculpt retry " + job + "'");
+  throw proto::ProtocolError("artifact_damaged", sentence + ": plan it again with 'sculpt retry " + job + "'");
 }
 
-bool Artifacts::needs_export(const ArtifactReadParams& wanted) const {
+bool Artifacts::needs_export(const proto::ArtifactReadParams& wanted) const {
   const std::string format = choose_format(wanted);
   if (wanted.artifact != "trajectory" || format == "ndjson") return false;
   return !read_seal(folder_, wanted.job, file_name(wanted.artifact, format));
 }
 
-void Artifacts::make_export(const ArtifactReadParams& wanted) const {
+void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   if (!needs_export(wanted)) return;
   const JobRecord job = find_job(store_, wanted.job);
   if (!find_stored(store_.artifacts(job.id), wanted.artifact)) {
@@ -218,7 +218,7 @@ void Artifacts::make_export(const ArtifactReadParams& wanted) const {
 }
 
 std::string Artifacts::read_whole(const JobRecord& job, const std::string& artifact) const {
-  ArtifactReadParams all{job.id, artifact, {}, 0, 0};
+  proto::ArtifactReadParams all{job.id, artifact, {}, 0, 0};
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) refuse_missing(job, artifact);
   all.bytes = stored->size;
@@ -234,4 +234,4 @@ void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) c
   if (!fault.empty()) refuse_damaged(job.id, name, fault);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,11 +8,11 @@
 
 #include "core/base/sha256.hpp"
 #include "proto/messages.hpp"
-#include "server/store/job_store.hpp"
-#include "server/run/planner.hpp"
 #include "server/files/stored_file.hpp"
+#include "server/run/planner.hpp"
+#include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct ArtifactChunk {
   std::string format;
@@ -47,11 +47,11 @@ class Artifacts {
   /// Throws ProtocolError `params_invalid` (unknown artifact or format), `wrong_state` (not there, and why),
   /// `artifact_damaged` (another size than it was stored with, or the last piece of other bytes): the job says so from
   /// then on.
-  ArtifactChunk read(const ArtifactReadParams& wanted, WholeRead& so_far) const;
+  ArtifactChunk read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const;
   /// True when `read` needs make_export first.
-  bool needs_export(const ArtifactReadParams& wanted) const;
+  bool needs_export(const proto::ArtifactReadParams& wanted) const;
   /// Makes the trajectory's csv or binary from the final ndjson. Throws as read.
-  void make_export(const ArtifactReadParams& wanted) const;
+  void make_export(const proto::ArtifactReadParams& wanted) const;
   /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
   /// Its file is the one that was stored. Throws as read_whole.
@@ -59,7 +59,7 @@ class Artifacts {
 
  private:
   std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
-  void follow(const ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
+  void follow(const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
               WholeRead& so_far) const;
   [[noreturn]] void refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const;
 
@@ -68,4 +68,4 @@ class Artifacts {
   const Planner& planner_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

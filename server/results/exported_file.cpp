@@ -2,10 +2,10 @@
 
 #include <sstream>
 
-#include "server/files/durable.hpp"
 #include "server/base/storage_error.hpp"
+#include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ void break_seal(const fs::path& folder, const std::string& job, const std::strin
   fs::remove(folder / job / seal_name(name), ignored);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

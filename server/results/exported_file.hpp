@@ -7,7 +7,7 @@
 
 #include "server/files/stored_file.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What FOLDER/JOB/NAME was sealed with; nothing if there is no seal, or the file has another size.
 std::optional<FileSeal> read_seal(const std::filesystem::path& folder, const std::string& job, const std::string& name);
@@ -16,4 +16,4 @@ void write_seal(const std::filesystem::path& folder, const std::string& job, con
 /// The file counts as not made from now on.
 void break_seal(const std::filesystem::path& folder, const std::string& job, const std::string& name);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/run/job_run.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,14 +89,14 @@ void Retention::remove_leftovers() {
 std::set<std::string> Retention::needed_blobs() {
   std::set<std::string> needed;
   for_each_job(store_, [&](const JobRecord& job) {
-    const JobSpec spec = read_stored_spec(job);
+    const proto::JobSpec spec = read_stored_spec(job);
     needed.insert(spec.mesh.sha256);
     if (spec.stock_mesh) needed.insert(spec.stock_mesh->sha256);
     if (!needed.insert(job.cell_bundle).second) return;
-    for (const auto& [reference, sha256] : read_cell_bundle(blobs_.read(job.cell_bundle, "")).files)
+    for (const auto& [reference, sha256] : proto::read_cell_bundle(blobs_.read(job.cell_bundle, "")).files)
       needed.insert(sha256);
   });
   return needed;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

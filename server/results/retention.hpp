@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "server/results/artifacts.hpp"
 #include "server/files/blobs.hpp"
+#include "server/results/artifacts.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct RetentionRules {
   std::chrono::milliseconds age;  ///< since the end of the job
@@ -45,4 +45,4 @@ class Retention {
   std::filesystem::path jobs_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -17,7 +17,7 @@
 
 #include "server/run/confinement.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr int oom_score = 500;
@@ -129,4 +129,4 @@ void tie_to_parent(pid_t parent) {
   std::ofstream("/proc/self/oom_score_adj") << oom_score;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

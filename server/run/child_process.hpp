@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Belongs to one thread, which must live as long as the child. The destructor kills and reaps.
 class ChildProcess {
@@ -44,4 +44,4 @@ std::FILE* take_output();
 /// ends, and prefers it when memory runs out. Ends the process if `parent` is not its parent any more.
 void tie_to_parent(pid_t parent);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 
 #include "server/run/child_process.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -14,9 +14,9 @@ constexpr std::chrono::milliseconds look_every{50};
 constexpr std::size_t longest_answer = 16u << 20;
 
 std::optional<Json> read_object(const std::string& heard) try {
-  Json said = parse_json(heard);
+  Json said = proto::parse_json(heard);
   return said.is_object() ? std::optional(std::move(said)) : std::nullopt;
-} catch (const JsonError&) {
+} catch (const proto::JsonError&) {
   return std::nullopt;
 }
 
@@ -52,12 +52,12 @@ int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, c
     said = find(*described, load_and_confine(*described, use));
   } catch (const InputError& error) {
     said = report(error.code().c_str(), error.what());
-  } catch (const ProtocolError& error) {
+  } catch (const proto::ProtocolError& error) {
     said = report(error.code().c_str(), error.what());
   } catch (const std::bad_alloc&) {
     said = report("out_of_memory", "there is not enough memory to read the mesh: use a smaller one");
   }
-  std::fputs(write_json(said).c_str(), out);
+  std::fputs(proto::write_json(said).c_str(), out);
   std::fclose(out);
   return EXIT_SUCCESS;
 }
@@ -66,4 +66,4 @@ void rethrow_reported(const Json& said) {
   if (said.contains("code")) throw InputError(said.at("code"), said.at("sentence").get<std::string>());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@
 
 #include "server/run/job_description.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct ChildAnswer {
   std::optional<Json> said;  ///< nothing if the process said nothing, or nonsense, or not all
@@ -29,4 +29,4 @@ int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, c
 /// Throws the InputError that the child reported, if it did.
 void rethrow_reported(const Json& said);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -14,7 +14,7 @@
 #include "server/run/file_fence.hpp"
 #include "server/run/syscall_filter.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // A prediction is no bound: what is over it by less than a half is only wrong, more is a fault.
@@ -79,4 +79,4 @@ std::vector<std::string> missing_confinement() {
   return missing;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Memory and address space mean little under a sanitizer, which also needs what the filter forbids.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -32,4 +32,4 @@ std::vector<std::string> confine(const Confinement& wanted);
 /// What of it this kernel, or a sandbox around this process, refuses. Changes nothing.
 std::vector<std::string> missing_confinement();
 
-}  // namespace sculpt
+}  // namespace sculpt::server

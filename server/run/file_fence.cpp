@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstdint>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // Newer than the header of Debian 12.
@@ -65,4 +65,4 @@ int fence_files(const std::filesystem::path& folder, bool writes) {
   return rules.enforce() ? 0 : errno;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include "server/run/child_question.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -29,4 +29,4 @@ int run_isolated_check(const Planner& planner) {
   });
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include "server/run/job_description.hpp"
 #include "server/run/planner.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 inline constexpr const char* check_job_option = "--check-job";
 
@@ -17,4 +17,4 @@ void check_in_child(StoredSpec stored, const Isolation& isolation, std::chrono::
 /// The child's side: main of a program that was started with --check-job. Gives the exit code.
 int run_isolated_check(const Planner& planner);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -2,7 +2,7 @@
 
 #include "server/run/child_question.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 Json to_json(const Replay& replay) {
@@ -20,8 +20,7 @@ Json to_json(const Replay& replay) {
 Replay read_replay(const Json& said) {
   Replay replay{said.at("clean"), said.at("collisions"), said.at("voxels_checked"), {}, {}};
   for (const Json& finding : said.at("findings")) replay.findings.push_back({finding.at(0), finding.at(1)});
-  for (const Json& pair : said.at("exempt_pairs"))
-    replay.exempt_pairs.push_back({pair.at(0), pair.at(1), pair.at(2)});
+  for (const Json& pair : said.at("exempt_pairs")) replay.exempt_pairs.push_back({pair.at(0), pair.at(1), pair.at(2)});
   return replay;
 }
 
@@ -42,4 +41,4 @@ int run_isolated_replay(const Planner& planner) {
   });
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

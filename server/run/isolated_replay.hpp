@@ -4,7 +4,7 @@
 #include "server/run/job_description.hpp"
 #include "server/run/planner.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 inline constexpr const char* replay_job_option = "--replay-job";
 
@@ -15,4 +15,4 @@ Replay replay_in_child(const StoredSpec& stored, const Isolation& isolation, con
 /// The child's side: main of a program that was started with --replay-job. Gives the exit code.
 int run_isolated_replay(const Planner& planner);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,11 +8,12 @@
 #include <mutex>
 #include <thread>
 
-#include "server/run/child_process.hpp"
+#include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/run/child_process.hpp"
 #include "server/run/job_run.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -71,7 +72,7 @@ struct Conversation {
   void hear(const std::string& bytes, const Watch& watch) {
     unread += bytes;
     for (std::size_t end = 0; (end = unread.find('\n')) != std::string::npos; unread.erase(0, end + 1)) {
-      const Json line = parse_json(unread.substr(0, end));
+      const Json line = proto::parse_json(unread.substr(0, end));
       if (line.contains("progress") && watch.tell) watch.tell(read_progress(line["progress"]));
       if (line.contains("ending")) ending = read_ending(line["ending"]);
       if (line.contains("let_go")) let_go = true;
@@ -155,7 +156,7 @@ class Voice {
 
  private:
   void say_line(const Json& line) {
-    const std::string text = write_json(line) + "\n";
+    const std::string text = proto::write_json(line) + "\n";
     std::fwrite(text.data(), 1, text.size(), out_);
     std::fflush(out_);
   }
@@ -205,4 +206,4 @@ int run_isolated_job(const Planner& planner) {
   return EXIT_SUCCESS;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

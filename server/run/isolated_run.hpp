@@ -6,7 +6,7 @@
 #include "server/run/planner.hpp"
 #include "server/run/run_outcome.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 inline constexpr const char* run_job_option = "--run-job";
 
@@ -17,4 +17,4 @@ RunJob make_isolated_run(Isolation isolation);
 /// The child's side: main of a program that was started with --run-job. Gives the exit code.
 int run_isolated_job(const Planner& planner);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

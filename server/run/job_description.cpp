@@ -5,12 +5,12 @@
 #include <istream>
 #include <iterator>
 
+#include "server/files/folder_lock.hpp"
 #include "server/run/child_process.hpp"
 #include "server/run/confinement.hpp"
-#include "server/files/folder_lock.hpp"
 #include "server/run/job_run.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // The clock of the wall is to stop it first: whoever reads that can say why.
@@ -29,20 +29,20 @@ Confinement confinement(const DescribedJob& described, const Job& job, FolderUse
 }  // namespace
 
 std::string describe(const StoredSpec& stored, const Isolation& isolation) {
-  return write_json({{"daemon", ::getpid()},
-                     {"job", stored.job},
-                     {"spec", stored.spec},
-                     {"cell_bundle", stored.cell_bundle},
-                     {"time_s", stored.time_s},
-                     {"blobs", isolation.blobs.string()},
-                     {"jobs", isolation.jobs.string()},
-                     {"threads", isolation.defaults.threads},
-                     {"memory_cap_bytes", isolation.defaults.memory_cap_bytes}});
+  return proto::write_json({{"daemon", ::getpid()},
+                            {"job", stored.job},
+                            {"spec", stored.spec},
+                            {"cell_bundle", stored.cell_bundle},
+                            {"time_s", stored.time_s},
+                            {"blobs", isolation.blobs.string()},
+                            {"jobs", isolation.jobs.string()},
+                            {"threads", isolation.defaults.threads},
+                            {"memory_cap_bytes", isolation.defaults.memory_cap_bytes}});
 }
 
 std::optional<DescribedJob> take_description(std::istream& in) try {
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const Json told = parse_json(text);
+  const Json told = proto::parse_json(text);
   DescribedJob described;
   described.blobs = told.at("blobs").get<std::string>();
   described.jobs = told.at("jobs").get<std::string>();
@@ -54,7 +54,7 @@ std::optional<DescribedJob> take_description(std::istream& in) try {
   described.time_s = told.at("time_s");
   described.defaults = {told.at("threads"), told.at("memory_cap_bytes")};
   return described;
-} catch (const JsonError&) {
+} catch (const proto::JsonError&) {
   return std::nullopt;
 }
 
@@ -65,4 +65,4 @@ Job load_and_confine(const DescribedJob& described, FolderUse use) {
   return job;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "server/store/job_record.hpp"
 #include "server/run/translate.hpp"
+#include "server/store/job_record.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Where such processes come from and what they work on.
 struct Isolation {
@@ -50,4 +50,4 @@ enum class FolderUse { none, read, write };
 /// (confinement.hpp) to what is left to do with them. Throws ProtocolError and StorageError.
 Job load_and_confine(const DescribedJob& described, FolderUse use);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,9 +6,10 @@
 #include "core/base/sha256.hpp"
 #include "core/plan/checkpoint_folder.hpp"
 #include "server/base/crash_point.hpp"
+#include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,8 +31,8 @@ StoredArtifact stored(const fs::path& file, const std::string& artifact, const s
 
 std::string finished_report(const JobRecord& job, const Ending& ending, const std::string& report_json) {
   Json report{{"job", job.id}, {"state", name(ending.state)}};
-  report.update(parse_json(report_json));
-  return write_json(report);
+  report.update(proto::parse_json(report_json));
+  return proto::write_json(report);
 }
 
 Ending judged(const PlanFiles& files) {
@@ -76,10 +77,10 @@ void prepare_job_folder(const fs::path& folder) {
   sync_to_disk(folder.parent_path());
 }
 
-JobSpec read_stored_spec(const JobRecord& job) {
+proto::JobSpec read_stored_spec(const JobRecord& job) {
   try {
-    const Json json = parse_json(job.spec);
-    return read_job_spec(Fields(json, "/params/spec"));
+    const Json json = proto::parse_json(job.spec);
+    return proto::read_job_spec(proto::Fields(json, "/params/spec"));
   } catch (const std::runtime_error& error) {
     throw StorageError("the stored spec of job " + job.id + " cannot be read: " + error.what());
   }
@@ -94,4 +95,4 @@ RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& 
   };
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

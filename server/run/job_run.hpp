@@ -5,13 +5,13 @@
 #include "server/run/run_outcome.hpp"
 #include "server/run/translate.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The spec as it was stored. Throws StorageError when the database gave back something else.
-JobSpec read_stored_spec(const JobRecord& job);
+proto::JobSpec read_stored_spec(const JobRecord& job);
 
-/// Makes the folder of a job's files, durably. An earlier run's checkpoints and trajectory stay, to go on from; not what
-/// was made of its result, and no links.
+/// Makes the folder of a job's files, durably. An earlier run's checkpoints and trajectory stay, to go on from; not
+/// what was made of its result, and no links.
 void prepare_job_folder(const std::filesystem::path& folder);
 
 /// Runs a job in this process, from its last checkpoint on, in a folder that is there. Everything is durable when it
@@ -23,4 +23,4 @@ Ending run_in_folder(const JobRecord& record, const Job& job, const std::filesys
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const std::filesystem::path& jobs,
                     const JobDefaults& defaults);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

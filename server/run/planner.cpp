@@ -6,7 +6,7 @@
 #include "core/material/binvox.hpp"
 #include "core/trajectory/export.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ Planner make_planner(std::vector<fs::path> folders) {
   return planner;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

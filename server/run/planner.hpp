@@ -10,7 +10,7 @@
 #include "core/plan/plan.hpp"
 #include "core/verify/verify.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// A finished plan, besides the trajectory file: the content of its other artifacts, and whether the replay was clean.
 struct PlanFiles {
@@ -46,4 +46,4 @@ struct Planner {
 /// The real one. `cell_folders` are searched in order.
 Planner make_planner(std::vector<std::filesystem::path> cell_folders);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

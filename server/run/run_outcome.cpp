@@ -7,7 +7,7 @@
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 Ending failed(const std::string& code, const std::string& sentence, Cause cause = Cause::job) {
@@ -42,4 +42,4 @@ std::optional<Ending> caught_ending() {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include "core/base/watch.hpp"
 #include "server/store/job_record.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The process of a run ended before the run did.
 class CrashError : public std::runtime_error {
@@ -24,4 +24,4 @@ using RunJob = std::function<Ending(const JobRecord&, const Watch&)>;
 /// catch block.
 std::optional<Ending> caught_ending();
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <memory>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // Names that an architecture does not have are skipped: some are of x86 only, some of newer kernels.
@@ -63,4 +63,4 @@ int filter_syscalls() {
   return -seccomp_load(filter.get());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

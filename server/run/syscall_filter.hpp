@@ -1,7 +1,7 @@
 // Which system calls a thread may make, by seccomp.
 #pragma once
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// For the calling thread and those that it starts, for good: what computing, threads, memory, time and open files
 /// need. No sockets, programs, processes, signals to others, tracing, or changes to the system: those fail with ENOSYS,
@@ -9,4 +9,4 @@ namespace sculpt {
 /// kernel refused. Needs PR_SET_NO_NEW_PRIVS.
 int filter_syscalls();
 
-}  // namespace sculpt
+}  // namespace sculpt::server

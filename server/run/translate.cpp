@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 Vec3 to_vector(const std::array<double, 3>& values) {
@@ -13,10 +13,10 @@ Vec3 to_vector(const std::array<double, 3>& values) {
 const std::string cell_pointer = "/params/spec/robot/cell/blob", mesh_pointer = "/params/spec/mesh",
                   stock_pointer = "/params/spec/stock/mesh";
 
-std::string require_kind(const BlobRef& ref, const std::string& pointer) {
+std::string require_kind(const proto::BlobRef& ref, const std::string& pointer) {
   std::string kind = mesh_kind(ref.name);
   if (kind.empty()) {
-    throw ProtocolError(
+    throw proto::ProtocolError(
         "params_invalid",
         "the mesh name '" + ref.name + "' has no extension, so its kind is unknown: name it as the file is named",
         pointer + "/name");
@@ -24,27 +24,28 @@ std::string require_kind(const BlobRef& ref, const std::string& pointer) {
   return kind;
 }
 
-MeshFile read_mesh(const BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
+MeshFile read_mesh(const proto::BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
   std::string kind = require_kind(ref, pointer);
   return {blobs.read(ref.sha256, pointer + "/blob"), std::move(kind), ref.name};
 }
 
-JobSizes::File measure(const BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
+JobSizes::File measure(const proto::BlobRef& ref, const Blobs& blobs, const std::string& pointer) {
   std::string kind = require_kind(ref, pointer);
   return {blobs.size(ref.sha256, pointer + "/blob"), std::move(kind)};
 }
 
-CellBundle read_bundle(const std::string& hash, const Blobs& blobs) {
-  if (const std::uint64_t size = blobs.size(hash, cell_pointer); size > max_cell_bundle_bytes)
-    throw ProtocolError("too_large",
-                        "the cell bundle has " + std::to_string(size) + " bytes, over the limit of " +
-                            std::to_string(max_cell_bundle_bytes) + ": it only lists the files of the cell, by hash",
-                        cell_pointer);
-  return read_cell_bundle(blobs.read(hash, cell_pointer));
+proto::CellBundle read_bundle(const std::string& hash, const Blobs& blobs) {
+  if (const std::uint64_t size = blobs.size(hash, cell_pointer); size > proto::max_cell_bundle_bytes)
+    throw proto::ProtocolError("too_large",
+                               "the cell bundle has " + std::to_string(size) + " bytes, over the limit of " +
+                                   std::to_string(proto::max_cell_bundle_bytes) +
+                                   ": it only lists the files of the cell, by hash",
+                               cell_pointer);
+  return proto::read_cell_bundle(blobs.read(hash, cell_pointer));
 }
 
 CellFiles read_cell(const std::string& hash, const Blobs& blobs) {
-  const CellBundle bundle = read_bundle(hash, blobs);
+  const proto::CellBundle bundle = read_bundle(hash, blobs);
   CellFiles files{bundle.name, bundle.cell_json, {}};
   for (const auto& [reference, sha256] : bundle.files) files.files[reference] = blobs.read(sha256, cell_pointer);
   return files;
@@ -59,18 +60,19 @@ std::string mesh_kind(const std::string& name) {
   return kind;
 }
 
-JobSizes measure(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {
+JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {
   JobSizes sizes;
   sizes.resolution = static_cast<int>(spec.resolution);
   sizes.mesh = measure(spec.mesh, blobs, mesh_pointer);
   if (spec.stock_mesh) sizes.stock = measure(*spec.stock_mesh, blobs, stock_pointer);
-  const CellBundle bundle = read_bundle(cell_bundle, blobs);
+  const proto::CellBundle bundle = read_bundle(cell_bundle, blobs);
   sizes.cell_bytes = bundle.cell_json.size();
   for (const auto& [reference, sha256] : bundle.files) sizes.cell_bytes += blobs.size(sha256, cell_pointer);
   return sizes;
 }
 
-Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults) {
+Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs,
+           const JobDefaults& defaults) {
   Job job;
   job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
   job.cell = read_cell(cell_bundle, blobs);
@@ -90,9 +92,9 @@ Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blo
 }
 
 std::string store_cell(const CellFiles& files, Blobs& blobs) {
-  CellBundle bundle{files.name, files.cell_json, {}};
+  proto::CellBundle bundle{files.name, files.cell_json, {}};
   for (const auto& [reference, bytes] : files.files) bundle.files[reference] = blobs.add(bytes);
-  return blobs.add(write_cell_bundle(bundle));
+  return blobs.add(proto::write_cell_bundle(bundle));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

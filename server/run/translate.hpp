@@ -6,7 +6,7 @@
 #include "proto/job_spec.hpp"
 #include "server/files/blobs.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What a spec may leave open.
 struct JobDefaults {
@@ -19,13 +19,13 @@ std::string mesh_kind(const std::string& name);
 
 /// What the job would take, before anything but the list of the cell's files is read. Each file that the list names
 /// counts, as often as it does. Throws as to_job.
-JobSizes measure(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs);
+JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs);
 
 /// Loads every blob that the spec refers to; `cell_bundle` is the hash of the cell's bundle. Throws ProtocolError
 /// `blob_missing` or `params_invalid`.
-Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults);
+Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults);
 
 /// Stores the files of a cell as blobs and returns the hash of their bundle.
 std::string store_cell(const CellFiles& files, Blobs& blobs);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

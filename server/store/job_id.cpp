@@ -3,7 +3,7 @@
 #include <random>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr std::string_view letters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
@@ -41,4 +41,4 @@ std::string IdMaker::next(std::uint64_t now_ms) {
   return id;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

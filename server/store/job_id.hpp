@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Not shared between threads.
 class IdMaker {
@@ -17,4 +17,4 @@ class IdMaker {
   std::string last_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,4 +1,4 @@
-// A job as the store keeps it, and how its runs end. Times are UTC text as in server/time_stamp.hpp, empty: none.
+// A job as the store keeps it, and how its runs end. Times are UTC text as in server/base/time_stamp.hpp, empty: none.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "server/store/job_state.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// What the client decides beside the spec.
 struct Schedule {
@@ -69,4 +69,4 @@ struct Ending {
   Cause cause = Cause::job;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

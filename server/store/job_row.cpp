@@ -1,6 +1,6 @@
 #include "server/store/job_row.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr const char* columns =
@@ -87,4 +87,4 @@ JobPage select_page(Database& database, const std::string& rest, const std::vect
   return page;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

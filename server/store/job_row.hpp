@@ -8,7 +8,7 @@
 #include "server/store/job_store.hpp"
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// A job with the number of its row.
 struct JobRow {
@@ -23,4 +23,4 @@ std::optional<JobRow> select_job(Database& database, const std::string& rest, co
 /// The same, with damaged rows set aside; ends behind `limit` good ones, and `more` says whether another row follows.
 JobPage select_page(Database& database, const std::string& rest, const std::vector<std::string>& values, int limit);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

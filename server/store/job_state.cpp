@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using enum JobState;
@@ -70,4 +70,4 @@ bool may_move(JobState from, JobState to) {
   return std::ranges::find(moves, Move{from, to}) != moves.end();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace sculpt {
+namespace sculpt::server {
 
 enum class JobState {
   held,         ///< not before its time
@@ -35,4 +35,4 @@ bool is_final(JobState state);
 bool is_active(JobState state);
 bool may_move(JobState from, JobState to);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,16 +4,16 @@
 
 #include "proto/error_codes.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 JobRecord find_job(JobStore& store, const std::string& job) {
   std::optional<JobRecord> record = store.find(job);
   if (!record && store.was_removed(job)) {
-    throw ProtocolError("gone", "job '" + job + "' has ended and its time of keeping is over: submit it again",
-                        "/params/job");
+    throw proto::ProtocolError("gone", "job '" + job + "' has ended and its time of keeping is over: submit it again",
+                               "/params/job");
   }
-  if (!record) throw ProtocolError("not_found", "there is no job '" + job + "'", "/params/job");
+  if (!record) throw proto::ProtocolError("not_found", "there is no job '" + job + "'", "/params/job");
   return std::move(*record);
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

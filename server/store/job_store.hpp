@@ -9,11 +9,11 @@
 
 #include "server/base/histogram.hpp"
 #include "server/base/storage_error.hpp"
+#include "server/base/time_stamp.hpp"
 #include "server/store/job_record.hpp"
 #include "server/store/job_state.hpp"
-#include "server/base/time_stamp.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct Submitted {
   JobRecord job;
@@ -143,4 +143,4 @@ JobRecord find_job(JobStore& store, const std::string& job);
 /// Throws StorageError (unreadable, no database, made by a newer version).
 std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules = {});
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,6 +1,6 @@
 #include "server/store/job_table.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 // What the event of a change says besides from, to and reason.
@@ -80,7 +80,7 @@ void JobTable::add_event(const JobRow& row, Json data) {
   Statement insert(database_,
                    "INSERT INTO event(job, seq, time, state, data) "
                    "SELECT ?1, coalesce(max(seq), 0) + 1, ?2, ?3, ?4 FROM event WHERE job = ?1");
-  insert.bind(row.number).bind(now()).bind(name(row.job.state)).bind(write_json(data)).run();
+  insert.bind(row.number).bind(now()).bind(name(row.job.state)).bind(proto::write_json(data)).run();
   count_change();
 }
 
@@ -93,4 +93,4 @@ std::uint64_t JobTable::changes() {
   return query.step() ? static_cast<std::uint64_t>(query.number(0)) : 0;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -5,7 +5,7 @@
 #include "server/store/job_row.hpp"
 #include "server/store/job_tally.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class JobTable {
  public:
@@ -46,4 +46,4 @@ class JobTable {
   std::vector<TallyMove> moves_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

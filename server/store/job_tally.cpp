@@ -1,6 +1,6 @@
 #include "server/store/job_tally.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 void JobTally::apply(const std::vector<TallyMove>& moves) {
   const std::lock_guard lock(mutex_);
@@ -47,4 +47,4 @@ std::uint64_t JobTally::position(std::int64_t rank, const std::string& id) const
   return queue_.order_of_key({rank, id});
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

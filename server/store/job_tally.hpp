@@ -15,7 +15,7 @@
 
 #include "server/store/job_state.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// A job came (no `from`), changed its state, or went (no `to`).
 struct TallyMove {
@@ -49,4 +49,4 @@ class JobTally {
   Queue queue_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -1,6 +1,6 @@
 #include "server/store/run_ending.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using enum JobState;
@@ -53,4 +53,4 @@ void abandon_run(JobTable& jobs, JobRow& row) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -3,7 +3,7 @@
 
 #include "server/store/job_table.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The run of a job in a state that is_active has ended as it says, and its process lives.
 void end_run(JobTable& jobs, const StoreRules& rules, JobRow& row, const Ending& ending);
@@ -12,4 +12,4 @@ void stop_run(JobTable& jobs, JobRow& row);
 /// The same for one that a killed daemon left: nobody knows how it ended.
 void abandon_run(JobTable& jobs, JobRow& row);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

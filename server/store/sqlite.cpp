@@ -4,7 +4,7 @@
 #include "server/files/durable.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr int busy_timeout_ms = 5000;
@@ -101,4 +101,4 @@ void Transaction::commit() {
   database_->committed();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

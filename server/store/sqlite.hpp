@@ -12,7 +12,7 @@
 
 #include "server/base/histogram.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// One connection. Not shared between threads without a lock.
 class Database {
@@ -72,4 +72,4 @@ class Transaction {
   bool open_ = true;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

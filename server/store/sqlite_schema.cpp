@@ -5,7 +5,7 @@
 #include "server/store/job_id.hpp"
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 constexpr const char* version_1 = R"(
@@ -107,4 +107,4 @@ void update_schema(Database& database, const std::filesystem::path& file) {
   transaction.commit();
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

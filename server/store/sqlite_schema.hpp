@@ -3,11 +3,11 @@
 
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 inline constexpr std::int64_t schema_version = 4;
 
 /// In one transaction; does nothing to a database that is up to date. Throws StorageError for one that is newer.
 void update_schema(Database& database, const std::filesystem::path& file);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -10,7 +10,7 @@
 #include "server/store/sqlite_schema.hpp"
 #include "server/store/store_reader.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 using enum JobState;
@@ -19,7 +19,7 @@ constexpr const char* damage_code = "artifact_damaged";
 constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
 
 [[noreturn]] void refuse(const JobRecord& job, const std::string& what) {
-  throw ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
+  throw proto::ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
 }
 
 // The file, once what is in it is of this version.
@@ -31,7 +31,7 @@ const std::filesystem::path& up_to_date(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void refuse_unknown(const std::string& id) {
-  throw ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+  throw proto::ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
 }
 
 class SqliteStore : public JobStore {
@@ -54,10 +54,10 @@ class SqliteStore : public JobStore {
     Change change(*this);
     if (const std::optional<JobRow> first = jobs_.find_key(wanted.key); first && !wanted.key.empty()) {
       if (first->job.spec != wanted.spec) {
-        throw ProtocolError("key_conflict",
-                            "the key '" + wanted.key + "' belongs to job " + first->job.id +
-                                ", which has another spec: use a new key for a new job",
-                            "/params/key");
+        throw proto::ProtocolError("key_conflict",
+                                   "the key '" + wanted.key + "' belongs to job " + first->job.id +
+                                       ", which has another spec: use a new key for a new job",
+                                   "/params/key");
       }
       return {first->job, true};
     }
@@ -288,15 +288,16 @@ class SqliteStore : public JobStore {
 
   void refuse_too_many(const std::string& owner) {
     if (tally_.open() >= static_cast<std::uint64_t>(rules_.max_jobs)) {
-      throw ProtocolError("queue_full",
-                          "the server has " + std::to_string(rules_.max_jobs) +
-                              " jobs that have not ended, as many as it may: try again when some have, or "
-                              "raise max_jobs");
+      throw proto::ProtocolError("queue_full",
+                                 "the server has " + std::to_string(rules_.max_jobs) +
+                                     " jobs that have not ended, as many as it may: try again when some have, or "
+                                     "raise max_jobs");
     }
     if (!owner.empty() && tally_.open(owner) >= static_cast<std::uint64_t>(rules_.max_jobs_per_owner)) {
-      throw ProtocolError("quota", "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
-                                       " jobs that have not ended, as many as one may: try again when some have, or "
-                                       "raise max_jobs_per_owner");
+      throw proto::ProtocolError("quota",
+                                 "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
+                                     " jobs that have not ended, as many as one may: try again when some have, or "
+                                     "raise max_jobs_per_owner");
     }
   }
 
@@ -347,4 +348,4 @@ std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, S
   return std::make_unique<SqliteStore>(file, std::move(rules));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -3,7 +3,7 @@
 #include "server/store/job_store.hpp"
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ std::optional<StoreFacts> read_store_facts(const fs::path& file) {
   }
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct StoreFacts {
   std::string epoch;
@@ -19,4 +19,4 @@ inline constexpr std::uintmax_t quick_check_bytes = 256 << 20;
 /// Throws StorageError (no rights, or the disk fails).
 std::optional<StoreFacts> read_store_facts(const std::filesystem::path& database);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -4,7 +4,7 @@
 
 #include "server/store/job_row.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 namespace {
 
 std::optional<JobRecord> record_of(std::optional<JobRow> row) {
@@ -100,4 +100,4 @@ std::vector<StoredArtifact> StoreReader::artifacts(const std::string& id) {
   return artifacts;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@
 #include "server/store/job_store.hpp"
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Safe from any thread; the methods are those of JobStore.
 class StoreReader {
@@ -30,4 +30,4 @@ class StoreReader {
   Database& database_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

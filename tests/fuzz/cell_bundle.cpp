@@ -6,7 +6,7 @@
 
 void read_hostile(std::string_view bytes) {
   try {
-    sculpt::write_cell_bundle(sculpt::read_cell_bundle(bytes));
-  } catch (const sculpt::ProtocolError&) {
+    sculpt::proto::write_cell_bundle(sculpt::proto::read_cell_bundle(bytes));
+  } catch (const sculpt::proto::ProtocolError&) {
   }
 }

@@ -6,20 +6,21 @@
 
 namespace {
 
-using namespace sculpt;
+using namespace sculpt::server;
+namespace proto = sculpt::proto;
 
 void read_file(std::string_view bytes) {
   Config config;
   try {
-    read_settings(parse_json(bytes), "/etc/sculptd", config);
-  } catch (const JsonError&) {
+    read_settings(proto::parse_json(bytes), "/etc/sculptd", config);
+  } catch (const proto::JsonError&) {
     return;
-  } catch (const ProtocolError&) {
+  } catch (const proto::ProtocolError&) {
     return;
   } catch (const ConfigError&) {
     return;
   }
-  for (const Setting& setting : settings()) write_json(setting.show(config));
+  for (const Setting& setting : settings()) proto::write_json(setting.show(config));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "proto/crc32.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 TEST(ErrorCodes, EveryErrorHasItsRowInTheProtocol) {
@@ -44,4 +44,4 @@ TEST(Crc32, AgreesWithTheStandardsCheckValue) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

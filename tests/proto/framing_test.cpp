@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 // Lines that begin with "#n" announce a chunk of n bytes.
@@ -119,4 +119,4 @@ TEST(Framing, AChunkWithoutItsNewlineBreaksTheStream) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -5,7 +5,7 @@
 #include "proto/cell_bundle.hpp"
 #include "proto/messages.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 const std::string hash(64, 'a');
@@ -145,4 +145,4 @@ TEST(Messages, LimitsOfParamsAreKept) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

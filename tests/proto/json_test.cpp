@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 std::string refusal(const std::string& text) {
@@ -93,4 +93,4 @@ TEST(Json, TextIsUtf8WithoutControlBytes) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

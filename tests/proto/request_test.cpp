@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 std::string error_of(const std::string& line) {
@@ -69,4 +69,4 @@ TEST(Request, OnlyBlobPutAnnouncesAChunkAndUnusableCountsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

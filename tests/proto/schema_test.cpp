@@ -9,7 +9,7 @@
 #include "proto/error_codes.hpp"
 #include "proto/messages.hpp"
 
-namespace sculpt {
+namespace sculpt::proto {
 namespace {
 
 const std::string prefix = "#/$defs/";
@@ -103,4 +103,4 @@ TEST(Schema, APartOfNoMethodIsRefused) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::proto

@@ -14,7 +14,7 @@
 #include <ostream>
 #include <thread>
 
-namespace sculpt {
+namespace sculpt::server {
 
 void Gate::open() {
   {
@@ -116,4 +116,4 @@ Planner FakePlanner::planner() {
   return planner;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

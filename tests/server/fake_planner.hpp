@@ -11,7 +11,7 @@
 
 #include "server/run/planner.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// Closed at first.
 class Gate {
@@ -40,4 +40,4 @@ class FakePlanner {
   PlanFiles run(const Job& job, const std::filesystem::path& trajectory, const Watch& watch);
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

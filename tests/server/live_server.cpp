@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace sculpt {
+namespace sculpt::server {
 
 LiveServer::LiveServer(const std::function<void(Config&)>& change) {
   spdlog::set_level(spdlog::level::off);
@@ -33,19 +33,19 @@ void LiveServer::restart(const std::function<void(Config&)>& change) {
   start();
 }
 
-Json make_spec(Client& client, const std::string& wish) {
+Json make_spec(client::Client& client, const std::string& wish) {
   return {{"mesh", {{"blob", client.upload(wish)}, {"name", "wish.stl"}}}, {"robot", "gantry"}, {"resolution", 8}};
 }
 
-std::string submit(Client& client, const std::string& wish) {
+std::string submit(client::Client& client, const std::string& wish) {
   return client.call("job.submit", {{"spec", make_spec(client, wish)}}).at("job");
 }
 
-std::string final_state(Client& client, const std::string& job) {
+std::string final_state(client::Client& client, const std::string& job) {
   return client.call("job.wait", {{"job", job}, {"timeout_s", 86400}}).at("state");
 }
 
-void await_state(Client& client, const std::string& job, const std::string& state) {
+void await_state(client::Client& client, const std::string& job, const std::string& state) {
   client.subscribe(job);
   while (true) {
     const Json event = *client.next_event();
@@ -54,11 +54,11 @@ void await_state(Client& client, const std::string& job, const std::string& stat
   client.unsubscribe(job);
 }
 
-std::string refusal(Client& client, const std::string& method, const Json& params) {
+std::string refusal(client::Client& client, const std::string& method, const Json& params) {
   try {
     client.call(method, params);
     return "accepted";
-  } catch (const ServerError& error) {
+  } catch (const client::ServerError& error) {
     return error.code();
   }
 }
@@ -70,8 +70,8 @@ void say_hello(Connection& connection) {
 
 std::string read_error(Connection& connection) {
   const std::string line = *connection.read_line();
-  const Json reply = parse_json(line);
+  const Json reply = proto::parse_json(line);
   return reply.contains("error") ? reply["error"]["data"]["code"].get<std::string>() : line;
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

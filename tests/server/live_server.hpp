@@ -10,7 +10,7 @@
 #include "tests/server/fake_planner.hpp"
 #include "tests/server/temp_folder.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 class LiveServer {
  public:
@@ -22,7 +22,7 @@ class LiveServer {
   FakePlanner fake;
 
   std::string address() const { return "127.0.0.1:" + std::to_string(server_->port()); }
-  Client connect() const { return Client(address(), "test", {}, 0); }
+  client::Client connect() const { return client::Client(address(), "test", {}, 0); }
   const std::filesystem::path& data() const { return folder_.path(); }
   void stop();
   /// The same data folder under a new server.
@@ -38,18 +38,18 @@ class LiveServer {
 };
 
 /// Uploads the wish (see fake_planner.hpp) as a mesh.
-Json make_spec(Client& client, const std::string& wish);
+Json make_spec(client::Client& client, const std::string& wish);
 /// Uploads, submits and gives the job's id.
-std::string submit(Client& client, const std::string& wish);
+std::string submit(client::Client& client, const std::string& wish);
 /// Waits until the job is in a final state and gives it.
-std::string final_state(Client& client, const std::string& job);
+std::string final_state(client::Client& client, const std::string& job);
 /// Waits (by events) until the job is in the state.
-void await_state(Client& client, const std::string& job, const std::string& state);
+void await_state(client::Client& client, const std::string& job, const std::string& state);
 /// The word of the error that a call is refused with, or "accepted".
-std::string refusal(Client& client, const std::string& method, const Json& params);
+std::string refusal(client::Client& client, const std::string& method, const Json& params);
 /// A connection that has said hello, for lines that Client would never send.
 void say_hello(Connection& connection);
 /// The word of the next line's error, or the line itself.
 std::string read_error(Connection& connection);
 
-}  // namespace sculpt
+}  // namespace sculpt::server

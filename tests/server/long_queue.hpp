@@ -7,7 +7,7 @@
 
 #include "server/store/sqlite.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 /// The id of the n-th job, from 1 on; ids rise with n, their order in the queue does not.
 inline std::string long_queue_id(int n) {
@@ -33,4 +33,4 @@ inline void fill_queue(const std::filesystem::path& file, int jobs) {
                    .c_str());
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

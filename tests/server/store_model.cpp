@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sculpt {
+namespace sculpt::server {
 
 using enum JobState;
 
@@ -182,4 +182,4 @@ std::uint64_t StoreModel::position(const ModelJob& wanted) const {
       jobs_, [&](const ModelJob& job) { return job.state == queued && comes_before(job, wanted); }));
 }
 
-}  // namespace sculpt
+}  // namespace sculpt::server

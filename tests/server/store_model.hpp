@@ -9,7 +9,7 @@
 
 #include "server/store/job_store.hpp"
 
-namespace sculpt {
+namespace sculpt::server {
 
 struct ModelJob {
   std::string id;
@@ -60,4 +60,4 @@ class StoreModel {
   std::vector<ModelJob> jobs_;  // in the order of submission
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

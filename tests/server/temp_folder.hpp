@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sculpt {
+namespace sculpt::server {
 
 class TempFolder {
  public:
@@ -28,4 +28,4 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace sculpt
+}  // namespace sculpt::server

@@ -7,7 +7,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace sculpt {
+namespace sculpt::cli {
 namespace {
 
 using std::chrono::milliseconds;
@@ -81,4 +81,4 @@ TEST_F(ProgressLineTest, WhereNoLinesAreWantedThereAreNone) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace sculpt {
+namespace sculpt::cli {
 namespace {
 
 /// A daemon with jobs in many states, one of which runs in `stage`.
@@ -68,4 +68,4 @@ TEST(QueueView, OnASmallScreenItSaysHowManyAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace sculpt
+}  // namespace sculpt::cli

@@ -8,9 +8,9 @@
 #include "tests/server/fake_planner.hpp"
 
 int main(int, char** arguments) {
-  sculpt::FakePlanner fake;
+  sculpt::server::FakePlanner fake;
   const std::string_view mode = arguments[1];
-  if (mode == sculpt::check_job_option) return sculpt::run_isolated_check(fake.planner());
-  if (mode == sculpt::replay_job_option) return sculpt::run_isolated_replay(fake.planner());
-  return sculpt::run_isolated_job(fake.planner());
+  if (mode == sculpt::server::check_job_option) return sculpt::server::run_isolated_check(fake.planner());
+  if (mode == sculpt::server::replay_job_option) return sculpt::server::run_isolated_replay(fake.planner());
+  return sculpt::server::run_isolated_job(fake.planner());
 }

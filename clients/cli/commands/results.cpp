@@ -1,0 +1,99 @@
+// sculpt report, fetch: what a job has to show for itself.
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "clients/cli/commands/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/job_end.hpp"
+#include "clients/cli/report_table.hpp"
+
+namespace sculpt::cli {
+
+namespace {
+
+struct ReportOptions {
+  std::string job;
+  bool json = false;
+};
+
+struct FetchOptions {
+  std::string job, output, format;
+  std::string artifact = "trajectory";
+};
+
+int run_report(const std::string& server, const ReportOptions& options) {
+  client::Client client = connect(server);
+  const Json report = client.call("job.report", {{"job", options.job}});
+  std::cout << (options.json ? proto::write_json(report) + "\n" : report_table(report));
+  return exit_fine;
+}
+
+/// Only the ndjson trajectory can be read while it grows; for all else the job must have ended.
+bool grows(const FetchOptions& options) {
+  return options.artifact == "trajectory" && (options.format.empty() || options.format == "ndjson");
+}
+
+/// A trajectory that failed its replay may be looked at; of other jobs that did not succeed there is nothing whole.
+bool is_whole(const Json& end) {
+  return end.value("state", "") == "succeeded" ||
+         end.value("error", Json::object()).value("code", "") == "verify_failed";
+}
+
+int run_fetch(const std::string& server, const FetchOptions& options) {
+  client::Client client = connect(server);
+  Json end = grows(options) ? client.call("job.get", {{"job", options.job}}) : wait_job(client, options.job);
+  if (client::is_final(end.value("state", "")) && !is_whole(end)) return end_exit_code(end);
+
+  client::ArtifactRequest request;
+  request.job = options.job;
+  request.artifact = options.artifact;
+  request.format = options.format;
+  if (options.output == "-") {
+    client.read_artifact(request, std::cout);
+    end = wait_job(client, options.job);
+    return end_exit_code(end);
+  }
+  const Interrupt interrupt([&options] {
+    std::error_code ignored;
+    std::filesystem::remove(options.output + ".part", ignored);
+    std::cerr << "\nsculpt: interrupted: " << options.output << " was not written; job " << options.job << " goes on\n";
+    std::_Exit(exit_failed);
+  });
+  PartFile output(options.output);
+  client.read_artifact(request, output.stream());
+  end = wait_job(client, options.job);
+  if (is_whole(end)) output.finish();
+  return end_exit_code(end);
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App& command = add_command(app, invocation, "report", "The figures of a finished job",
+                                  [&invocation, options] { return run_report(invocation.server, *options); });
+  command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
+  command.add_flag("--json", options->json, "Print the report as one JSON document");
+}
+
+void add_fetch(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<FetchOptions>();
+  CLI::App& command = add_command(app, invocation, "fetch",
+                                  "Get a result. Of a job that still runs it waits for the end, writing the ndjson "
+                                  "trajectory as it grows; FILE gets its name when it is whole",
+                                  [&invocation, options] { return run_fetch(invocation.server, *options); });
+  command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
+  command.add_option("-o,--output", options->output, "Where to write, or - for stdout")->type_name("FILE")->required();
+  command.add_option("--format", options->format, "Form of the trajectory: ndjson (default), binary or csv")
+      ->check(CLI::IsMember({"ndjson", "binary", "csv"}));
+  command
+      .add_option("--artifact", options->artifact, "trajectory, voxels (.binvox), residue (ndjson) or report (json)")
+      ->check(CLI::IsMember({"trajectory", "voxels", "residue", "report"}))
+      ->capture_default_str();
+}
+
+}  // namespace sculpt::cli
