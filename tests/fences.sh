@@ -39,7 +39,7 @@ forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/m
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
 fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
-forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
+forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'material/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
 forbid "TinyXML-2 only in verify/urdf_text.cpp" "$(include 'tinyxml2')" "$(door 'verify/urdf_text\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
