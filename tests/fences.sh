@@ -28,12 +28,16 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it.
-forbid "base is the first" "$(include 'core/(material|cell|collision|search|motion|trajectory|verify|plan)/')" -- core/base
-forbid "material comes before cells" "$(include 'core/(cell|collision|search|motion|trajectory|verify|plan)/')" -- core/material
-forbid "cells come before collision" "$(include 'core/(collision|search|motion|trajectory|verify|plan)/')" -- core/cell
-forbid "collision comes before planning" "$(include 'core/(search|motion|sweep|trajectory|verify|plan)/')" -- core/collision
+forbid "base is the first" "$(include 'core/(material|cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/base
+forbid "material comes before cells" "$(include 'core/(cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/material
+forbid "cells come before trajectories" "$(include 'core/(trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/cell
+forbid "trajectory sees base, material and cell" "$(include 'core/(collision|search|motion|sweep|verify|plan)/')" -- core/trajectory
+forbid "collision comes before planning" "$(include 'core/(trajectory|search|motion|sweep|verify|plan)/')" -- core/collision
+forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision|motion|sweep|verify|plan)/')" -- core/search
+forbid "motion comes before sweep and verify" "$(include 'core/(sweep|verify|plan)/')" -- core/motion
 forbid "sweep comes after motion" "$(include 'core/(verify|plan)/')" -- core/sweep
-forbid "search knows no arm" "$(include 'core/(cell|collision|motion|trajectory|verify|plan)/')" -- core/search
+forbid "planners know keyframes, not how a file of them is read or written" \
+  "$(include 'core/trajectory/(binary|export|file_segment|form|header|number_text|plain_line|reader|segment|text_source|trajectory_|writer)')" -- core/motion core/sweep
 forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
