@@ -6,9 +6,11 @@
 #include <iterator>
 
 #include "core/material/block_graph.hpp"
+#include "core/material/mesh_file.hpp"
 #include "core/material/voxelize.hpp"
 #include "core/motion/line.hpp"
 #include "core/motion/transit.hpp"
+#include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
 #include "core/sweep/columns.hpp"
 #include "core/sweep/follow.hpp"

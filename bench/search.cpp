@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/nearest_order.hpp"
+#include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
 #include "core/search/voxel_search.hpp"
 #include "tests/core/search/replay.hpp"

@@ -28,12 +28,16 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it.
-forbid "base is the first" "$(include 'core/(material|cell|collision|search|motion|trajectory|verify|plan)/')" -- core/base
-forbid "material comes before cells" "$(include 'core/(cell|collision|search|motion|trajectory|verify|plan)/')" -- core/material
-forbid "cells come before collision" "$(include 'core/(collision|search|motion|trajectory|verify|plan)/')" -- core/cell
-forbid "collision comes before planning" "$(include 'core/(search|motion|sweep|trajectory|verify|plan)/')" -- core/collision
+forbid "base is the first" "$(include 'core/(material|cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/base
+forbid "material comes before cells" "$(include 'core/(cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/material
+forbid "cells come before trajectories" "$(include 'core/(trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/cell
+forbid "trajectory sees base, material and cell" "$(include 'core/(collision|search|motion|sweep|verify|plan)/')" -- core/trajectory
+forbid "collision comes before planning" "$(include 'core/(trajectory|search|motion|sweep|verify|plan)/')" -- core/collision
+forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision|motion|sweep|verify|plan)/')" -- core/search
+forbid "motion comes before sweep and verify" "$(include 'core/(sweep|verify|plan)/')" -- core/motion
 forbid "sweep comes after motion" "$(include 'core/(verify|plan)/')" -- core/sweep
-forbid "search knows no arm" "$(include 'core/(cell|collision|motion|trajectory|verify|plan)/')" -- core/search
+forbid "planners know keyframes, not how a file of them is read or written" \
+  "$(include 'core/trajectory/(binary|export|file_segment|form|header|number_text|plain_line|reader|segment|text_source|trajectory_|writer)')" -- core/motion core/sweep
 forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
@@ -46,7 +50,7 @@ done
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
 fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
-forbid "assimp only in mesh.cpp" "$(include 'assimp/')" "$(door 'material/mesh\.cpp')" -- core server proto clients
+forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'material/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
 forbid "TinyXML-2 only in verify/urdf_text.cpp" "$(include 'tinyxml2')" "$(door 'verify/urdf_text\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients

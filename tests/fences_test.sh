@@ -23,6 +23,18 @@ expect_breach clients/cpp/client.cpp '#include "core/base/sha256.hpp"'
 expect_breach clients/cli/main.cpp '#include "server/base/config.hpp"'
 expect_breach server/main.cpp '#include "clients/cpp/client.hpp"'
 expect_breach core/material/octree.cpp '#include "core/search/heuristic.hpp"'
+for folder in base material cell collision search; do
+  expect_breach "core/$folder/voxel.cpp" '#include "core/sweep/pass.hpp"'
+  expect_breach "core/$folder/voxel.cpp" '#include "core/trajectory/keyframe.hpp"'
+done
+for later in collision search motion sweep verify plan; do
+  expect_breach core/trajectory/reader.cpp "#include \"core/$later/scene.hpp\""
+done
+expect_breach core/motion/arm.cpp '#include "core/sweep/hub_arm.hpp"'
+expect_breach core/motion/arm.cpp '#include "core/verify/verify.hpp"'
+expect_breach core/motion/arm.cpp '#include "core/trajectory/writer.hpp"'
+expect_breach core/sweep/sweep.cpp '#include "core/trajectory/reader.hpp"'
+expect_breach core/sweep/sweep.cpp '#include "core/verify/findings.hpp"'
 expect_breach core/verify/replay.cpp '  #  include "core/motion/transit.hpp"'
 expect_breach core/verify/checked_pairs.cpp '#include "core/collision/link_pairs.hpp"'
 expect_breach core/verify/cut_log.cpp '#include "core/material/support.hpp"'
@@ -33,7 +45,7 @@ expect_breach core/cell/chain.cpp '#include <urdf_parser/urdf_parser.h>'
 expect_breach core/motion/transit.cpp '#include <fcl/fcl.h>'
 expect_breach core/collision/scene.cpp '#include <ompl/base/SpaceInformation.h>'
 expect_breach core/plan/plan.cpp '#include <nlohmann/json.hpp>'
-expect_breach core/trajectory/trajectory.hpp '#include <nlohmann/json.hpp>'
+expect_breach core/trajectory/reader.hpp '#include <nlohmann/json.hpp>'
 expect_breach core/collision/scene.hpp 'std::unique_ptr<fcl::CollisionObjectd> object_;'
 expect_breach core/motion/transit.cpp '#include "core/collision/fcl_shape.hpp"'
 expect_breach server/run/confinement.cpp '#include <seccomp.h>'

@@ -12,6 +12,8 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/watch.hpp"
+#include "core/material/mesh_file.hpp"
 
 namespace sculpt {
 

@@ -8,13 +8,13 @@
 
 #include "core/cell/cell.hpp"
 #include "core/collision/bubble.hpp"
+#include "core/collision/contact.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
 
 namespace sculpt {
 
-/// What a configuration or an edge runs into; `limits` = outside the joint limits.
-enum class Contact { none, limits, tool_material, link_material, link_link };
+class SceneBodies;
 
 /// Owns a copy of the cell's kinematics and shapes and of the standing material. Const calls are safe from several
 /// threads, `remove` is not.
@@ -72,8 +72,7 @@ class Scene {
   Contact certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt = {}) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<SceneBodies> bodies_;
 };
 
 }  // namespace sculpt

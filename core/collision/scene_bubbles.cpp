@@ -1,9 +1,11 @@
+// Bubbles of a scene: how far each joint may move from a configuration without contact.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/collision/clearance.hpp"
-#include "core/collision/scene_impl.hpp"
+#include "core/collision/scene.hpp"
+#include "core/collision/scene_bodies.hpp"
 
 namespace sculpt {
 namespace {
@@ -36,7 +38,7 @@ double second_order(const Bubble::Approach& approach, const std::vector<Drive>& 
 
 /// A distance (m) that the two are surely apart beyond their margin, in closed form; looks no closer once it is
 /// `enough`.
-double Scene::Impl::plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
+double SceneBodies::plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
   const Body& a = bodies[static_cast<std::size_t>(pair.first)];
   const Frame& pose_a = at[static_cast<std::size_t>(a.link)];
   double apart = 0;
@@ -51,7 +53,7 @@ double Scene::Impl::plain_gap(const Pair& pair, const std::vector<Frame>& at, do
 
 /// The same, but asks FCL where the closed form says little, as far as `enough`; 0 if they may be nearer than the
 /// shortest distance tried.
-double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
+double SceneBodies::gap(const Pair& pair, const std::vector<Frame>& at, double enough) const {
   static constexpr std::array reaches{0.001, 0.002, 0.004, 0.008, 0.012, 0.018, 0.025, 0.035};
   double apart = plain_gap(pair, at, enough);
   auto reach = std::upper_bound(reaches.begin(), reaches.end(), apart);
@@ -61,7 +63,7 @@ double Scene::Impl::gap(const Pair& pair, const std::vector<Frame>& at, double e
 
 /// The body that moves less, as it approaches the other. The room lacks the distance, and what a bound on the second
 /// derivative takes off.
-Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame>& at,
+Bubble::Approach SceneBodies::approach(const Pair& pair, const std::vector<Frame>& at,
                                        const Configuration& half) const {
   const Mover& mover = pair.mover(half);
   const Body& body = bodies[static_cast<std::size_t>(mover.body)];
@@ -80,7 +82,7 @@ Bubble::Approach Scene::Impl::approach(const Pair& pair, const std::vector<Frame
 
 /// Takes off less: at the centre the second derivative is known. A mimic joint may stand anywhere, so then only the
 /// bound is.
-void Scene::Impl::sharpen(Bubble::Approach& approach, const Pair& pair, const Configuration& half) const {
+void SceneBodies::sharpen(Bubble::Approach& approach, const Pair& pair, const Configuration& half) const {
   if (has_mimic) return;
   const Mover& mover = pair.mover(half);
   const double third = derivative_bounds(chain, mover.turn.dot(half), mover.speed.dot(half)).third_m;
@@ -88,7 +90,7 @@ void Scene::Impl::sharpen(Bubble::Approach& approach, const Pair& pair, const Co
 }
 
 /// Planes between the body that moves less and all of the other, of pieces that may come too near within +-half at all.
-std::optional<std::vector<Separation>> Scene::Impl::planes(const Pair& pair, const std::vector<Frame>& at,
+std::optional<std::vector<Separation>> SceneBodies::planes(const Pair& pair, const std::vector<Frame>& at,
                                                            const Configuration& half, double enough) const {
   const int which = pair.mover(half).body;
   const Body& body = bodies[static_cast<std::size_t>(which)];
@@ -99,7 +101,7 @@ std::optional<std::vector<Separation>> Scene::Impl::planes(const Pair& pair, con
 }
 
 /// How the body comes nearer to those of the planes that it may come too near to. Nothing if it has no room at one.
-std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const std::vector<Separation>& planes,
+std::optional<std::vector<Bubble::Advance>> SceneBodies::advances(const std::vector<Separation>& planes,
                                                                   const Bubble::Approach& approach, const Pair& pair,
                                                                   const std::vector<Frame>& at,
                                                                   const Configuration& half) const {
@@ -126,7 +128,7 @@ std::optional<std::vector<Bubble::Advance>> Scene::Impl::advances(const std::vec
   return advances;
 }
 
-bool Scene::Impl::is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const {
+bool SceneBodies::is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const {
   if (pair.is_free_between(box.low, box.high)) return true;
   if (checks_left-- <= 0) return false;
   count_check();
@@ -146,53 +148,54 @@ bool Scene::Impl::is_free_in(const Pair& pair, const JointBox& box, int& checks_
 
 Scene::Pairs Scene::pairs() const {
   Pairs all;
-  for (std::size_t at = 0; at < impl_->pairs.size(); ++at)
-    if (const Impl::Pair& pair = impl_->pairs[at]; !pair.tool_and_fixed && !pair.never_touch) all.push_back(at);
+  for (std::size_t at = 0; at < bodies_->pairs.size(); ++at)
+    if (const SceneBodies::Pair& pair = bodies_->pairs[at]; !pair.tool_and_fixed && !pair.never_touch)
+      all.push_back(at);
   return all;
 }
 
 Scene::Pairs Scene::pairs_in(const JointBox& box) const {
   Pairs open;
-  const JointBox bounded = impl_->bounded(box);
+  const JointBox bounded = bodies_->bounded(box);
   if ((bounded.low.array() > bounded.high.array()).any()) return open;
   for (std::size_t at : pairs()) {
-    const Impl::Pair& pair = impl_->pairs[at];
+    const SceneBodies::Pair& pair = bodies_->pairs[at];
     int checks_left = pair.joints() <= few_joints ? most_checks : 1;
-    if (!impl_->is_free_in(pair, bounded, checks_left)) open.push_back(at);
+    if (!bodies_->is_free_in(pair, bounded, checks_left)) open.push_back(at);
   }
   return open;
 }
 
 Bubble Scene::bubble(const Configuration& q, const JointBox& wanted, Pairs& pairs) const {
-  const JointBox box = impl_->bounded(wanted);
+  const JointBox box = bodies_->bounded(wanted);
   if (!box.holds(q)) return {};
-  impl_->count_check();
+  bodies_->count_check();
   std::vector<Frame> at;
-  impl_->chain.link_poses(q, at);
+  bodies_->chain.link_poses(q, at);
   const Configuration half = box.reach_from(q);
   std::vector<Bubble::Approach> approaches;
   std::vector<Bubble::Advance> advances;
   enum class Answer { touch_nowhere, kept_apart, too_near };
-  const auto look_at = [&](const Impl::Pair& pair) {
+  const auto look_at = [&](const SceneBodies::Pair& pair) {
     if (pair.is_free_between(box.low, box.high)) return Answer::touch_nowhere;
     const double enough = pair.motion(half) + 1e-9;
-    const auto planes = impl_->planes(pair, at, half, enough);
+    const auto planes = bodies_->planes(pair, at, half, enough);
     if (planes && planes->empty()) return Answer::touch_nowhere;
-    Bubble::Approach approach = impl_->approach(pair, at, half);
+    Bubble::Approach approach = bodies_->approach(pair, at, half);
     const auto advances_to = [&](const std::vector<Separation>& all) {
-      return impl_->advances(all, approach, pair, at, half);
+      return bodies_->advances(all, approach, pair, at, half);
     };
     if (planes) {
       if (const auto rough = advances_to(*planes); rough && rough->empty()) return Answer::touch_nowhere;
     }
-    impl_->sharpen(approach, pair, half);
+    bodies_->sharpen(approach, pair, half);
     if (planes) {
       if (const auto sharp = advances_to(*planes)) {
         advances.insert(advances.end(), sharp->begin(), sharp->end());
         return sharp->empty() ? Answer::touch_nowhere : Answer::kept_apart;
       }
     }
-    const double apart = impl_->gap(pair, at, enough);
+    const double apart = bodies_->gap(pair, at, enough);
     if (apart >= enough) return Answer::touch_nowhere;
     approach.room_m += apart;
     if (approach.room_m <= 0) return Answer::too_near;
@@ -201,7 +204,7 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& wanted, Pairs& pair
   };
   Pairs left, spoilt;
   for (std::size_t pair : pairs) {
-    const Answer answer = look_at(impl_->pairs[pair]);
+    const Answer answer = look_at(bodies_->pairs[pair]);
     if (answer == Answer::too_near) spoilt.push_back(pair);
     if (answer == Answer::kept_apart) left.push_back(pair);
   }

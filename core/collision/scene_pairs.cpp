@@ -2,7 +2,7 @@
 #include <map>
 
 #include "core/collision/margins.hpp"
-#include "core/collision/scene_impl.hpp"
+#include "core/collision/scene_bodies.hpp"
 
 namespace sculpt {
 namespace {
@@ -27,18 +27,18 @@ std::vector<std::pair<Shapes, Shapes>> group_shapes(const CheckedLinks& checked)
 
 }  // namespace
 
-Scene::Impl::Mover Scene::Impl::make_mover(int body, int from_link) const {
+SceneBodies::Mover SceneBodies::make_mover(int body, int from_link) const {
   const Body& mover = bodies[static_cast<std::size_t>(body)];
   return {body, motion_bound(chain, from_link, mover.link, mover.hull.extent()),
           turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
 }
 
-Configuration Scene::Impl::grid_speed_from(int link) const {
+Configuration SceneBodies::grid_speed_from(int link) const {
   const Vec3 first = grid.origin_m, last = grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m);
   return motion_bound(chain, link, chain.stock_link(), first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm());
 }
 
-void Scene::Impl::add_pair(int a, int b, double margin_m) {
+void SceneBodies::add_pair(int a, int b, double margin_m) {
   const Body& first = bodies[static_cast<std::size_t>(a)];
   const Body& second = bodies[static_cast<std::size_t>(b)];
   Pair pair{a, b, margin_m, {make_mover(a, second.link), make_mover(b, first.link)}, {}};
@@ -46,13 +46,13 @@ void Scene::Impl::add_pair(int a, int b, double margin_m) {
   if (!pair.movers[0].drives.empty()) pairs.push_back(std::move(pair));
 }
 
-int Scene::Impl::body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes) {
+int SceneBodies::body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes) {
   if (shapes.size() == all_shapes) return body;
   bodies.push_back(part_of(bodies[static_cast<std::size_t>(body)], shapes));
   return static_cast<int>(bodies.size()) - 1;
 }
 
-void Scene::Impl::add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked) {
+void SceneBodies::add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked) {
   const auto& links = cell.robot.links;
   const bool tight = checked.gap_m > 0 && checked.gap_m < link_margin_m;
   for (const auto& [first, second] : group_shapes(checked))
@@ -61,7 +61,7 @@ void Scene::Impl::add_link_pairs(const Cell& cell, int a, int b, const CheckedLi
              tight ? share_of_gap * checked.gap_m : link_margin_m);
 }
 
-void Scene::Impl::add_pairs(const Cell& cell) {
+void SceneBodies::add_pairs(const Cell& cell) {
   const std::vector<int> group = rigid_groups(cell.robot);
   const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
   const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
@@ -98,7 +98,7 @@ void Scene::Impl::add_pairs(const Cell& cell) {
 
 /// Finds the pairs that one joint moves and that it can move as it likes, or in parts of its range. Material only
 /// shrinks, so that stays true.
-void Scene::Impl::find_free_ranges() {
+void SceneBodies::find_free_ranges() {
   for (Pair& pair : pairs) {
     if (pair.joints() != 1) continue;
     const Configuration range = chain.upper() - chain.lower();
@@ -109,7 +109,7 @@ void Scene::Impl::find_free_ranges() {
   }
 }
 
-void Scene::Impl::add_free_ranges(Pair& pair, double low, double high) const {
+void SceneBodies::add_free_ranges(Pair& pair, double low, double high) const {
   Configuration q = chain.lower(), half = Configuration::Zero(chain.dof());
   q[pair.coordinate] = (low + high) / 2;
   half[pair.coordinate] = (high - low) / 2;

@@ -1,8 +1,6 @@
 // Where the columns of one axis cross the surface of a mesh.
 #pragma once
 
-#include "core/base/watch.hpp"
-#include "core/material/shells.hpp"
 #include "core/material/voxel_grid.hpp"
 
 namespace sculpt {
@@ -22,8 +20,5 @@ struct Crossings {
 
   bool is_odd(std::size_t column) const { return (odd[column >> 6] >> (column & 63)) & 1; }
 };
-
-/// Throws InputError `mesh_not_solid` where facets lie in each other by the ten thousand.
-Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& watch);
 
 }  // namespace sculpt

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "core/material/vertex_join.hpp"
 
 namespace sculpt {

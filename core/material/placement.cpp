@@ -3,6 +3,8 @@
 #include <limits>
 #include <sstream>
 
+#include "core/base/error.hpp"
+
 namespace sculpt {
 namespace {
 

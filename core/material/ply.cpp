@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/error.hpp"
 #include "core/material/ply_header.hpp"
 #include "core/material/polygon.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "core/material/crossings.hpp"
+#include "core/material/find_crossings.hpp"
 #include "core/material/holes.hpp"
 #include "core/material/shells.hpp"
 #include "core/material/voxel_rows.hpp"

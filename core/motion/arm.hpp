@@ -7,7 +7,7 @@
 
 #include "core/collision/scene.hpp"
 #include "core/material/support.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

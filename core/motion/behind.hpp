@@ -1,7 +1,11 @@
 // Which of the voxels that the tool cannot come to only wait for others that were left.
 #pragma once
 
+#include <vector>
+
 #include "core/base/helpers.hpp"
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
 #include "core/motion/residue.hpp"
 #include "core/motion/tool_room.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/collision/scene.hpp"
 #include "core/search/translating.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

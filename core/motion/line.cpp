@@ -1,6 +1,6 @@
 #include "core/motion/line.hpp"
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 
 namespace sculpt {
 namespace {

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 
 namespace sculpt {
 namespace {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -11,7 +11,7 @@
 #include "core/motion/residue.hpp"
 #include "core/search/block_order.hpp"
 #include "core/sweep/sweep_memory.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/trajectory_start.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {

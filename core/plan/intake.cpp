@@ -1,13 +1,14 @@
-// Job -> checked inputs: what can be refused before any planning, and mesh -> labelled voxels.
+#include "core/plan/intake.hpp"
+
 #include <bit>
 #include <limits>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
 #include "core/material/loose_pieces.hpp"
+#include "core/material/mesh_file.hpp"
 #include "core/material/voxelize.hpp"
 #include "core/motion/random_configuration.hpp"
-#include "core/plan/plan.hpp"
 
 namespace sculpt {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/plan/plan.hpp"
+#include "core/plan/job.hpp"
 
 namespace sculpt {
 

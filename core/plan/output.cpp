@@ -5,6 +5,7 @@
 
 #include "core/base/durable_file.hpp"
 #include "core/base/error.hpp"
+#include "core/trajectory/reader.hpp"
 
 namespace sculpt {
 namespace {

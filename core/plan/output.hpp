@@ -10,8 +10,9 @@
 #include "core/base/watch.hpp"
 #include "core/plan/batch_writer.hpp"
 #include "core/plan/path_figures.hpp"
-#include "core/plan/plan.hpp"
 #include "core/trajectory/binary.hpp"
+#include "core/trajectory/form.hpp"
+#include "core/trajectory/writer.hpp"
 
 namespace sculpt {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/cell/chain.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -10,13 +10,16 @@
 #include "core/material/loose_pieces.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
+#include "core/motion/explain_residue.hpp"
 #include "core/motion/gantry_carve.hpp"
 #include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/intake.hpp"
 #include "core/plan/job_key.hpp"
 #include "core/plan/run_log.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/sweep/sweep.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {

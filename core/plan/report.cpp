@@ -1,6 +1,6 @@
-#include <nlohmann/json.hpp>
+#include "core/plan/report.hpp"
 
-#include "core/plan/plan.hpp"
+#include <nlohmann/json.hpp>
 
 namespace sculpt {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/search/translating.hpp"
+#include "core/search/voxel_run.hpp"
 
 namespace sculpt {
 

@@ -6,22 +6,9 @@
 
 #include "core/material/block_graph.hpp"
 #include "core/search/ground.hpp"
+#include "core/search/voxel_run.hpp"
 
 namespace sculpt {
-
-/// One straight run along one axis. A cut removes every voxel first..last; the robot stands at a face neighbour of
-/// `first` on the run's own line or turns into it from one. A travel goes from `first`, where the robot stands, to
-/// `last` through air.
-struct VoxelRun {
-  bool cut = false;
-  Voxel first, last;
-};
-
-/// Above the corner of the grid: where paths start and end if nothing is there. Positions may leave the grid
-/// by one voxel at the sides and above, never below the floor.
-inline Voxel translating_entry(int n) {
-  return {0, 0, n};
-}
 
 /// Removes the blocks that can go whole, again and again as long as any does, then of the rest what `carve_voxelwise`
 /// can; `emit` gets the runs in order. Deterministic. Throws Cancelled. Every voxel passed by a travel is air or

@@ -20,9 +20,10 @@
 
 #include <functional>
 
+#include "core/base/watch.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/search/ground.hpp"
 #include "core/search/run_writer.hpp"
-#include "core/search/translating.hpp"
 
 namespace sculpt {
 

@@ -3,7 +3,7 @@
 
 #include "core/sweep/posture_field.hpp"
 #include "core/sweep/stroke.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -5,7 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/transit.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

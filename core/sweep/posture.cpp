@@ -1,6 +1,6 @@
 #include "core/sweep/posture.hpp"
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 
 namespace sculpt {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/sweep/sweep_memory.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -4,17 +4,14 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <memory>
+#include <vector>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/file_segment.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
-
-/// Up to 4096 keyframes that can be decoded without those before them.
-struct FileSegment {
-  std::uint64_t offset = 0;  ///< bytes from the start of the file
-  std::uint64_t first_keyframe = 0;
-  std::uint64_t first_removed = 0;  ///< how many voxels the segments before it remove
-};
 
 /// Writes a segment to `out` as soon as it is full. Throws InputError `trajectory_invalid` for joint values that are no
 /// multiples of the quantum and runs outside the grid. Not shared between threads.

@@ -1,11 +1,14 @@
 // What surrounds the bodies of the segments in an .sct file. Internal to trajectory/.
 #pragma once
 
+#include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/trajectory/binary.hpp"
+#include "core/trajectory/file_segment.hpp"
+#include "core/trajectory/header.hpp"
 
 namespace sculpt {
 

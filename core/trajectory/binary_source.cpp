@@ -1,10 +1,10 @@
-// Reads .sct from its start to its end.
+#include "core/trajectory/binary_source.hpp"
+
 #include <istream>
 
 #include "core/base/sha256.hpp"
 #include "core/trajectory/binary_frame.hpp"
 #include "core/trajectory/segment.hpp"
-#include "core/trajectory/trajectory_source.hpp"
 
 namespace sculpt {
 namespace {

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "core/trajectory/binary.hpp"
+#include "core/trajectory/reader.hpp"
 #include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/writer.hpp"
 
 namespace sculpt {
 namespace {

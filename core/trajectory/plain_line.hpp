@@ -5,7 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/frame.hpp"
+
 namespace sculpt {
 
 inline constexpr double quanta_per_unit = 1e7;
@@ -25,5 +27,12 @@ inline std::optional<std::int64_t> to_quanta(double value) {
   if (from_quanta(quanta) != value) return {};
   return quanta;
 }
+
+/// Joint values as they are stored: multiples of 1e-7 rad or m, so that the text read back gives the same double.
+/// Planners certify rounded values.
+Configuration rounded(const Configuration& q);
+/// The same for a `q` within joint limits that need not be multiples themselves: what would be rounded past a limit is
+/// rounded to the inside, less than one quantum away.
+Configuration rounded(const Configuration& q, const Configuration& lower, const Configuration& upper);
 
 }  // namespace sculpt

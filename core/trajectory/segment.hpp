@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

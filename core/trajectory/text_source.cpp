@@ -1,11 +1,11 @@
-// Reads .ndjson.
+#include "core/trajectory/text_source.hpp"
+
 #include <istream>
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
 #include "core/trajectory/plain_line.hpp"
 #include "core/trajectory/trajectory_line.hpp"
-#include "core/trajectory/trajectory_source.hpp"
 
 namespace sculpt {
 namespace {

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/trajectory_end.hpp"
 
 namespace sculpt {
 

@@ -1,9 +1,11 @@
-// The two forms that TrajectoryReader reads. Internal to trajectory/.
+// What the two forms of a trajectory file have in common for who reads one. Internal to trajectory/.
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <optional>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 
@@ -26,8 +28,5 @@ class TrajectorySource {
   std::uint64_t keyframes_ = 0, removed_ = 0;  // given out so far
   bool finished_ = false;
 };
-
-std::unique_ptr<TrajectorySource> open_text(std::istream& in);
-std::unique_ptr<TrajectorySource> open_binary(std::istream& in);
 
 }  // namespace sculpt

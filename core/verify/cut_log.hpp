@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/material/voxel_set.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
 

@@ -7,7 +7,6 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t listed_findings = 100;
 constexpr double joint_slack = 1e-9;
 constexpr double length_slack_m = 1e-9;
 
@@ -43,18 +42,6 @@ ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, cons
       motion(cell.robot, joints, cell.rest, cell.stock_link),
       bodies(make_solid_bodies(cell.robot)),
       pairs(choose_pairs(cell, joints, motion, bodies)) {}
-
-void PieceFindings::find(std::uint64_t line, std::string sentence) {
-  ++collisions;
-  if (findings.size() < listed_findings) findings.push_back({line, std::move(sentence)});
-}
-
-void PieceFindings::add(PieceFindings&& next) {
-  collisions += next.collisions;
-  voxels_checked += next.voxels_checked;
-  for (Finding& finding : next.findings)
-    if (findings.size() < listed_findings) findings.push_back(std::move(finding));
-}
 
 void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::uint64_t line, PieceFindings& found) {
   for (std::size_t at = 0; at < scene.joints.size(); ++at) {

@@ -5,10 +5,10 @@
 
 #include "core/material/voxel_grid.hpp"
 #include "core/verify/checked_pairs.hpp"
+#include "core/verify/findings.hpp"
 #include "core/verify/link_replay.hpp"
 #include "core/verify/tool_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
-#include "core/verify/verify.hpp"
 
 namespace sculpt {
 

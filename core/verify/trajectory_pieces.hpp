@@ -7,7 +7,8 @@
 #include <mutex>
 #include <vector>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/reader.hpp"
 #include "core/verify/cut_log.hpp"
 
 namespace sculpt {

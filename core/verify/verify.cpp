@@ -11,7 +11,8 @@
 #include <sstream>
 #include <thread>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/reader.hpp"
 #include "core/verify/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"

@@ -11,13 +11,9 @@
 #include "core/cell/cell.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/verify/exempt_pair.hpp"
+#include "core/verify/findings.hpp"
 
 namespace sculpt {
-
-struct Finding {
-  std::uint64_t line = 0;  ///< 1-based line of the trajectory
-  std::string sentence;    ///< what touches what, where
-};
 
 struct Verdict {
   bool clean = false;
@@ -27,22 +23,6 @@ struct Verdict {
   VoxelSet left;                         ///< material that still stands at the end
   std::vector<Finding> findings;         ///< the first 100
   std::vector<ExemptPair> exempt_pairs;  ///< links with shapes that were not kept apart
-};
-
-/// Findings of one piece of a trajectory, or of several.
-struct PieceFindings {
-  std::uint64_t collisions = 0, voxels_checked = 0;
-  std::vector<Finding> findings;  ///< the first 100
-
-  void find(std::uint64_t line, std::string sentence);
-  /// Those of the piece after.
-  void add(PieceFindings&& next);
-};
-
-/// How far a replay is: this many pieces from the first on are done, and this was found.
-struct ReplayedPieces {
-  std::uint64_t pieces = 0;
-  PieceFindings found;
 };
 
 /// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell

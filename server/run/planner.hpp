@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
 #include "core/verify/verify.hpp"
 

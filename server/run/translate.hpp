@@ -1,6 +1,7 @@
 // Wire structs -> core structs: the only file pair that knows both.
 #pragma once
 
+#include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
 #include "proto/cell_bundle.hpp"
 #include "proto/job_spec.hpp"

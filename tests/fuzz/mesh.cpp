@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
+#include "core/material/mesh_file.hpp"
 #include "core/material/placement.hpp"
 #include "core/material/voxelize.hpp"
 #include "tests/fuzz/target.hpp"

@@ -19,7 +19,8 @@
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/progress_line.hpp"
 #include "clients/cpp/client.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/plan/intake.hpp"
+#include "core/trajectory/reader.hpp"
 
 namespace sculpt::cli {
 

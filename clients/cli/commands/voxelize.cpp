@@ -12,6 +12,7 @@
 #include "clients/cli/progress_line.hpp"
 #include "clients/cli/report_table.hpp"
 #include "core/material/binvox.hpp"
+#include "core/plan/intake.hpp"
 
 namespace sculpt::cli {
 

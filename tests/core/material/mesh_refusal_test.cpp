@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/material/mesh.hpp"
+#include "core/material/mesh_file.hpp"
 #include "tests/core/material/gltf_files.hpp"
 #include "tests/core/material/shapes.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/material/mesh_file.hpp"
 #include "tests/core/material/shapes.hpp"
 
 namespace sculpt {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/material/mesh_file.hpp"
 #include "tests/core/material/shapes.hpp"
 
 namespace sculpt {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/material/cavities.hpp"
+#include "core/material/mesh_file.hpp"
 #include "core/material/placement.hpp"
 #include "core/material/voxelize.hpp"
 

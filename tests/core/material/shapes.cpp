@@ -7,6 +7,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/base/error.hpp"
+
 namespace sculpt::shapes {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/material/mesh_file.hpp"
 #include "core/material/placement.hpp"
 #include "tests/core/material/shapes.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {

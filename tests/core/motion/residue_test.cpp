@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/motion/explain_residue.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/motion/random_configuration.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {

@@ -3,7 +3,9 @@
 
 #include <sstream>
 
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/reader.hpp"
+#include "core/trajectory/writer.hpp"
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/material/loose_pieces.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/reader.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"
 

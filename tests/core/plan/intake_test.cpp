@@ -1,4 +1,6 @@
 // What is refused before any planning, with a code and a cure.
+#include "core/plan/intake.hpp"
+
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -7,7 +7,10 @@
 #include "core/base/random.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
+#include "core/motion/explain_residue.hpp"
 #include "core/motion/tool_axes.hpp"
+#include "core/plan/intake.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/scenarios.hpp"
 #include "tests/core/plan/soundness.hpp"
 
@@ -55,7 +58,8 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
     if (removed == 0) ++effort;
   }
   std::map<Voxel, Reason> residue;
-  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), job.seed, 1, {})) residue[one.voxel] = one.reason;
+  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), job.seed, 1, {}))
+    residue[one.voxel] = one.reason;
   return residue;
 }
 

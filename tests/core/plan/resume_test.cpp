@@ -7,6 +7,7 @@
 
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/job_key.hpp"
+#include "core/trajectory/reader.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {

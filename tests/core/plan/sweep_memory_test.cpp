@@ -5,6 +5,7 @@
 
 #include "core/plan/checkpoint.hpp"
 #include "core/sweep/sweep.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/sweep_targets.hpp"
 

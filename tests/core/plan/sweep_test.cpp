@@ -5,6 +5,7 @@
 
 #include "core/motion/tool_axes.hpp"
 #include "core/motion/tool_reach.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"

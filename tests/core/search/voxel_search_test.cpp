@@ -7,6 +7,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "core/material/mesh_file.hpp"
 #include "core/material/placement.hpp"
 #include "core/material/voxelize.hpp"
 #include "tests/core/search/replay.hpp"

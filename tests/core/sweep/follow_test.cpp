@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 #include "tests/core/sweep/panda_field.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "core/base/random.hpp"
 #include "core/sweep/directions.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/sweep/panda_field.hpp"
 
 namespace sculpt {

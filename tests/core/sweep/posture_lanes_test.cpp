@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/random.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 #include "tests/core/cell/tool_derivatives.hpp"
 

@@ -7,6 +7,8 @@
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
 #include "core/trajectory/binary_frame.hpp"
+#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/reader.hpp"
 #include "random_trajectory.hpp"
 
 namespace sculpt {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/trajectory/header.hpp"
 #include "random_trajectory.hpp"
 
 namespace sculpt {

@@ -6,6 +6,7 @@
 #include "core/base/sha256.hpp"
 #include "core/trajectory/binary.hpp"
 #include "core/trajectory/binary_frame.hpp"
+#include "core/trajectory/reader.hpp"
 #include "core/trajectory/segment.hpp"
 #include "random_trajectory.hpp"
 

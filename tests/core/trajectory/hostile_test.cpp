@@ -4,6 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/reader.hpp"
 #include "random_trajectory.hpp"
 
 namespace sculpt {

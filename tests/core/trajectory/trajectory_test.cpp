@@ -1,4 +1,3 @@
-#include "core/trajectory/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +5,12 @@
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/reader.hpp"
+#include "core/trajectory/trajectory_start.hpp"
+#include "core/trajectory/writer.hpp"
 #include "random_trajectory.hpp"
 
 namespace sculpt {

@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "core/cell/ik.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/writer.hpp"
 #include "small_cells.hpp"
 
 namespace sculpt {

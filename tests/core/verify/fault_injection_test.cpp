@@ -2,6 +2,8 @@
 // harmless, a plain dense sampling (written here, sharing nothing) decides.
 #include <gtest/gtest.h>
 
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "small_cells.hpp"
 
 namespace sculpt {

@@ -5,6 +5,9 @@
 #include <array>
 #include <map>
 
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/quantum.hpp"
 #include "small_cells.hpp"
 
 namespace sculpt {

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/header.hpp"
+#include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/writer.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {

@@ -5,6 +5,7 @@
 #include <set>
 #include <thread>
 
+#include "core/trajectory/quantum.hpp"
 #include "core/verify/trajectory_pieces.hpp"
 #include "small_cells.hpp"
 

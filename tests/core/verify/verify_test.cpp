@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/trajectory/header.hpp"
 #include "small_cells.hpp"
 
 namespace sculpt {

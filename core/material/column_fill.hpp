@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/material/crossings.hpp"
+#include "core/material/shells.hpp"
 
 namespace sculpt {
 
@@ -24,9 +25,9 @@ class Crossing {
 static_assert(roles <= 8 && 1024 * 1025 < 1 << 28);
 
 /// Flips the bits of `inside` where columns go in or out, and fills the rest of `out`.
-class Columns {
+class ColumnFill {
  public:
-  Columns(Crossings& out, int n, int axis);
+  ColumnFill(Crossings& out, int n, int axis);
 
   /// `crossings`: sorted, all of one column of the row, at least one.
   void add(std::span<const Crossing> crossings, std::int64_t row);

@@ -1,4 +1,4 @@
-#include "core/material/mesh.hpp"
+#include "core/material/mesh_file.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>

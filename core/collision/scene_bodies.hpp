@@ -1,18 +1,27 @@
-// What a Scene is made of. Internal to collision/.
+// The bodies of a scene, which of them must stay apart, and how far apart they are. Internal to collision/.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "core/cell/cell.hpp"
 #include "core/collision/body.hpp"
+#include "core/collision/bubble.hpp"
 #include "core/collision/clearance.hpp"
+#include "core/collision/contact.hpp"
+#include "core/collision/link_pairs.hpp"
+#include "core/collision/material.hpp"
 #include "core/collision/motion_bound.hpp"
-#include "core/collision/scene.hpp"
 #include "core/collision/tool_sweep.hpp"
 
 namespace sculpt {
 
-struct Scene::Impl {
+/// All that a Scene knows; it may be read as it is, by those who ask the questions of scene.hpp.
+class SceneBodies {
+ public:
   /// A body as it moves seen from another one, or from the stock.
   struct Mover {
     int body;
@@ -48,11 +57,12 @@ struct Scene::Impl {
         return range.first <= low && high <= range.second;
       });
     }
+    Contact contact() const { return second < 0 ? Contact::link_material : Contact::link_link; }
     /// How many joints move the two against each other.
     Eigen::Index joints() const { return (movers[0].speed.array() > 0).count(); }
   };
 
-  Impl(const Cell& cell, const Grid& where, const VoxelSet& standing);
+  SceneBodies(const Cell& cell, const Grid& where, const VoxelSet& standing);
 
   void count_check() const { checks.fetch_add(1, std::memory_order_relaxed); }
   ToolLine tool_line(const ToolPose& pose) const;

@@ -1,33 +1,13 @@
-#include "core/trajectory/trajectory.hpp"
+#include "core/trajectory/writer.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <istream>
 #include <ostream>
+#include <vector>
 
 #include "core/base/sha256.hpp"
-#include "core/trajectory/binary_frame.hpp"
-#include "core/trajectory/quantum.hpp"
 #include "core/trajectory/trajectory_line.hpp"
-#include "core/trajectory/trajectory_source.hpp"
 
 namespace sculpt {
-int run_length(const Keyframe& keyframe) {
-  return keyframe.cut ? l1(keyframe.first, keyframe.last) + 1 : 0;
-}
-
-Configuration rounded(const Configuration& q) {
-  // + 0.0 drops the sign of -0.
-  return q.unaryExpr([](double value) { return std::nearbyint(value * quanta_per_unit) / quanta_per_unit + 0.0; });
-}
-
-Configuration rounded(const Configuration& q, const Configuration& lower, const Configuration& upper) {
-  Configuration stored = rounded(q);
-  for (Eigen::Index at = 0; at < q.size(); ++at)
-    if (const int step = (stored[at] < lower[at]) - (stored[at] > upper[at]); step != 0)
-      stored[at] = from_quanta(std::llround(stored[at] * quanta_per_unit) + step);
-  return stored;
-}
 
 struct TrajectoryWriter::Impl {
   explicit Impl(std::ostream& stream) : out(stream), unhashed(1 << 16), top(unhashed.data()) {}
@@ -89,27 +69,6 @@ TrajectoryEnd TrajectoryWriter::finish() {
   impl_->end.sha256 = impl_->hash.hex();
   impl_->out << end_line(impl_->end) << '\n';
   return impl_->end;
-}
-
-struct TrajectoryReader::Impl {
-  std::unique_ptr<TrajectorySource> source;
-};
-
-TrajectoryReader::TrajectoryReader(std::istream& in)
-    : impl_(new Impl{in.peek() == binary_magic.front() ? open_binary(in) : open_text(in)}) {}
-
-TrajectoryReader::~TrajectoryReader() = default;
-
-const TrajectoryHeader& TrajectoryReader::header() const {
-  return impl_->source->header();
-}
-
-std::uint64_t TrajectoryReader::line() const {
-  return impl_->source->keyframes() + 1;  // the first line is the header
-}
-
-std::optional<Keyframe> TrajectoryReader::next() {
-  return impl_->source->next();
 }
 
 }  // namespace sculpt

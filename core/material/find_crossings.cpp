@@ -1,9 +1,9 @@
-#include "core/material/crossings.hpp"
+#include "core/material/find_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/material/columns.hpp"
+#include "core/material/column_fill.hpp"
 #include "core/material/prefix_parity.hpp"
 
 namespace sculpt {
@@ -143,7 +143,7 @@ Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& w
   Crossings crossings{VoxelSet(n), {}, {}, 0, {}};
   crossings.met.resize(static_cast<std::size_t>(n) * n / 64);
   crossings.odd = crossings.met;
-  Columns columns(crossings, n, axis);
+  ColumnFill columns(crossings, n, axis);
   const Rows rows(surface, n, axis);
   std::vector<Facet> active;
   std::vector<Crossing> met;

@@ -1,4 +1,4 @@
-#include "core/material/columns.hpp"
+#include "core/material/column_fill.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -40,14 +40,14 @@ class Winding {
 
 }  // namespace
 
-Columns::Columns(Crossings& out, int n, int axis) : out_(out), n_(n), axis_(axis) {
+ColumnFill::ColumnFill(Crossings& out, int n, int axis) : out_(out), n_(n), axis_(axis) {
   const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(n), static_cast<std::size_t>(n) * n};
   along_ = stride[axis];
   across_a_ = stride[(axis + 1) % 3];
   across_b_ = stride[(axis + 2) % 3];
 }
 
-void Columns::add(std::span<const Crossing> crossings, std::int64_t row) {
+void ColumnFill::add(std::span<const Crossing> crossings, std::int64_t row) {
   const int a = crossings[0].column(n_);
   const std::size_t column = static_cast<std::size_t>(a + n_ * row);
   Winding all;
@@ -69,12 +69,12 @@ void Columns::add(std::span<const Crossing> crossings, std::int64_t row) {
   }
 }
 
-void Columns::flip(std::int64_t a, std::int64_t row, int depth) {
+void ColumnFill::flip(std::int64_t a, std::int64_t row, int depth) {
   const std::size_t at = a * across_a_ + row * across_b_ + depth * along_;
   out_.inside.words()[at >> 6] ^= std::uint64_t{1} << (at & 63);
 }
 
-void Columns::note(int a, std::int64_t row, int first, int last) {
+void ColumnFill::note(int a, std::int64_t row, int first, int last) {
   std::array<int, 3> low{}, high{};
   low[axis_] = first;
   high[axis_] = last;

@@ -1,0 +1,94 @@
+#include "core/motion/explain_residue.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/random.hpp"
+#include "core/cell/ik.hpp"
+#include "core/material/cavities.hpp"
+#include "core/material/support.hpp"
+#include "core/motion/behind.hpp"
+#include "core/motion/random_configuration.hpp"
+#include "core/motion/tool_axes.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int seeds_an_axis = 8;
+
+/// The farthest that a tool axis gets at this voxel, from these starting points of IK.
+Reason explain_axis(const Scene& scene, const ToolRoom& room, Voxel voxel, const Vec3& axis,
+                    const std::vector<Configuration>& seeds) {
+  const Vec3 ball = scene.grid().centre(voxel);
+  if (!room.is_free(scene.material(), voxel, axis)) return Reason::tool_cannot_reach;
+  Reason farthest = Reason::out_of_reach;
+  for (const Configuration& seed : seeds) {
+    if (const auto q = solve_ik(scene.chain(), {ball, axis}, seed)) {
+      if (scene.contact_at(*q, voxel) == Contact::none) return Reason::no_transit;
+      farthest = Reason::link_collision;
+    } else if (farthest == Reason::out_of_reach) {
+      IkSettings beyond_limits;
+      beyond_limits.respect_limits = false;
+      if (solve_ik(scene.chain(), {ball, axis}, seed, beyond_limits)) farthest = Reason::joint_limits;
+    }
+  }
+  return farthest;
+}
+
+/// Of a robot that only shifts its tool, and so comes to every voxel in one way.
+Reason explain_shifted(const Scene& scene, const Support& support, Voxel voxel, const Configuration& middle) {
+  const IkGoal goal{scene.grid().centre(voxel), {}};
+  const auto q = solve_ik(scene.chain(), goal, middle);
+  if (!q) {
+    IkSettings beyond_limits;
+    beyond_limits.respect_limits = false;
+    return solve_ik(scene.chain(), goal, middle, beyond_limits) ? Reason::joint_limits : Reason::out_of_reach;
+  }
+  const Contact contact = scene.contact_at(*q, voxel);
+  if (contact == Contact::tool_material) return Reason::tool_cannot_reach;
+  if (contact != Contact::none) return Reason::link_collision;
+  return support.frees(voxel) ? Reason::loose_piece : Reason::no_transit;
+}
+
+Reason explain(const Scene& scene, const Support& support, const ToolRoom& room, Voxel voxel, std::uint64_t seed) {
+  if (scene.chain().translating())
+    return explain_shifted(scene, support, voxel, (scene.chain().lower() + scene.chain().upper()) / 2);
+  Random random(mix(seed, scene.material().solid().index(voxel)));
+  std::vector<Configuration> seeds;
+  for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
+  Reason farthest = Reason::tool_cannot_reach;
+  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, room, voxel, axis, seeds));
+  if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
+  return farthest;
+}
+
+}  // namespace
+
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch) {
+  const VoxelSet enclosed = find_enclosed(voxels);
+  const Support support(scene.material().solid(), may_fall);
+  const ToolRoom room(scene);
+  std::vector<Residue> residue;
+  const auto n = static_cast<std::size_t>(voxels.n());
+  for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {
+    const std::uint64_t removable = voxels.stock.words()[word] & ~voxels.keep.words()[word];
+    for (std::uint64_t left = scene.material().solid().words()[word] & removable; left != 0; left &= left - 1) {
+      const std::size_t at = 64 * word + static_cast<std::size_t>(std::countr_zero(left));
+      const Voxel v{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
+      residue.push_back({v, Reason::enclosed});
+    }
+  }
+  constexpr std::size_t at_once = 64;
+  helpers.for_each_index((residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
+    for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
+      if (watch.stop.stop_requested()) throw Cancelled{};
+      auto& [voxel, reason] = residue[at];
+      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, voxel, seed);
+    }
+  });
+  find_behind(residue, scene, room, helpers, watch);
+  return residue;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,22 @@
+// What was left of a plan -> Residue: why, voxel by voxel.
+#pragma once
+
+#include <vector>
+
+#include "core/base/helpers.hpp"
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
+#include "core/material/voxel_grid.hpp"
+#include "core/motion/residue.hpp"
+
+namespace sculpt {
+
+/// The remove voxels of `voxels` that still stand in `scene`, in index order, each with the first condition that no
+/// tool axis meets in the final state: joined to the outside; room for ball, shank and holder; a configuration at all;
+/// one within limits; one without contact. What meets all of them was left because its removal would free a loose
+/// piece, or else for want of a transit. What only stands behind such voxels says so. `may_fall`: what cannot be held.
+/// Throws Cancelled.
+std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
+                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch);
+
+}  // namespace sculpt

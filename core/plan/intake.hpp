@@ -1,0 +1,45 @@
+// Job -> checked inputs: what can be refused before any planning, and mesh -> labelled voxels.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/watch.hpp"
+#include "core/material/voxel_grid.hpp"
+#include "core/plan/job.hpp"
+
+namespace sculpt {
+
+/// What can be known of a job before its files are read.
+struct JobSizes {
+  struct File {
+    std::uint64_t bytes = 0;
+    std::string extension;
+  };
+  int resolution = 0;
+  File mesh;
+  std::optional<File> stock;
+  std::uint64_t cell_bytes = 0;  ///< of all files of the cell
+};
+JobSizes sizes_of(const Job& job);
+
+/// Bytes of memory that the job is expected to need at most: its files, what reading makes of them, and voxels. Throws
+/// InputError `mesh_unreadable` for a kind of mesh that is not known.
+std::uint64_t predict_memory(const JobSizes& sizes);
+
+/// Throws InputError for what can be refused by that alone: `resolution_invalid`, `memory_cap`.
+void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes);
+
+/// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
+/// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual
+/// meshes. Throws InputError.
+void check_job(const Job& job, const Watch& watch);
+
+/// Mesh (or .binvox) to labelled voxels; used by planning, `voxelize` and `verify FILE`. Throws InputError, Cancelled.
+VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
+
+/// What is loose or ambiguous of the target; told with every step of `run_job` from the first of `plan` on.
+Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid);
+
+}  // namespace sculpt

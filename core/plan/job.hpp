@@ -1,0 +1,43 @@
+// What a user asks for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/frame.hpp"
+#include "core/cell/cell.hpp"
+#include "core/material/placement.hpp"
+
+namespace sculpt {
+
+/// A file's content and its kind ("stl", "binvox"...; lower case, no dot).
+struct MeshFile {
+  std::string bytes;
+  std::string extension;
+  std::string name;  ///< for the report
+};
+
+/// What is clamped at the start: the whole grid, or a box of it, or a mesh in the same frame as the placed target.
+struct Stock {
+  struct Box {
+    Vec3 min_m, max_m;
+  };  ///< metres from the corner of voxel (0,0,0)
+  std::optional<Box> box;
+  std::optional<MeshFile> mesh;  ///< metres from the corner of voxel (0,0,0); or a .binvox of the same resolution
+};
+
+struct Job {
+  MeshFile mesh;
+  CellFiles cell;
+  int resolution = 0;            ///< power of two, 8 to 1024
+  std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
+  std::uint64_t seed = 0;
+  int threads = 1;           ///< the plan is the same at any number
+  bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do
+  Placement placement;
+  Stock stock;
+  std::uint64_t memory_cap_bytes = 2ull << 30;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,14 @@
+// Reads .sct from its start to its end. Internal to trajectory/.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+
+#include "core/trajectory/trajectory_source.hpp"
+
+namespace sculpt {
+
+/// Throws InputError `trajectory_invalid` for a header that is none; so does what it gives, for what follows.
+std::unique_ptr<TrajectorySource> open_binary(std::istream& in);
+
+}  // namespace sculpt
