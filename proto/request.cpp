@@ -87,6 +87,18 @@ std::string error_line(const Json& id, const Json& error) {
   return write_json({{"jsonrpc", "2.0"}, {"id", id}, {"error", error}});
 }
 
+std::string fitted_error_line(const Json& id, Json error, std::size_t max_line) {
+  std::string line = error_line(id, error);
+  while (line.size() > max_line) {
+    const std::string sentence = error["message"];
+    if (sentence.empty()) break;
+    error["message"] = sentence.substr(0, sentence.size() - std::min(sentence.size(), line.size() - max_line));
+    line = error_line(id, error);
+  }
+  if (line.size() > max_line) error["data"].erase("pointer");
+  return error_line(id, error);
+}
+
 std::string event_line(const Json& params) {
   return write_json({{"jsonrpc", "2.0"}, {"method", "event"}, {"params", params}});
 }

@@ -33,6 +33,8 @@ std::optional<std::size_t> announced_chunk(const Request& request);
 std::string request_line(const Json& id, const std::string& method, const Json& params);
 std::string reply_line(const Json& id, const Json& result);
 std::string error_line(const Json& id, const Json& error_object);
+/// At most `max_line` bytes of it: its sentence is cut, then its pointer is left out.
+std::string fitted_error_line(const Json& id, Json error_object, std::size_t max_line);
 std::string event_line(const Json& params);
 
 }  // namespace sculpt::proto

@@ -117,7 +117,13 @@ class Client {
   std::optional<Json> next_event(std::optional<double> timeout_s = {});
 
  private:
-  struct Exchange;
+  /// A request with its chunk, and where the chunk of its reply goes.
+  struct Exchange {
+    const std::string& method;
+    const Json& params;
+    std::optional<std::string_view> chunk;
+    std::string* reply_chunk = nullptr;
+  };
   void open();
   void find_again(const std::exception_ptr& lost);
   /// Asks until there is an answer.

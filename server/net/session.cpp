@@ -21,19 +21,6 @@ constexpr int ended_probe_s = 10;
 constexpr int probe_interval_s = 10;
 constexpr int lost_probes = 3;
 
-// The error as a line of at most max_line bytes: its sentence is cut, then its pointer is left out.
-std::string fitted_error(const Json& id, Json error, std::size_t max_line) {
-  std::string line = proto::error_line(id, error);
-  while (line.size() > max_line) {
-    const std::string sentence = error["message"];
-    if (sentence.empty()) break;
-    error["message"] = sentence.substr(0, sentence.size() - std::min(sentence.size(), line.size() - max_line));
-    line = proto::error_line(id, error);
-  }
-  if (line.size() > max_line) error["data"].erase("pointer");
-  return proto::error_line(id, error);
-}
-
 }  // namespace
 
 Session::Session(std::unique_ptr<Transport> transport, Peer peer, ConnectionContext& context)
@@ -199,7 +186,7 @@ void Session::answer(const Json& id, Reply reply) {
 }
 
 void Session::refuse(const Json& id, const Json& error) {
-  send(fitted_error(id, error, max_line_) + "\n");
+  send(proto::fitted_error_line(id, error, max_line_) + "\n");
   answered(id);
 }
 

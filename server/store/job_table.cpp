@@ -66,6 +66,10 @@ void JobTable::add_artifacts(const JobRow& row, const std::vector<StoredArtifact
   }
 }
 
+void JobTable::forget_artifacts(const JobRow& row) {
+  Statement(database_, "DELETE FROM artifact WHERE job=?").bind(row.number).run();
+}
+
 void JobTable::erase(const JobRow& row) {
   for (const char* sql :
        {"DELETE FROM event WHERE job=?", "DELETE FROM artifact WHERE job=?", "DELETE FROM job WHERE number=?"}) {

@@ -26,6 +26,7 @@ class JobTable {
   /// not as it was read, std::logic_error when the table of moves (job_state.cpp) does not have this one.
   void move(JobRow& row, JobState to, const char* reason);
   void add_artifacts(const JobRow& row, const std::vector<StoredArtifact>& artifacts);
+  void forget_artifacts(const JobRow& row);
   /// With its events and artifacts; of the job stays that there was one.
   void erase(const JobRow& row);
 

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "proto/error_codes.hpp"
+#include "server/store/job_commands.hpp"
 #include "server/store/job_id.hpp"
 #include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
@@ -15,12 +16,7 @@ namespace {
 
 using enum JobState;
 
-constexpr const char* damage_code = "artifact_damaged";
 constexpr const char* active = "state IN ('running', 'pausing', 'cancelling')";
-
-[[noreturn]] void refuse(const JobRecord& job, const std::string& what) {
-  throw proto::ProtocolError("wrong_state", "job " + job.id + " is " + name(job.state) + " and cannot be " + what);
-}
 
 // The file, once what is in it is of this version.
 const std::filesystem::path& up_to_date(const std::filesystem::path& file) {
@@ -61,7 +57,7 @@ class SqliteStore : public JobStore {
       }
       return {first->job, true};
     }
-    refuse_too_many(wanted.owner);
+    refuse_too_many(tally_, rules_, wanted.owner);
     const JobRow row = jobs_.insert(new_record(wanted));
     change.commit();
     return {row.job, false};
@@ -140,48 +136,19 @@ class SqliteStore : public JobStore {
   }
 
   JobState cancel(const std::string& id) override {
-    return change_job(id, [this](JobRow& row) {
-      const JobState state = row.job.state;
-      if (state == cancelled || state == cancelling) return;
-      if (is_final(state)) refuse(row.job, "cancelled any more");
-      jobs_.move(row, is_active(state) ? cancelling : cancelled, "cancel_requested");
-    });
+    return change_job(id, [this](JobRow& row) { cancel_job(jobs_, row); });
   }
 
   JobState pause(const std::string& id) override {
-    return change_job(id, [this](JobRow& row) {
-      const JobState state = row.job.state;
-      if (state == paused || state == pausing) return;
-      if (is_final(state) || state == cancelling) refuse(row.job, "paused");
-      jobs_.move(row, state == running ? pausing : paused, "pause_requested");
-    });
+    return change_job(id, [this](JobRow& row) { pause_job(jobs_, row); });
   }
 
   JobState resume(const std::string& id) override {
-    return change_job(id, [this](JobRow& row) {
-      JobRecord& job = row.job;
-      if (is_final(job.state) || job.state == cancelling) refuse(job, "resumed");
-      if (job.state == pausing) refuse(job, "resumed before it is paused: try again in a moment");
-      if (job.state != paused) return;
-      const bool early = job.schedule.not_before > jobs_.now();
-      if (early) job.wake_at = job.schedule.not_before;
-      jobs_.move(row, early ? held : queued, "resumed");
-    });
+    return change_job(id, [this](JobRow& row) { resume_job(jobs_, row); });
   }
 
   JobState retry(const std::string& id) override {
-    return change_job(id, [this](JobRow& row) {
-      JobRecord& job = row.job;
-      const bool damaged = job.error_code == damage_code;
-      if (job.state != quarantined && !damaged)
-        refuse(job, "retried: only quarantined jobs are, and those with a damaged artifact");
-      job.crashes = damaged ? 0 : std::max(1, rules_.max_crashes - 1);
-      Statement(database_, "DELETE FROM artifact WHERE job=?").bind(row.number).run();
-      job.failures = 0;
-      job.error_code.clear();
-      job.error_sentence.clear();
-      jobs_.move(row, queued, "retried");
-    });
+    return change_job(id, [this](JobRow& row) { retry_job(jobs_, rules_, row); });
   }
 
   void set_queue_paused(bool wanted) override {
@@ -284,21 +251,6 @@ class SqliteStore : public JobStore {
       job.wake_at = wanted.schedule.not_before;
     }
     return job;
-  }
-
-  void refuse_too_many(const std::string& owner) {
-    if (tally_.open() >= static_cast<std::uint64_t>(rules_.max_jobs)) {
-      throw proto::ProtocolError("queue_full",
-                                 "the server has " + std::to_string(rules_.max_jobs) +
-                                     " jobs that have not ended, as many as it may: try again when some have, or "
-                                     "raise max_jobs");
-    }
-    if (!owner.empty() && tally_.open(owner) >= static_cast<std::uint64_t>(rules_.max_jobs_per_owner)) {
-      throw proto::ProtocolError("quota",
-                                 "'" + owner + "' has " + std::to_string(rules_.max_jobs_per_owner) +
-                                     " jobs that have not ended, as many as one may: try again when some have, or "
-                                     "raise max_jobs_per_owner");
-    }
   }
 
   // A row in a state that nobody knows is not counted.

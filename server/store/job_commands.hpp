@@ -1,0 +1,21 @@
+// How a client's command changes its job. Call inside a transaction.
+#pragma once
+
+#include "server/store/job_table.hpp"
+#include "server/store/job_tally.hpp"
+
+namespace sculpt::server {
+
+/// The error of a job that has ended and of whose files one is not what was stored.
+inline constexpr const char* damage_code = "artifact_damaged";
+
+/// Throws ProtocolError `queue_full` and `quota` for one more job than there may be (StoreRules).
+void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::string& owner);
+
+// What each does: JobStore. They throw ProtocolError `wrong_state`.
+void cancel_job(JobTable& jobs, JobRow& row);
+void pause_job(JobTable& jobs, JobRow& row);
+void resume_job(JobTable& jobs, JobRow& row);
+void retry_job(JobTable& jobs, const StoreRules& rules, JobRow& row);
+
+}  // namespace sculpt::server
