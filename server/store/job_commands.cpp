@@ -15,6 +15,10 @@ using enum JobState;
 
 }  // namespace
 
+void refuse_unknown(const std::string& id) {
+  throw proto::ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
+}
+
 void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::string& owner) {
   if (tally.open() >= static_cast<std::uint64_t>(rules.max_jobs)) {
     throw proto::ProtocolError("queue_full",

@@ -26,10 +26,6 @@ const std::filesystem::path& up_to_date(const std::filesystem::path& file) {
   return file;
 }
 
-[[noreturn]] void refuse_unknown(const std::string& id) {
-  throw proto::ProtocolError("not_found", "there is no job '" + id + "'", "/params/job");
-}
-
 class SqliteStore : public JobStore {
  public:
   SqliteStore(const std::filesystem::path& file, StoreRules rules)
