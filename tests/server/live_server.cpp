@@ -63,12 +63,12 @@ std::string refusal(client::Client& client, const std::string& method, const Jso
   }
 }
 
-void say_hello(Connection& connection) {
+void say_hello(client::Connection& connection) {
   connection.send("{\"id\":0,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"test\"}}\n");
   connection.read_line();
 }
 
-std::string read_error(Connection& connection) {
+std::string read_error(client::Connection& connection) {
   const std::string line = *connection.read_line();
   const Json reply = proto::parse_json(line);
   return reply.contains("error") ? reply["error"]["data"]["code"].get<std::string>() : line;

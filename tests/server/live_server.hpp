@@ -48,8 +48,8 @@ void await_state(client::Client& client, const std::string& job, const std::stri
 /// The word of the error that a call is refused with, or "accepted".
 std::string refusal(client::Client& client, const std::string& method, const Json& params);
 /// A connection that has said hello, for lines that Client would never send.
-void say_hello(Connection& connection);
+void say_hello(client::Connection& connection);
 /// The word of the next line's error, or the line itself.
-std::string read_error(Connection& connection);
+std::string read_error(client::Connection& connection);
 
 }  // namespace sculpt::server

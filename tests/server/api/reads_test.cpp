@@ -56,7 +56,7 @@ TEST(Reads, OfOneConnectionComeInOrderAndSeeItsChanges) {
   LiveServer live;
   client::Client client = live.connect();
   const std::string job = submit(client, "hold");
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   const std::string params = R"(,"params":{"job":")" + job + "\"}}\n";
   connection.send(R"({"id":1,"method":"job.get")" + params + R"({"id":2,"method":"job.cancel")" + params +
@@ -76,7 +76,7 @@ TEST(Reads, AWaitThatEndsBreaksNoOrder) {
   client::Client client = live.connect();
   const std::string job = submit(client, "plain");
   ASSERT_EQ(final_state(client, job), "succeeded");
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   std::string all;
   for (int id = 1; id <= 200; ++id) {

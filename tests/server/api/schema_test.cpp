@@ -5,14 +5,14 @@
 
 #include <set>
 
-#include "server/api/dispatch.hpp"
+#include "server/api/methods.hpp"
 
 namespace sculpt::server {
 namespace {
 
 Json methods_of_the_table() {
   Json methods = Json::array();
-  for (const std::string_view name : method_names()) methods.push_back(name);
+  for (const Method& method : server::methods()) methods.push_back(method.name);
   return methods;
 }
 
@@ -33,9 +33,8 @@ TEST(Schema, EveryMethodHasARequestWithItsParams) {
 
 TEST(Schema, EveryMethodHasParamsAndAResultAndNothingElseHas) {
   std::set<std::string> wanted, found;
-  for (const std::string_view name : method_names()) {
-    wanted.insert({std::string(name) + ".params", std::string(name) + ".result"});
-  }
+  for (const Method& method : methods())
+    wanted.insert({std::string(method.name) + ".params", std::string(method.name) + ".result"});
   const Json whole = proto::protocol_schema();
   for (const auto& [name, definition] : whole["$defs"].items()) {
     if (name.ends_with(".params") || name.ends_with(".result")) found.insert(name);

@@ -186,7 +186,7 @@ TEST(Streams, APeerThatHasEndedItsSideIsToldToTheEnd) {
   client::Client client = live.connect();
   const std::string job = submit(client, "hold");
   await_state(client, job, "running");
-  Connection half(live.address());
+  client::Connection half(live.address());
   say_hello(half);
   half.send(R"({"id":1,"method":"events.subscribe","params":{"job":")" + job + "\"}}\n");
   half.end_sending();
@@ -201,7 +201,7 @@ TEST(Streams, AClientThatAsksForMuchAndNeverReadsIsClosed) {
   client::Client honest = live.connect();
   const std::string job = submit(honest, "big");
   ASSERT_EQ(final_state(honest, job), "succeeded");
-  Connection greedy(live.address());
+  client::Connection greedy(live.address());
   say_hello(greedy);
   const std::string request = R"({"id":1,"method":"artifact.read","params":{"job":")" + job +
                               R"(","artifact":"trajectory","offset":0,"bytes":4194304}})" + "\n";

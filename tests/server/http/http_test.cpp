@@ -11,7 +11,7 @@ namespace {
 
 // One request on a connection of its own: the whole reply, or its beginning if it is not read to its end.
 std::string ask(const LiveServer& live, const std::string& request) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   connection.send(request);
   std::string reply;
   try {
@@ -39,7 +39,7 @@ TEST(Http, ADownloadThatIsNotReadIsEnded) {
   client::Client client = live.connect();
   const std::string job = submit(client, "big");
   ASSERT_EQ(final_state(client, job), "succeeded");
-  Connection sleeper(live.address());
+  client::Connection sleeper(live.address());
   sleeper.send(get("/v1/artifacts/" + job + "/trajectory"));
   // The client, this question's own connection, and until it is ended the sleeper.
   while (ask(live, get("/metrics")).find("\nsculptd_connections 2\n") == std::string::npos) {

@@ -9,7 +9,7 @@
 namespace sculpt::server {
 namespace {
 
-bool closed(Connection& connection) {
+bool closed(client::Connection& connection) {
   try {
     connection.read_line();
     return false;
@@ -29,7 +29,7 @@ class BadLines : public testing::Test {
 };
 
 TEST_F(BadLines, AMalformedLineGetsAnErrorAndTheConnectionLivesOn) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   const std::string deep(70, '[');
   const std::vector<std::pair<std::string, std::string>> lines{
@@ -62,7 +62,7 @@ TEST_F(BadLines, AMalformedLineGetsAnErrorAndTheConnectionLivesOn) {
 }
 
 TEST_F(BadLines, AnOverlongLineGetsAnErrorAndTheEnd) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   connection.send("{\"id\":1,\"method\":\"" + std::string(proto::max_line_bytes, 'x') + "\"}\n");
   EXPECT_EQ(read_error(connection), "line_too_long");
@@ -72,7 +72,7 @@ TEST_F(BadLines, AnOverlongLineGetsAnErrorAndTheEnd) {
 TEST_F(BadLines, BinaryGarbageGetsAnErrorAndTheEnd) {
   for (const std::string& garbage :
        {std::string("\x16\x03\x01\x02\x00\x01", 6), std::string("{\"id\":\x01}"), std::string("{\"\xff\xfe\"}")}) {
-    Connection connection(live.address());
+    client::Connection connection(live.address());
     say_hello(connection);
     connection.send(garbage + "\n");
     EXPECT_EQ(read_error(connection), "not_text");
@@ -81,14 +81,14 @@ TEST_F(BadLines, BinaryGarbageGetsAnErrorAndTheEnd) {
 }
 
 TEST_F(BadLines, AnotherProtocolIsTurnedAwayAtItsFirstLine) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   connection.send("EHLO x\r\n{\"id\":1,\"method\":\"ping\"}\n");
   EXPECT_EQ(read_error(connection), "not_text");
   EXPECT_TRUE(closed(connection));
 }
 
 TEST_F(BadLines, HelloComesFirstAndWithTheRightVersion) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   connection.send("{\"id\":1,\"method\":\"ping\"}\n");
   EXPECT_EQ(read_error(connection), "hello_required");
   connection.send(
@@ -100,7 +100,7 @@ TEST_F(BadLines, HelloComesFirstAndWithTheRightVersion) {
 
 TEST_F(BadLines, AChunkOfUnknownLengthEndsTheConnection) {
   for (const char* bytes : {"-1", "9223372036854775808", "4194305", "\"1\"", "null"}) {
-    Connection connection(live.address());
+    client::Connection connection(live.address());
     say_hello(connection);
     connection.send(std::string(R"({"id":1,"method":"blob.put","params":{"bytes":)") + bytes + "}}\n");
     EXPECT_EQ(read_error(connection), "bad_request") << bytes;
@@ -109,7 +109,7 @@ TEST_F(BadLines, AChunkOfUnknownLengthEndsTheConnection) {
 }
 
 TEST_F(BadLines, TheChunkOfARefusedUploadIsSkipped) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   connection.send(
       "{\"id\":1,\"method\":\"blob.put\",\"params\":{\"sha256\":\"x\",\"size\":4,\"offset\":0,\"bytes\":4}}\n{\n}\n\n{"
@@ -122,14 +122,14 @@ TEST_F(BadLines, AClientThatVanishesMidStreamHarmsNobody) {
   for (const char* last :
        {"{\"id\":1,\"meth",
         "{\"id\":1,\"method\":\"blob.put\",\"params\":{\"sha256\":\"x\",\"size\":9,\"offset\":0,\"bytes\":9}}\nabc"}) {
-    Connection connection(live.address());
+    client::Connection connection(live.address());
     say_hello(connection);
     connection.send(last);
   }
 }
 
 TEST_F(BadLines, WhatWasAskedBeforeTheClientEndedItsSideIsAnswered) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   connection.send(
       "{\"id\":1,\"method\":\"hello\",\"params\":{\"protocol\":[1,0],\"client\":\"x\"}}\n"
       "{\"id\":2,\"method\":\"blob.has\",\"params\":{\"sha256\":\"" +
@@ -142,7 +142,7 @@ TEST_F(BadLines, WhatWasAskedBeforeTheClientEndedItsSideIsAnswered) {
 }
 
 TEST_F(BadLines, ErrorsKeepToTheClientsLineLimit) {
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   connection.send(R"({"id":1,"method":"hello","params":{"protocol":[1,0],"client":"plc","max_line":256}})"
                   "\n");
   connection.read_line();
@@ -164,7 +164,7 @@ TEST_F(BadLines, RandomBytesNeverHarmTheDaemon) {
     for (std::uint64_t i = random.next() % 3000; i > 0; --i) {
       bytes += seed % 3 == 0 ? static_cast<char>(random.next()) : letters[random.next() % letters.size()];
     }
-    Connection connection(live.address());
+    client::Connection connection(live.address());
     try {
       connection.send(bytes);
       connection.end_sending();

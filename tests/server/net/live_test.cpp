@@ -216,7 +216,7 @@ TEST(Live, AClientWithShortLinesGetsListsInShortPages) {
   std::vector<std::string> jobs;
   for (int i = 0; i < 5; ++i) jobs.push_back(submit(client, "plain"));
   for (const std::string& job : jobs) final_state(client, job);
-  Connection plc(live.address());
+  client::Connection plc(live.address());
   plc.send(R"({"id":1,"method":"hello","params":{"protocol":[1,0],"client":"plc","max_line":512}})"
            "\n");
   plc.read_line();

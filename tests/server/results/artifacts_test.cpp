@@ -49,7 +49,7 @@ class ArtifactDamage : public testing::TestWithParam<Damage> {
     }
   }
   std::string http(const std::string& path) {
-    Connection connection(live.address());
+    client::Connection connection(live.address());
     connection.send("GET /v1/artifacts/" + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     std::string reply;
     try {
@@ -154,7 +154,7 @@ TEST(Artifacts, PiecesInAnyOrderAreServed) {
   client::Client client = live.connect();
   const std::string job = submit(client, "plain");
   ASSERT_EQ(final_state(client, job), "succeeded");
-  Connection connection(live.address());
+  client::Connection connection(live.address());
   say_hello(connection);
   for (const int offset : {3, 0, 10, 0, 5, 10, 0, 20}) {
     const Json params{{"job", job}, {"artifact", "trajectory"}, {"offset", offset}, {"bytes", offset == 0 ? 5 : 100}};

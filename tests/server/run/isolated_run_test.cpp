@@ -5,6 +5,7 @@
 #include <fstream>
 #include <mutex>
 
+#include "server/base/storage_error.hpp"
 #include "server/files/blobs.hpp"
 #include "server/run/child_process.hpp"
 #include "server/run/confinement.hpp"
