@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Random requests, good and bad, on several connections, against a model of what each must be answered with.
 
-Now and then the process of a job is killed, or the daemon is stopped or killed and started again.
+Now and then the process of a job is killed, or the daemon is stopped or killed and started again. The model is one file
+on purpose: it is read as a whole beside PROTOCOL.md.
 """
 
 import argparse

@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "proto/error_codes.hpp"
-#include "tests/server/store_model.hpp"
+#include "tests/server/store/store_model.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt::server {

@@ -1,4 +1,4 @@
-#include "tests/server/store_model.hpp"
+#include "tests/server/store/store_model.hpp"
 
 #include <algorithm>
 

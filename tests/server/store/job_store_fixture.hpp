@@ -1,0 +1,27 @@
+// A store in a folder of its own, to be opened again and again.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "server/store/job_store.hpp"
+#include "tests/server/temp_folder.hpp"
+
+namespace sculpt::server {
+
+class JobStoreTest : public testing::Test {
+ protected:
+  std::string add(const std::string& key = {}, int priority = 0, const std::string& spec = "{}") {
+    return store->submit({key, {priority, {}, {}, 0}, spec, "bundle", 1}).job.id;
+  }
+  void reopen() {
+    store.reset();
+    store = open_sqlite_store(file());
+  }
+  std::filesystem::path file() const { return folder.path() / "sculptd.db"; }
+  JobState state(const std::string& job) { return store->find(job)->state; }
+
+  TempFolder folder;
+  std::unique_ptr<JobStore> store = open_sqlite_store(file());
+};
+
+}  // namespace sculpt::server
