@@ -75,7 +75,7 @@ Job to_job(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blo
   job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
   job.cell = read_cell(cell_bundle, blobs);
   job.resolution = static_cast<int>(spec.resolution);
-  if (spec.search) job.search = *spec.search;
+  if (spec.search) job.search = parse_search(*spec.search);
   job.seed = spec.seed;
   job.threads = spec.threads.value_or(defaults.threads);
   job.allow_freed = spec.allow_freed;

@@ -146,7 +146,7 @@ Job read_job(const JobOptions& options) {
   job.stock = read_stock(options.placement);
   job.cell = read_cell(options.robot);
   job.resolution = options.resolution;
-  if (!options.search.empty()) job.search = options.search;
+  if (!options.search.empty()) job.search = parse_search(options.search);
   job.seed = options.seed;
   job.allow_freed = options.allow_freed;
   job.placement = to_placement(options.placement);

@@ -18,37 +18,36 @@ Voxel direction(Voxel from, Voxel to) {
 
 }  // namespace
 
-Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit,
-               std::vector<Refusal>& refusals, std::uint64_t known, std::function<void()> caught_up)
+Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, GantryStart start,
+               const GantryListener& listener)
     : scene_(scene),
       home_(home),
       q_(home),
       seed_(seed),
       stop_(std::move(stop)),
-      emit_(std::move(emit)),
-      refusals_(refusals),
-      known_(known),
-      caught_up_(std::move(caught_up)) {}
+      known_(std::move(start)),
+      listener_(listener) {}
 
 bool Gantry::is_free(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
-  return emitted_ < known_ || scene_.certify(from, to, exempt) == Contact::none;
+  return emitted_ < known_.keyframes || scene_.certify(from, to, exempt) == Contact::none;
 }
 
 const Refusal* Gantry::known_refusal() const {
-  const bool is_next = refused_ < refusals_.size() && refusals_[refused_].keyframes == emitted_;
-  return is_next ? &refusals_[refused_] : nullptr;
+  const auto& refusals = known_.refusals;
+  const bool is_next = refused_ < refusals.size() && refusals[refused_].keyframes == emitted_;
+  return is_next ? &refusals[refused_] : nullptr;
 }
 
 Refusal Gantry::note_refusal(Voxel from, Voxel to) {
   const Refusal refusal{emitted_, from, to};
-  if (refused_ == refusals_.size()) refusals_.push_back(refusal);
+  if (refused_ >= known_.refusals.size()) listener_.refused(refusal);
   ++refused_;
   return refusal;
 }
 
 void Gantry::emit(const Keyframe& keyframe) {
-  if (++emitted_ > known_) return emit_(keyframe);
-  if (emitted_ == known_) caught_up_();
+  if (++emitted_ > known_.keyframes) return listener_.emit(keyframe);
+  if (emitted_ == known_.keyframes) listener_.caught_up();
 }
 
 std::optional<Configuration> Gantry::configuration_at(Voxel voxel) const {

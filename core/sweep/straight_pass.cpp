@@ -36,7 +36,7 @@ class StraightPass {
   StraightPass(Carving& carving, const PostureField& field, const ReachRows& reach, StraightMark from)
       : support_(carving.support),
         arm_(carving.arm),
-        helpers_(carving.helpers),
+        helpers_(carving.run.helpers),
         field_(field),
         stray_(stray_of(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
         columns_(field.view(), carving.support.standing(), carving.keep, reach, std::move(from.given_up)),

@@ -17,7 +17,7 @@ class TiltedPass {
   TiltedPass(Carving& carving, const PostureField& field, const std::vector<Voxel>& wanted)
       : support_(carving.support),
         arm_(carving.arm),
-        helpers_(carving.helpers),
+        helpers_(carving.run.helpers),
         field_(field),
         hub_(hub_cell(field.view().n)),
         cuts_(field.view(), carving.support.standing(), wanted, gate(field.view().n),

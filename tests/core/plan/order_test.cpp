@@ -58,7 +58,7 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
     if (removed == 0) ++effort;
   }
   std::map<Voxel, Reason> residue;
-  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), job.seed, 1, {}))
+  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), {job.seed, 1, {}}))
     residue[one.voxel] = one.reason;
   return residue;
 }

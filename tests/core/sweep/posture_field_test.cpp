@@ -87,7 +87,7 @@ TEST(PostureField, OfATiltedDirectionReachesPastTheSidesThatItLeansTo) {
   for (std::size_t which : {0u, 4u}) {
     const ToolView view = tilted_views(16)[which];
     SCOPED_TRACE(::testing::Message() << "axis " << view.axis().transpose());
-    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, which, 1, {});
+    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, {which, 1, {}});
     EXPECT_GT(field->usable_cells(), PostureField::all_cells() * 3 / 4);
     const Vec3 lean(view.lean.i, view.lean.j, view.lean.k), last = Vec3::Constant(15) + 2 * lean;
     Random random(which);
