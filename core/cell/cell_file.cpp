@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_sections = 16;  // of the holder
+constexpr std::size_t max_sections = 16;  // of the holder
 
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
   throw InputError("cell_invalid",
@@ -187,8 +187,8 @@ double read_extent(const Field& field) {
 std::vector<HolderSection> parse_holder(const Field& field, double stickout_m) {
   std::vector<HolderSection> holder;
   double length_m = 0;
-  if (field.elements().size() > most_sections)
-    refuse(field.pointer(), "give at most " + std::to_string(most_sections) + " sections");
+  if (field.elements().size() > max_sections)
+    refuse(field.pointer(), "give at most " + std::to_string(max_sections) + " sections");
   for (const Field& section : field.elements()) {
     section.require_object({"length_m", "radius_m", "end_radius_m"});
     const double radius_m = read_extent(section.at("radius_m"));

@@ -21,7 +21,7 @@ struct ToolPose {
 class Chain {
  public:
   /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the tool,
-  /// `urdf_invalid` when more than most_joints do.
+  /// `urdf_invalid` when more than max_joints do.
   Chain(const Robot& robot, int stock_link, int tool_link, double stickout_m, std::vector<double> rest);
 
   int dof() const { return static_cast<int>(joints_.size()); }

@@ -19,7 +19,7 @@ namespace sculpt {
 
 namespace {
 
-constexpr std::size_t largest_urdf_bytes = 2u << 20;
+constexpr std::size_t max_urdf_bytes = 2u << 20;
 constexpr std::uint64_t mesh_memory_cap_bytes = 1ull << 30;
 
 [[noreturn]] void refuse(const std::string& sentence) {
@@ -85,8 +85,8 @@ void refuse_xacro(const std::string& xml) {
 }
 
 urdf::ModelInterfaceSharedPtr parse_model(const std::string& xml) {
-  if (xml.size() > largest_urdf_bytes) {
-    refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(largest_urdf_bytes));
+  if (xml.size() > max_urdf_bytes) {
+    refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(max_urdf_bytes));
   }
   refuse_deep_nesting(xml);
   refuse_xacro(xml);

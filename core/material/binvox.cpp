@@ -18,8 +18,8 @@ constexpr std::string_view magic = "#binvox";
 
 /// Takes one line off the front of `bytes`.
 std::string_view take_line(std::string_view& bytes) {
-  constexpr std::size_t longest_line = 1000;
-  const std::size_t end = bytes.substr(0, longest_line).find('\n');
+  constexpr std::size_t max_line_bytes = 1000;
+  const std::size_t end = bytes.substr(0, max_line_bytes).find('\n');
   if (end == std::string_view::npos) refuse("its header ends without a line \"data\"; write it again");
   std::string_view line = bytes.substr(0, end);
   bytes.remove_prefix(end + 1);

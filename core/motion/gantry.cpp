@@ -8,8 +8,8 @@ namespace sculpt {
 namespace {
 
 /// Of the search for a way in, where the straight one is not free.
-constexpr int most_iterations = 2000;
-constexpr double longest_edge_m = 0.1;
+constexpr int max_iterations = 2000;
+constexpr double max_edge_m = 0.1;
 
 Voxel direction(Voxel from, Voxel to) {
   const auto sign = [](int x) { return (x > 0) - (x < 0); };
@@ -61,7 +61,7 @@ void Gantry::move(const Configuration& q) {
 
 void Gantry::enter() {
   const auto q = configuration_at(at_);
-  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {most_iterations, longest_edge_m}).path;
+  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {max_iterations, max_edge_m}).path;
   if (stop_.stop_requested()) throw Cancelled{};
   if (way_in_.empty()) throw note_refusal(at_, at_);
   for (std::size_t stop = 1; stop < way_in_.size(); ++stop) move(way_in_[stop]);

@@ -12,7 +12,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int smallest_resolution = 8, largest_resolution = 1024;
+constexpr int min_resolution = 8, max_resolution = 1024;
 /// Per voxel: bit sets of stock, keep and standing material, their pyramid of counts, and the search's own marks.
 constexpr double bytes_a_voxel = 1.6;
 /// Of a cell's files: read, loaded as the densest kind of mesh (.obj), and made shapes of.
@@ -21,7 +21,7 @@ constexpr int coarse_resolution = 32;
 constexpr int reach_seeds = 24;
 
 void check_resolution(int n) {
-  if (n < smallest_resolution || n > largest_resolution || !std::has_single_bit(static_cast<unsigned>(n)))
+  if (n < min_resolution || n > max_resolution || !std::has_single_bit(static_cast<unsigned>(n)))
     throw InputError(
         "resolution_invalid",
         "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");

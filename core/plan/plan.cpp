@@ -50,7 +50,7 @@ TrajectoryHeader make_header(const Job& job, Search search, const Cell& cell, co
   header.home = rounded(cell.home(chain), chain.lower(), chain.upper());
   header.grid = grid;
   header.tool = make_tool(cell.tool, grid.voxel_m);
-  header.tolerance_m = (search == Search::sweep ? most_ball_stray : tolerance_voxels) * grid.voxel_m;
+  header.tolerance_m = (search == Search::sweep ? max_ball_deviation : tolerance_voxels) * grid.voxel_m;
   header.cell = cell.name;
   header.search = name(search);
   header.seed = job.seed;

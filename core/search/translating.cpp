@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 /// Ways to blocks that then cannot go whole, one after the other, after which blocks are given up for now.
-constexpr int most_in_vain = 32;
+constexpr int max_in_vain = 32;
 
 /// Which of the two ends of a block, along one axis, is nearer.
 int nearer_end(int at, int low, int size) {
@@ -163,7 +163,7 @@ class Carving {
   /// To a block that can go whole; those that cannot are set aside. Nothing if there is no way to any, or too many were
   /// looked for in vain.
   std::optional<Approach> next_approach() {
-    for (int in_vain = 0; !candidates_.empty() && in_vain < most_in_vain;) {
+    for (int in_vain = 0; !candidates_.empty() && in_vain < max_in_vain;) {
       auto approach = straight_approach();
       if (!approach) {
         approach = nearest_approach();

@@ -26,12 +26,12 @@ class Columns {
   /// Cells that could be cut if every one that lies free now or later is.
   std::uint64_t count_cuttable() const;
 
-  /// Cuts all that lies free in layer `c`, from `at` (updated), row by row there and back. `stray`: allowed beside
+  /// Cuts all that lies free in layer `c`, from `at` (updated), row by row there and back. `tolerance`: allowed beside
   /// material, in voxel edges.
-  std::vector<Stroke> cut_layer(int c, Vec3& at, double stray);
+  std::vector<Stroke> cut_layer(int c, Vec3& at, double tolerance);
 
   /// Straight up to above everything.
-  std::vector<Stroke> rise(Vec3& at, double stray) const;
+  std::vector<Stroke> rise(Vec3& at, double tolerance) const;
 
   /// Takes back a stroke of `cut_layer`, the last ones first. What it cut is not tried again if `give_up`.
   void restore(const Stroke& stroke, bool give_up);
@@ -49,8 +49,8 @@ class Columns {
   std::vector<std::vector<Run>> find_runs(int c) const;
   bool in_layer_free(int a0, int b0, int a1, int b1, int c) const;
   int free_layer_between(const Vec3& from, const Vec3& to, int c) const;
-  void go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& strokes);
-  void cut(Voxel first, Voxel last, Vec3& at, double stray, std::vector<Stroke>& strokes);
+  void go_to(Voxel target, Vec3& at, double tolerance, std::vector<Stroke>& strokes);
+  void cut(Voxel first, Voxel last, Vec3& at, double tolerance, std::vector<Stroke>& strokes);
 
   ToolView view_;
   const ReachRows& reach_;

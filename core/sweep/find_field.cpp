@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr int random_guesses = 24;
-constexpr int most_fields = 3;
+constexpr int max_fields = 3;
 constexpr double probe_half = 0.03;  // rad or m: what the joints do within a cell of a field
 
 std::vector<Configuration> find_guesses(const Chain& chain, const Configuration& home,
@@ -90,7 +90,7 @@ class FieldSearch {
   }
 
   bool is_done() const {
-    return grown_ == most_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
+    return grown_ == max_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
   }
 
   const Scene& scene_;

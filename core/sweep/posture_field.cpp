@@ -16,13 +16,13 @@ namespace sculpt {
 namespace {
 
 /// Nodes beside each other may not differ by more in any joint (rad or m): else they are on two branches.
-constexpr double longest_joint_step = 0.35;
-constexpr double most_bend = 0.02;  // rad or m: by which a node may be off the middle of two that are beside it
+constexpr double max_joint_step = 0.35;
+constexpr double max_midpoint_deviation = 0.02;  // rad or m: by which a node may be off the middle of two that are beside it
 constexpr int node_steps = 3;       // from one node to the next
 constexpr int between_steps = 2;    // from what is interpolated between them
 constexpr double close_m = 1e-6;
 constexpr double limit_margin = 0.002;  // rad or m: exact configurations differ from interpolated ones
-/// Ball and shank, off their line by all that stray_of allows, stay within this of it, whatever their radii.
+/// Ball and shank, off their line by all that path_tolerance allows, stay within this of it, whatever their radii.
 constexpr double tool_room_voxels = 0.5 - tool_margin_voxels;
 constexpr double headroom_cells = 2;  // beyond the grid, on the sides that the axis leans to: where the tool comes in
 constexpr int largest = 8;            // cubes of the fine lattice that are tried first
@@ -103,7 +103,7 @@ void PostureField::grow(const Configuration& start, const Watch& watch) {
 
 /// Each node from one that is `stride` away and has a configuration.
 void PostureField::spread(std::deque<Visit> queue, int stride, const Watch& watch) {
-  const Pull to_the_middle{(chain_.lower() + chain_.upper()) / 2, 0.05};
+  const NullSpaceGoal to_the_middle{(chain_.lower() + chain_.upper()) / 2, 0.05};
   while (!queue.empty()) {
     if (watch.stop.stop_requested()) throw Cancelled{};
     std::vector<Visit> visits, again;
@@ -130,7 +130,7 @@ void PostureField::spread(std::deque<Visit> queue, int stride, const Watch& watc
       } else {  // it keeps off joint limits
         q = solve_ik(chain_, {ball_m(corner_cell(node * parts)), view_.axis()}, guess);
       }
-      if (!q || (node != first_node && (*q - guess).cwiseAbs().maxCoeff() > stride * longest_joint_step)) continue;
+      if (!q || (node != first_node && (*q - guess).cwiseAbs().maxCoeff() > stride * max_joint_step)) continue;
       node_at(node) = *q;
       for (const Voxel step : face_steps)
         if (is_node(node + step * stride)) queue.push_back({node + step * stride, *q});
@@ -164,8 +164,8 @@ std::optional<Configuration> PostureField::find_between(Voxel node, Voxel along)
     q = (3 * low + 6 * high - node_at(above)) / 8;
   else
     return std::nullopt;
-  const bool one_branch = (high - low).cwiseAbs().maxCoeff() <= 2 * longest_joint_step;
-  const bool straight = (q - middle).cwiseAbs().maxCoeff() <= most_bend;
+  const bool one_branch = (high - low).cwiseAbs().maxCoeff() <= 2 * max_joint_step;
+  const bool straight = (q - middle).cwiseAbs().maxCoeff() <= max_midpoint_deviation;
   if (!one_branch || !straight || !chain_.within_limits(q)) return std::nullopt;
   return q;
 }

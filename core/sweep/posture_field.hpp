@@ -61,7 +61,7 @@ class PostureField {
                       int& held) const;
 
   /// Is the tool clear of what stands still in the stock's frame even half a voxel off any line between the two?
-  bool may_stray(const Vec3& from_cell, const Vec3& to_cell) const {
+  bool allows_wide_path(const Vec3& from_cell, const Vec3& to_cell) const {
     return roomy_.contains(from_cell) && roomy_.contains(to_cell);
   }
 

@@ -54,7 +54,7 @@ class SlantedCuts {
   std::optional<std::vector<Voxel>> route(Voxel out, Voxel in) const;
   bool is_reachable_between(Voxel from, Voxel to) const;
   void walk(std::size_t hop, Sortie& sortie);
-  void go(Voxel cell, double stray, Sortie& sortie);
+  void go(Voxel cell, double tolerance, Sortie& sortie);
   void cut(Voxel cell, Sortie& sortie);
   bool see(Voxel cell);
 
