@@ -1,3 +1,4 @@
+// One file above 300 lines: Highway compiles it anew for each kind of vectors, and what is in it together.
 #include "core/sweep/posture_lanes.hpp"
 
 #include "core/trajectory/quantum.hpp"
@@ -144,7 +145,8 @@ HWY_INLINE Pose tool_pose(const PostureLanes::Program& program, const V* q, Jaco
 
 constexpr int rows = 5;
 
-/// How far the tool is from where it should be: position, then the turning about x and y that brings the tool's axis onto z.
+/// How far the tool is from where it should be: position, then the turning about x and y that brings the tool's axis
+/// onto z.
 struct TaskError {
   V row[rows];
 };
@@ -193,12 +195,12 @@ HWY_INLINE void substitute(const Normal& normal, TaskError& rhs) {
 }
 
 constexpr double max_step = 0.3;  // rad or m; a longer one means that the guess was not close
-constexpr double fading = 0.05;  // m and rad: below this task error the null space motion fades
+constexpr double fading = 0.05;   // m and rad: below this task error the null space motion fades
 
-/// The motion towards the goal for one step. What it does to the tool is taken from `rest`, so that the step after it makes
-/// good for it: what remains is the motion in the null space of the Jacobian.
-HWY_INLINE void null_space_step(const Normal& normal, std::size_t dof, const V* q, const NullSpaceGoal& goal, TaskError& rest,
-                          V* secondary) {
+/// The motion towards the goal for one step. What it does to the tool is taken from `rest`, so that the step after it
+/// makes good for it: what remains is the motion in the null space of the Jacobian.
+HWY_INLINE void null_space_step(const Normal& normal, std::size_t dof, const V* q, const NullSpaceGoal& goal,
+                                TaskError& rest, V* secondary) {
   V square = hn::Zero(d);
   for (int i = 0; i < rows; ++i) square = square + rest.row[i] * rest.row[i];
   const V gain = all(goal.gain) * hn::Min(all(1), hn::Sqrt(square) * all(1 / fading));
@@ -223,8 +225,8 @@ HWY_INLINE Mask step(const Normal& normal, std::size_t dof, TaskError& rest, con
   return close;
 }
 
-HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, const NullSpaceGoal* goal, PostureBatch& batch,
-                           std::size_t lane) {
+HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, const NullSpaceGoal* goal,
+                           PostureBatch& batch, std::size_t lane) {
   const std::size_t dof = program.lower.size();
   V q[max_joints], secondary[max_joints];
   for (std::size_t c = 0; c < dof; ++c) q[c] = hn::Load(d, batch.q.joints[c].data() + lane);
@@ -269,10 +271,11 @@ struct Motion {
   V3 angular_velocity, angular_acceleration, angular_jerk, acceleration, jerk;
 };
 HWY_INLINE void carry(Motion& motion, const V3& arm) {
-  const V3 moved = cross(motion.angular_velocity, arm), turned = cross(motion.angular_acceleration, arm) + cross(motion.angular_velocity, moved);
+  const V3 moved = cross(motion.angular_velocity, arm),
+           turned = cross(motion.angular_acceleration, arm) + cross(motion.angular_velocity, moved);
   motion.acceleration = motion.acceleration + turned;
   motion.jerk = motion.jerk + cross(motion.angular_jerk, arm) + cross(motion.angular_acceleration, moved) * all(2) +
-                  cross(motion.angular_velocity, turned);
+                cross(motion.angular_velocity, turned);
 }
 
 /// Outward recursion of a serial chain's velocities (Craig, Introduction to Robotics, 5.6) without joint accelerations,
@@ -288,7 +291,8 @@ HWY_INLINE void derive_some(const PostureLanes::Program& program, EdgeBatch& edg
     const V3 moved = pose.z * (all(move.multiplier) * rate);
     // Of the joint's own motion, whose direction turns.
     const V3 acceleration_of_moved = cross(motion.angular_velocity, moved);
-    const V3 jerk_of_moved = cross(motion.angular_acceleration, moved) + cross(motion.angular_velocity, acceleration_of_moved);
+    const V3 jerk_of_moved =
+        cross(motion.angular_acceleration, moved) + cross(motion.angular_velocity, acceleration_of_moved);
     if (move.turns) {
       motion.angular_jerk = motion.angular_jerk + jerk_of_moved;
       motion.angular_acceleration = motion.angular_acceleration + acceleration_of_moved;

@@ -1,4 +1,17 @@
 // Several postures or edges at once, by SIMD: the hot loops of sweeps.
+//
+// Eight problems lie side by side, one number of each in an array of eight: a lane is a problem.
+//
+//      lane          0      1      2     ...    7
+//      ball_m[0]   0.101  0.102  0.103   ...  0.108     eight ball positions, 1 mm apart along x
+//      q[0]        0.500  0.500  0.500   ...  0.500     in: one guess for all
+//      q[0]        0.507  0.514  0.521   ...  0.557     out: with the ball there and the tool along the axis
+//      ball_off_m   1e-8   1e-8   2e-8   ...   4e-8     how far off the rounded values leave it
+//
+// A step of Gauss-Newton of one lane: the task error e has 5 rows, position (m) and the turning that brings the axis
+// right (rad). With the Jacobian J, 5 rows and a column per joint, the least joint motion that takes it off is J^T (J
+// J^T)^-1 e: of an arm of seven joints, two freedoms are left over, and a NullSpaceGoal may use them. From a guess that
+// is off by 0.05 the errors are about 0.05, 0.0025, 6e-6.
 #pragma once
 
 #include <array>
@@ -53,8 +66,8 @@ struct PostureBatch {
 /// Joint-linear edges, and how curved the paths of the tool's ends are along them.
 struct EdgeBatch {
   LaneConfigurations from, to;
-  /// Out: lengths of the second and the third derivative of the place of ball and shank's end by the share s of the edge
-  /// (0 at `from`, 1 at `to`), at its middle: m per s^2 and m per s^3.
+  /// Out: lengths of the second and the third derivative of the place of ball and shank's end by the share s of the
+  /// edge (0 at `from`, 1 at `to`), at its middle: m per s^2 and m per s^3.
   Lanes ball_second_derivative, top_second_derivative, ball_third_derivative, top_third_derivative;
 };
 
