@@ -1,7 +1,6 @@
 #include "server/translate.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "core/base/extension.hpp"
 
 namespace sculpt {
 namespace {
@@ -53,10 +52,7 @@ CellFiles read_cell(const std::string& hash, const Blobs& blobs) {
 }  // namespace
 
 std::string mesh_kind(const std::string& name) {
-  std::string kind = std::filesystem::path(name).extension().string();
-  if (!kind.empty()) kind.erase(0, 1);
-  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return kind;
+  return extension_of(name);
 }
 
 JobSizes measure(const JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {

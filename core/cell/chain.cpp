@@ -89,7 +89,7 @@ int Chain::add_coordinate(int joint) {
   if (coordinate < 0) {
     if (dof() == max_joints)
       throw InputError("urdf_invalid", "more than " + std::to_string(max_joints) +
-                                             " joints move the tool against the stock: fix some of them in the URDF");
+                                           " joints move the tool against the stock: fix some of them in the URDF");
     coordinate = dof();
     joints_.push_back(joint);
   }

@@ -18,9 +18,7 @@ constexpr std::size_t max_looked_at = 8192;
 constexpr std::int16_t beyond = std::numeric_limits<std::int16_t>::max();
 
 Voxel step_along(const VoxelLine& line) {
-  const Voxel way = line.last - line.first;
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  return {sign(way.i), sign(way.j), sign(way.k)};
+  return sign(line.last - line.first);
 }
 
 /// Of an offset in the 3 x 3 x 3 voxels about one.

@@ -11,11 +11,6 @@ namespace {
 constexpr int max_iterations = 2000;
 constexpr double max_edge_m = 0.1;
 
-Voxel direction(Voxel from, Voxel to) {
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  return {sign(to.i - from.i), sign(to.j - from.j), sign(to.k - from.k)};
-}
-
 }  // namespace
 
 Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, GantryStart start,
@@ -70,7 +65,7 @@ void Gantry::enter() {
 void Gantry::follow(const VoxelRun& run) {
   if (!entered()) enter();
   if (!run.cut) return travel(run.last);
-  const Voxel along = direction(run.first, run.last);
+  const Voxel along = sign(run.last - run.first);
   if (run.first != run.last && at_ + along != run.first) {
     cut(run.first, run.first);
     cut(run.first + along, run.last);
@@ -83,7 +78,7 @@ void Gantry::travel(Voxel to) {
   if (const Refusal* known = known_refusal()) throw note_refusal(known->from, known->to);
   const auto q = configuration_at(to);
   if (!q || !is_free(q_, *q, {})) {
-    const Voxel along = direction(at_, to);
+    const Voxel along = sign(to - at_);
     Voxel last = at_;
     for (Configuration before = q_; last + along != to; last = last + along) {
       const auto next = configuration_at(last + along);
@@ -107,7 +102,7 @@ void Gantry::cut(Voxel first, Voxel last) {
   const Configuration from = q_;
   const auto to = configuration_at(last);
   const Configuration step = to.value_or(from) - from;
-  const Voxel along = direction(at_, first);
+  const Voxel along = sign(first - at_);
   const int count = l1(first, last) + 1;
   for (int m = 1; m <= count; ++m) {
     const Voxel voxel = first + along * (m - 1), before = voxel - along;

@@ -1,18 +1,17 @@
 #include "core/plan/intake.hpp"
 
-#include <bit>
 #include <limits>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
 #include "core/material/loose_pieces.hpp"
 #include "core/material/mesh_file.hpp"
+#include "core/material/resolution.hpp"
 #include "core/motion/random_configuration.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int min_resolution = 8, max_resolution = 1024;
 /// Per voxel: bit sets of stock, keep and standing material, their pyramid of counts, and the search's own marks.
 constexpr double bytes_a_voxel = 1.6;
 /// Of a cell's files: read, loaded as the densest kind of mesh (.obj), and made shapes of.
@@ -21,7 +20,7 @@ constexpr int coarse_resolution = 32;
 constexpr int reach_seeds = 24;
 
 void check_resolution(int n) {
-  if (n < min_resolution || n > max_resolution || !std::has_single_bit(static_cast<unsigned>(n)))
+  if (!is_resolution(n))
     throw InputError(
         "resolution_invalid",
         "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");

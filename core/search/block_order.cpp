@@ -94,8 +94,8 @@ class Order {
 
 }  // namespace
 
-void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int max_effort,
-                  const TryBlock& try_block, const Watch& watch) {
+void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int max_effort, const TryBlock& try_block,
+                  const Watch& watch) {
   Order(octree, graph, start).run(max_effort, try_block, watch);
 }
 

@@ -24,7 +24,7 @@ using TryBlock = std::function<BlockTrial(int block, int effort)>;
 /// open those set aside are tried again while anything changes, then with more effort, up to `max_effort`. Material
 /// only shrinks, so nothing is ever undone and the search needs no backtracking (docs/planner.md). Every remove block
 /// is done or was tried in vain in the final state. Throws Cancelled through `watch`.
-void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int max_effort,
-                  const TryBlock& try_block, const Watch& watch);
+void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int max_effort, const TryBlock& try_block,
+                  const Watch& watch);
 
 }  // namespace sculpt

@@ -48,9 +48,8 @@ void append_cut(std::string& out, const Keyframe& keyframe, LastCut& last) {
   LastCut cut{keyframe.last, last.direction, static_cast<std::uint64_t>(run_length(keyframe))};
   const Voxel gap = keyframe.first - last.end, run = keyframe.last - keyframe.first;
   const std::uint64_t start = direction_of(gap);
-  const auto sign = [](int value) { return (value > 0) - (value < 0); };
   if (cut.length > 1)
-    cut.direction = direction_of({sign(run.i), sign(run.j), sign(run.k)});
+    cut.direction = direction_of(sign(run));
   else if (start != start_anywhere)
     cut.direction = start;  // of one voxel any direction is right: this one is what rows of such cuts repeat
   if (start == cut.direction && cut.direction == last.direction && cut.length == last.length) {

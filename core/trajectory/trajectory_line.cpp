@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/material/resolution.hpp"
 #include "core/trajectory/number_text.hpp"
 
 namespace sculpt {
@@ -17,7 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 8;
-constexpr int max_resolution = 1024;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw InputError("trajectory_invalid", where + ": " + what + "; fetch or plan the trajectory again");
