@@ -56,10 +56,11 @@ bool touches_at_a_glance(const Sweep& sweep) {
 
 }  // namespace
 
-bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double second_derivative,
-                        const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
+bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
+                        double second_derivative, const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
   const bool has_shank = radii.shank > 0;
-  const Sweep sweep{material, line_at, second_derivative, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};
+  const Sweep sweep{
+      material, line_at, second_derivative, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};
   const ToolLine start = line_at(0), end = line_at(1);
   if ((start.ball - end.ball).norm() + (start.top - end.top).norm() > long_motion && touches_at_a_glance(sweep))
     return false;

@@ -17,10 +17,6 @@ Vec3 centre(Voxel cell) {
   return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
 }
 
-int sign(int x) {
-  return (x > 0) - (x < 0);
-}
-
 }  // namespace
 
 Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach,

@@ -79,8 +79,8 @@ struct Stop {
 };
 
 /// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off, the
-/// sagitta of an arc with the second derivative of the middle (it grows with the square of the edge's length), and what the
-/// third and fourth derivatives add to it (with the cube and more).
+/// sagitta of an arc with the second derivative of the middle (it grows with the square of the edge's length), and what
+/// the third and fourth derivatives add to it (with the cube and more).
 struct EndDeviation {
   double off, sagitta, skew;
 
@@ -203,7 +203,8 @@ class Follower {
     return {std::max(wide, tolerance_.ball), std::max(wide, tolerance_.shank)};
   }
 
-  /// The derivatives of the paths of ball and shank's end in the middle of each edge, and what bounds those of higher order.
+  /// The derivatives of the paths of ball and shank's end in the middle of each edge, and what bounds those of higher
+  /// order.
   void bound_derivatives() {
     turn_.fill(0);
     travel_.fill(0);
@@ -233,10 +234,11 @@ class Follower {
     const auto deviation_of = [&](double off, double second, double third) -> EndDeviation {
       return {off, second / (8 * voxel_m_), (third / (72 * std::numbers::sqrt3) + more) / voxel_m_};
     };
-    const EdgeDeviation deviation{
-        piece.length,
-        deviation_of(std::max(here_.ball_off, next.ball_off), edges_.ball_second_derivative[lane], edges_.ball_third_derivative[lane]),
-        deviation_of(std::max(here_.top_off, next.top_off), edges_.top_second_derivative[lane], edges_.top_third_derivative[lane])};
+    const EdgeDeviation deviation{piece.length,
+                                  deviation_of(std::max(here_.ball_off, next.ball_off),
+                                               edges_.ball_second_derivative[lane], edges_.ball_third_derivative[lane]),
+                                  deviation_of(std::max(here_.top_off, next.top_off),
+                                               edges_.top_second_derivative[lane], edges_.top_third_derivative[lane])};
     known_[direction_of(piece.from.along())] = deviation;
     if (!(deviation.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
       max_next_ = shorter * piece.length;  // what was learnt makes it shorter yet, as a rule
@@ -252,8 +254,7 @@ class Follower {
     Keyframe keyframe{here_.q, piece.cuts(), {}, {}};
     if (!keyframe.cut) return keyframe;
     const Stroke& stroke = piece.from.stroke();
-    const auto sign = [](int x) { return (x > 0) - (x < 0); };
-    const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
+    const Voxel step = sign(stroke.last - stroke.first);
     keyframe.first = stroke.first + step * static_cast<int>(piece.from.done());
     keyframe.last = keyframe.first + step * (static_cast<int>(piece.length) - 1);
     return keyframe;
@@ -267,11 +268,11 @@ class Follower {
   Configuration turn_rates_;  ///< rad per unit of each joint
 
   Stop here_;
-  int held_ = -1;                                  ///< number of a bubble of the field that holds it, if known
-  double max_next_ = max_edge;             ///< after a refusal
+  int held_ = -1;                                        ///< number of a bubble of the field that holds it, if known
+  double max_next_ = max_edge;                           ///< after a refusal
   std::array<std::optional<EdgeDeviation>, 4> known_{};  ///< of the last edge along each axis, and along none
-  std::vector<Piece> pieces_;                      ///< from here on, one per lane
-  PostureBatch ahead_;                             ///< their ends
+  std::vector<Piece> pieces_;                            ///< from here on, one per lane
+  PostureBatch ahead_;                                   ///< their ends
   EdgeBatch edges_;
   Lanes turn_, travel_;  ///< along each edge, of all joints together (rad; m)
 };
@@ -284,7 +285,7 @@ PathTolerance path_tolerance(const Tool& tool, double voxel_m) {
 }
 
 FollowedStrokes follow(const PostureField& field, const Tool& tool, const Grid& grid, const Vec3& from,
-                const std::vector<Stroke>& strokes) {
+                       const std::vector<Stroke>& strokes) {
   return Follower(field, tool, grid).run(from, strokes);
 }
 

@@ -56,7 +56,8 @@ std::vector<Configuration> HubArm::find_way(const std::vector<Configuration>& ba
   return find_transit(to);
 }
 
-FollowedStrokes HubArm::try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const {
+FollowedStrokes HubArm::try_strokes(const PostureField& field, const Vec3& from,
+                                    const std::vector<Stroke>& strokes) const {
   return follow(field, scene_.tool(), scene_.grid(), from, strokes);
 }
 

@@ -20,8 +20,7 @@ Vec3 centre(Voxel cell) {
 
 template <typename Visit>
 void for_each_cut(const Stroke& stroke, const Visit& visit) {
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
+  const Voxel step = sign(stroke.last - stroke.first);
   for (int m = 0; m < stroke.count; ++m) visit(stroke.first + step * m);
 }
 

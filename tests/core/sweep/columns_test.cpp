@@ -70,7 +70,8 @@ class Replay {
   void pass(const Stroke& stroke) const {
     const int steps = 1 + static_cast<int>(10 * (stroke.to - at_).norm());
     for (int s = 0; s <= steps; ++s)
-      ASSERT_NO_FATAL_FAILURE(expect_free(at_ + (stroke.to - at_) * (static_cast<double>(s) / steps), stroke.tolerance));
+      ASSERT_NO_FATAL_FAILURE(
+          expect_free(at_ + (stroke.to - at_) * (static_cast<double>(s) / steps), stroke.tolerance));
   }
 
   void cut(const Stroke& stroke) {

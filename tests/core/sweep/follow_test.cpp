@@ -57,7 +57,8 @@ void expect_near(const Configuration& from, const Configuration& to, double ball
 /// Plays keyframes against the strokes that they were made of.
 class Player {
  public:
-  explicit Player(const PathTolerance& tolerance) : tolerance_(tolerance), here_(hub), q_(*PandaField::get().field.at(hub)) {}
+  explicit Player(const PathTolerance& tolerance)
+      : tolerance_(tolerance), here_(hub), q_(*PandaField::get().field.at(hub)) {}
 
   /// One stroke, from keyframe `at` (updated) on.
   void play(const Stroke& stroke, const std::vector<Keyframe>& keyframes, std::size_t& at) {
@@ -97,8 +98,8 @@ class Player {
     const PandaField& panda = PandaField::get();
     const Vec3 line = (stroke.to - from).normalized();
     const double length = (stroke.to - from).norm();
-    expect_near(q_, keyframe.q, std::max(stroke.tolerance, tolerance_.ball), std::max(stroke.tolerance, tolerance_.shank),
-                [&](double, const ToolPose& pose) {
+    expect_near(q_, keyframe.q, std::max(stroke.tolerance, tolerance_.ball),
+                std::max(stroke.tolerance, tolerance_.shank), [&](double, const ToolPose& pose) {
                   const Vec3 cell = (pose.ball_m - panda.grid.origin_m) / panda.grid.voxel_m - Vec3::Constant(0.5);
                   return Vec3(from + line * std::clamp(line.dot(cell - from), 0.0, length));
                 });
