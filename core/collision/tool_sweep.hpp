@@ -1,4 +1,4 @@
-// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the curvature
+// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the second derivative
 // between.
 #pragma once
 

@@ -25,7 +25,7 @@ struct OutputTask {
   int threads = 1;           ///< with more than one, writing is done on one of its own
 };
 
-/// All calls from one thread. Throws InputError `file_unwritable`.
+/// All calls from one thread. Throws InputError `file_unwritable`; what tells the watch, `add`, Cancelled too.
 class Output {
  public:
   Output(const OutputTask& task, TrajectoryForm form, const Watch& watch);
