@@ -122,7 +122,7 @@ void postures_beside_each_other(benchmark::State& state) {
 }
 BENCHMARK(postures_beside_each_other);
 
-void bends_of_edges_from_postures(benchmark::State& state) {
+void derivatives_of_edges_from_postures(benchmark::State& state) {
   const Sweeping s(64);
   const PostureLanes lanes(s.scene.chain(), s.view.axis());
   const Configuration here = s.start();
@@ -132,12 +132,12 @@ void bends_of_edges_from_postures(benchmark::State& state) {
     edges.to.set(lane, here + Configuration::Constant(here.size(), 0.001 * lane));
   }
   for (auto _ : state) {
-    lanes.bend(edges);
+    lanes.derive(edges);
     benchmark::DoNotOptimize(edges);
   }
   state.SetItemsProcessed(state.iterations() * lane_count);
 }
-BENCHMARK(bends_of_edges_from_postures);
+BENCHMARK(derivatives_of_edges_from_postures);
 
 void posture_of_the_field(benchmark::State& state) {
   const Sweeping s(64);
@@ -208,9 +208,9 @@ void sweep_along_a_direction(benchmark::State& state) {
 BENCHMARK(sweep_along_a_direction)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
 
 /// The columns with all above the middle layer cut.
-Columns columns_down_to_the_middle(const Sweeping& s, const ReachRows& reach, double stray, Vec3& at) {
+Columns columns_down_to_the_middle(const Sweeping& s, const ReachRows& reach, double tolerance, Vec3& at) {
   Columns columns(s.view, s.voxels.stock, s.voxels.keep, reach);
-  for (int layer = s.n - 1; layer > s.n / 2; --layer) columns.cut_layer(layer, at, stray);
+  for (int layer = s.n - 1; layer > s.n / 2; --layer) columns.cut_layer(layer, at, tolerance);
   return columns;
 }
 
@@ -218,16 +218,16 @@ void strokes_of_the_middle_layer(benchmark::State& state) {
   const Sweeping s(static_cast<int>(state.range(0)));
   const PostureField field = s.field();
   const ReachRows reach = reach_of(field);
-  const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
+  const double tolerance = path_tolerance(s.scene.tool(), s.grid.voxel_m).ball;
   Vec3 above = s.hub();
-  const Columns columns = columns_down_to_the_middle(s, reach, stray, above);
+  const Columns columns = columns_down_to_the_middle(s, reach, tolerance, above);
   std::int64_t strokes = 0;
   for (auto _ : state) {
     state.PauseTiming();
     Columns fresh = columns;
     Vec3 at = above;
     state.ResumeTiming();
-    strokes += static_cast<std::int64_t>(fresh.cut_layer(s.n / 2, at, stray).size());
+    strokes += static_cast<std::int64_t>(fresh.cut_layer(s.n / 2, at, tolerance).size());
   }
   state.SetItemsProcessed(strokes);
 }
@@ -237,14 +237,14 @@ void keyframes_of_the_middle_layer(benchmark::State& state) {
   const Sweeping s(static_cast<int>(state.range(0)));
   const PostureField field = s.field();
   const ReachRows reach = reach_of(field);
-  const double stray = stray_of(s.scene.tool(), s.grid.voxel_m).ball;
+  const double tolerance = path_tolerance(s.scene.tool(), s.grid.voxel_m).ball;
   Vec3 above = s.hub();
-  Columns columns = columns_down_to_the_middle(s, reach, stray, above);
+  Columns columns = columns_down_to_the_middle(s, reach, tolerance, above);
   Vec3 at = above;
-  const std::vector<Stroke> strokes = columns.cut_layer(s.n / 2, at, stray);
+  const std::vector<Stroke> strokes = columns.cut_layer(s.n / 2, at, tolerance);
   std::int64_t keyframes = 0;
   for (auto _ : state) {
-    const Followed followed = follow(field, s.scene.tool(), s.grid, above, strokes);
+    const FollowedStrokes followed = follow(field, s.scene.tool(), s.grid, above, strokes);
     if (followed.strokes == 0) return state.SkipWithError("no stroke could be followed");
     keyframes += static_cast<std::int64_t>(followed.keyframes.size());
   }

@@ -95,14 +95,14 @@ struct Search {
 
 /// Seconds of each repetition: until `least` are spent, 9 times at most.
 std::vector<double> time_search(const Search& search, double least) {
-  constexpr std::size_t most_times = 9;
+  constexpr std::size_t max_times = 9;
   std::vector<double> times;
   double sum = 0;
   do {
     std::uint64_t runs = 0;
     times.push_back(seconds_of([&] { search.carve([&](const VoxelRun&) { ++runs; }); }));
     sum += times.back();
-  } while (sum < least && times.size() < most_times);
+  } while (sum < least && times.size() < max_times);
   std::sort(times.begin(), times.end());
   return times;
 }

@@ -1,7 +1,5 @@
 #include "clients/cli/files.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <sstream>
@@ -26,14 +24,6 @@ std::string read_input(const fs::path& path, const std::string& what) {
                   "cannot read the " + what + " file " + path.string() + " (" + std::strerror(errno) +
                       "): check its permissions");
   return std::move(bytes).str();
-}
-
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(path_.string() + ".part") {

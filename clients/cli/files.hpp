@@ -10,9 +10,6 @@ namespace sculpt::cli {
 /// Throws Failure (usage) `file_missing` or `file_unreadable`; `what` names the thing in the sentence, e.g. "mesh".
 std::string read_input(const std::filesystem::path& path, const std::string& what);
 
-/// Extension in lower case without the dot; empty if there is none.
-std::string extension_of(const std::filesystem::path& path);
-
 /// An output file that never shows a half: bytes go to `FILE.part`, `finish` renames it. Without `finish` nothing stays
 /// behind. Throws Failure (usage) `file_unwritable`.
 class PartFile {

@@ -1,6 +1,5 @@
 #include "clients/cli/job_options.hpp"
 
-#include <bit>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +7,9 @@
 
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
+#include "core/base/extension.hpp"
 #include "core/cell/shipped_cells.hpp"
+#include "core/material/resolution.hpp"
 
 namespace sculpt::cli {
 
@@ -135,7 +136,7 @@ CellFiles read_cell(const std::string& robot) {
 }
 
 void check_resolution(int n) {
-  if (n < 8 || n > 1024 || !std::has_single_bit(static_cast<unsigned>(n)))
+  if (!is_resolution(n))
     throw InputError("resolution_invalid",
                      "resolution " + std::to_string(n) + " cannot be used: give a power of two from 8 to 1024");
 }
@@ -146,7 +147,7 @@ Job read_job(const JobOptions& options) {
   job.stock = read_stock(options.placement);
   job.cell = read_cell(options.robot);
   job.resolution = options.resolution;
-  if (!options.search.empty()) job.search = options.search;
+  if (!options.search.empty()) job.search = parse_search(options.search);
   job.seed = options.seed;
   job.allow_freed = options.allow_freed;
   job.placement = to_placement(options.placement);

@@ -42,10 +42,6 @@ struct Cell {
   Configuration home(const Chain& chain) const;
 };
 
-/// `cell`: a path to a cell file (anything with a '/' or ending in .json), else a name looked up in each of `folders`.
-/// Throws InputError `cell_unknown` (lists the names there are).
-std::filesystem::path find_cell(const std::string& cell, const std::vector<std::filesystem::path>& folders);
-
 /// Reads the cell file, its URDF and every mesh it refers to. package://NAME/rest is looked for under the cell file's "packages" map, else in
 /// each folder above the URDF (NAME itself or a sub-folder NAME), else in ROS_PACKAGE_PATH. Throws InputError `cell_invalid` or `file_missing`.
 CellFiles read_cell_files(const std::filesystem::path& path);

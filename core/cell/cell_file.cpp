@@ -1,11 +1,13 @@
+// A cell file, and the files that it names, as JSON and text -> Cell.
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/cell/cell.hpp"
+#include "core/cell/mesh_reference.hpp"
 
 namespace sculpt {
 
@@ -14,7 +16,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_sections = 16;  // of the holder
+constexpr std::size_t max_sections = 16;  // of the holder
 
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
   throw InputError("cell_invalid",
@@ -121,48 +123,6 @@ std::string read_bytes(const fs::path& path, const std::string& what) {
   return bytes.str();
 }
 
-/// Folders that may be the ROS package `package`, best first.
-std::vector<fs::path> package_folders(const std::string& package, const fs::path& cell_folder, const fs::path& urdf,
-                                      const Field& top) {
-  std::vector<fs::path> folders;
-  if (top.has("packages")) {
-    for (const auto& [name, folder] : top.at("packages").members()) {
-      if (name == package) folders.push_back(cell_folder / folder.text());
-    }
-  }
-  for (fs::path above = fs::absolute(urdf).lexically_normal().parent_path(); above.has_relative_path();
-       above = above.parent_path()) {
-    if (above.filename() == package) folders.push_back(above);
-    folders.push_back(above / package);
-  }
-  if (const char* roots = std::getenv("ROS_PACKAGE_PATH")) {
-    std::istringstream list(roots);
-    for (std::string root; std::getline(list, root, ':');) {
-      if (root.empty()) continue;
-      if (fs::path(root).filename() == package) folders.emplace_back(root);
-      folders.push_back(fs::path(root) / package);
-    }
-  }
-  return folders;
-}
-
-fs::path find_mesh(const std::string& reference, const fs::path& cell_folder, const fs::path& urdf, const Field& top) {
-  const std::string package_scheme = "package://", file_scheme = "file://";
-  if (reference.starts_with(file_scheme)) return reference.substr(file_scheme.size());
-  if (!reference.starts_with(package_scheme)) return urdf.parent_path() / reference;
-  const std::string path = reference.substr(package_scheme.size());
-  const std::size_t slash = path.find('/');
-  const std::string package = path.substr(0, slash);
-  const std::string rest = slash == std::string::npos ? "" : path.substr(slash + 1);
-  for (const fs::path& folder : package_folders(package, cell_folder, urdf, top)) {
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / rest, ignored)) return folder / rest;
-  }
-  throw InputError("file_missing",
-                   "mesh '" + reference + "' was not found: add \"packages\": {\"" + package +
-                       "\": \"folder\"} to the cell file, or put the package's folder into ROS_PACKAGE_PATH");
-}
-
 int find_link(const Robot& robot, const Field& field) {
   const std::string name = field.text();
   const int link = robot.find_link(name);
@@ -187,8 +147,8 @@ double read_extent(const Field& field) {
 std::vector<HolderSection> parse_holder(const Field& field, double stickout_m) {
   std::vector<HolderSection> holder;
   double length_m = 0;
-  if (field.elements().size() > most_sections)
-    refuse(field.pointer(), "give at most " + std::to_string(most_sections) + " sections");
+  if (field.elements().size() > max_sections)
+    refuse(field.pointer(), "give at most " + std::to_string(max_sections) + " sections");
   for (const Field& section : field.elements()) {
     section.require_object({"length_m", "radius_m", "end_radius_m"});
     const double radius_m = read_extent(section.at("radius_m"));
@@ -303,29 +263,6 @@ Configuration Cell::home(const Chain& chain) const {
   return q;
 }
 
-fs::path find_cell(const std::string& cell, const std::vector<fs::path>& folders) {
-  if (cell.find('/') != std::string::npos || cell.ends_with(".json")) return cell;
-  std::vector<std::string> names;
-  for (const fs::path& folder : folders) {
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / (cell + ".json"), ignored)) return folder / (cell + ".json");
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  if (folders.empty())
-    throw InputError("cell_unknown",
-                     "there is no cell '" + cell +
-                         "': no folder config/cells was found above the program or the working folder; set "
-                         "SCULPT_CELLS to it, or give the path of a cell file (with a '/' or ending in .json)");
-  throw InputError("cell_unknown", "there is no cell '" + cell + "'; known cells: " + (list.empty() ? "none" : list) +
-                                       "; or give the path of a cell file (with a '/' or ending in .json)");
-}
-
 CellFiles read_cell_files(const fs::path& path) {
   CellFiles files;
   files.name = path.stem().string();
@@ -335,9 +272,15 @@ CellFiles read_cell_files(const fs::path& path) {
   const std::string urdf_name = top.at("urdf").text();
   const fs::path urdf = path.parent_path() / urdf_name;
   files.files[urdf_name] = read_bytes(urdf, "the cell's URDF");
+  const auto named = [&](const std::string& package) -> std::optional<fs::path> {
+    if (top.has("packages"))
+      for (const auto& [name, folder] : top.at("packages").members())
+        if (name == package) return path.parent_path() / folder.text();
+    return std::nullopt;
+  };
   // Parsing is what knows which meshes there are.
   parse_urdf(files.files[urdf_name], [&](const std::string& reference) {
-    return files.files[reference] = read_bytes(find_mesh(reference, path.parent_path(), urdf, top), "mesh");
+    return files.files[reference] = read_bytes(find_mesh_file(reference, urdf, named), "mesh");
   });
   return files;
 }
@@ -356,8 +299,7 @@ Cell parse_cell(const CellFiles& files) {
   cell.stock_origin_m = stock.at("origin_m").vector();
   cell.tool = parse_tool(tool);
   cell.urdf = file_named(files, top.at("urdf").text());
-  cell.robot = parse_urdf(cell.urdf,
-                          [&](const std::string& reference) { return file_named(files, reference); });
+  cell.robot = parse_urdf(cell.urdf, [&](const std::string& reference) { return file_named(files, reference); });
   cell.stock_link = find_link(cell.robot, stock.at("link"));
   cell.tool_link = find_link(cell.robot, tool.at("link"));
   for (Shape& shape : holder_shapes(cell.tool))  // to whoever looks at links the holder is part of one

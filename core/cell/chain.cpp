@@ -87,9 +87,9 @@ Chain::Chain(const Robot& robot, int stock_link, int tool_link, double stickout_
 int Chain::add_coordinate(int joint) {
   int& coordinate = coordinate_[static_cast<std::size_t>(joint)];
   if (coordinate < 0) {
-    if (dof() == most_joints)
-      throw InputError("urdf_invalid", "more than " + std::to_string(most_joints) +
-                                             " joints move the tool against the stock: fix some of them in the URDF");
+    if (dof() == max_joints)
+      throw InputError("urdf_invalid", "more than " + std::to_string(max_joints) +
+                                           " joints move the tool against the stock: fix some of them in the URDF");
     coordinate = dof();
     joints_.push_back(joint);
   }

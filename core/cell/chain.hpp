@@ -8,20 +8,21 @@
 
 namespace sculpt {
 
-/// The tool in the stock frame: `ball_m` is the ball's centre, `axis` the unit vector from the ball towards the spindle.
+/// The tool in the stock frame: `ball_m` is the ball's centre, `axis` the unit vector from the ball towards the
+/// spindle.
 struct ToolPose {
   Vec3 ball_m;
   Vec3 axis;
 };
 
-/// Forward kinematics in the stock frame (= the stock link's frame). Its coordinates are the independent joints on the path
-/// stock link -> tool link, in path order; mimic joints follow their source (which is a coordinate even where it lies off the
-/// path), all other movable joints stand at `rest` (their home value, else 0 clamped to their limits). Immutable after
-/// construction: safe to share between threads.
+/// Forward kinematics in the stock frame (= the stock link's frame). Its coordinates are the independent joints on the
+/// path stock link -> tool link, in path order; mimic joints follow their source (which is a coordinate even where it
+/// lies off the path), all other movable joints stand at `rest` (their home value, else 0 clamped to their limits).
+/// Immutable after construction: safe to share between threads.
 class Chain {
  public:
-  /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the tool,
-  /// `urdf_invalid` when more than most_joints do.
+  /// `rest`: value per robot joint (size robot.joints.size()). Throws InputError `chain_empty` when no joint moves the
+  /// tool, `urdf_invalid` when more than max_joints do.
   Chain(const Robot& robot, int stock_link, int tool_link, double stickout_m, std::vector<double> rest);
 
   int dof() const { return static_cast<int>(joints_.size()); }
@@ -42,7 +43,8 @@ class Chain {
   /// Pose of every robot link in the stock frame; `poses` is resized to the number of links.
   void link_poses(const Configuration& q, std::vector<Frame>& poses) const;
   ToolPose tool_pose(const Configuration& q) const;
-  /// Rows 0-2: velocity of the ball's centre (m per unit of joint); rows 3-5: angular velocity of the tool (rad per unit). Stock frame. 6 x dof.
+  /// Rows 0-2: velocity of the ball's centre (m per unit of joint); rows 3-5: angular velocity of the tool (rad per
+  /// unit). Stock frame. 6 x dof.
   JointColumns<6> jacobian(const Configuration& q) const;
   /// Both at once; `jacobian` is resized where needed, so that a caller who keeps it pays no allocation.
   ToolPose tool_pose(const Configuration& q, JointColumns<6>& jacobian) const;
@@ -50,9 +52,9 @@ class Chain {
   /// How fast the tool can turn, per unit of each coordinate (rad): more than 1 where mimic joints add to it.
   Configuration turn_rates() const;
 
-  /// One moving joint on the path: `before` (everything fixed since the previous one), then a turn about or shift along z by
-  /// multiplier * q[coordinate] + offset. The joint's axis is turned onto z by the frames around it; joints on the stock side
-  /// are passed from child to parent, so their multiplier and offset are negated.
+  /// One moving joint on the path: `before` (everything fixed since the previous one), then a turn about or shift along
+  /// z by multiplier * q[coordinate] + offset. The joint's axis is turned onto z by the frames around it; joints on the
+  /// stock side are passed from child to parent, so their multiplier and offset are negated.
   struct Step {
     Frame before;
     bool turns;

@@ -12,15 +12,12 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
-#include "core/base/watch.hpp"
-#include "core/material/mesh_file.hpp"
+#include "core/cell/mesh_shelf.hpp"
+#include "core/cell/urdf_guard.hpp"
 
 namespace sculpt {
 
 namespace {
-
-constexpr std::size_t largest_urdf_bytes = 2u << 20;
-constexpr std::uint64_t mesh_memory_cap_bytes = 1ull << 30;
 
 [[noreturn]] void refuse(const std::string& sentence) {
   throw InputError("urdf_invalid", sentence);
@@ -44,52 +41,8 @@ class CollectedMessages : public console_bridge::OutputHandler {
   std::string text_;
 };
 
-/// tinyxml parses recursively, so nesting without end would overflow the stack.
-void refuse_deep_nesting(const std::string& xml) {
-  constexpr int deepest = 100;
-  int depth = 0;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at)) {
-    if (xml.compare(at, 4, "<!--") == 0) {
-      at = xml.find("-->", at);
-      if (at == std::string::npos) return;
-      continue;
-    }
-    const char kind = at + 1 < xml.size() ? xml[at + 1] : '\0';
-    char quote = 0;
-    std::size_t end = at + 1;
-    for (; end < xml.size() && (quote || xml[end] != '>'); ++end) {
-      if (quote ? xml[end] == quote : (xml[end] == '"' || xml[end] == '\'')) quote = quote ? 0 : xml[end];
-    }
-    if (kind == '/') {
-      --depth;
-    } else if (kind != '?' && kind != '!' && end > 0 && xml[end - 1] != '/') {
-      ++depth;
-    }
-    if (depth > deepest) refuse("the URDF nests elements more than 100 deep: it is no URDF, or damaged");
-    at = end;
-  }
-}
-
-/// urdfdom skips what it does not know, so that of a xacro source parts would be missing. (A URDF that xacro wrote
-/// names its namespace still, and may have its source in comments.)
-void refuse_xacro(const std::string& xml) {
-  std::size_t at = 0;
-  while ((at = xml.find('<', at)) != std::string::npos) {
-    if (xml.compare(at, 7, "<xacro:") == 0)
-      refuse(
-          "the file is a xacro source, not a URDF: write it out with `xacro robot.urdf.xacro > robot.urdf`, and name "
-          "that file");
-    if (xml.compare(at, 4, "<!--") == 0) at = xml.find("-->", at);
-    if (at != std::string::npos) ++at;
-  }
-}
-
 urdf::ModelInterfaceSharedPtr parse_model(const std::string& xml) {
-  if (xml.size() > largest_urdf_bytes) {
-    refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(largest_urdf_bytes));
-  }
-  refuse_deep_nesting(xml);
-  refuse_xacro(xml);
+  check_urdf(xml);
   static std::mutex console_mutex;
   const std::lock_guard lock(console_mutex);
   CollectedMessages messages;
@@ -128,54 +81,6 @@ void require_size(double value, const char* what, const std::string& owner) {
   text << "the " << what << " of a collision shape of " << owner << " is " << value << ": it must be above 0 m";
   refuse(text.str());
 }
-
-std::string extension_of(const std::string& reference) {
-  const std::size_t dot = reference.find_last_of("./\\");
-  if (dot == std::string::npos || reference[dot] != '.') return "";
-  std::string extension = reference.substr(dot + 1);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-/// Loads each mesh reference once per scale.
-class MeshShelf {
- public:
-  explicit MeshShelf(const std::function<std::string(const std::string&)>& read_file) : read_file_(read_file) {}
-
-  std::shared_ptr<const Mesh> get(const std::string& reference, const Vec3& scale, const std::string& owner) {
-    if (!scale.allFinite() || (scale.array() == 0).any()) {
-      refuse("the scale of mesh '" + reference + "' of " + owner + " must be finite and not 0");
-    }
-    auto& kept = meshes_[{reference, {scale.x(), scale.y(), scale.z()}}];
-    if (kept) return kept;
-    auto mesh = std::make_shared<Mesh>(load(reference, owner));
-    for (Vec3& vertex : mesh->vertices) vertex = vertex.cwiseProduct(scale);
-    if (scale.prod() < 0) {
-      for (auto& triangle : mesh->triangles) std::swap(triangle[1], triangle[2]);
-    }
-    kept = std::move(mesh);
-    return kept;
-  }
-
- private:
-  Mesh load(const std::string& reference, const std::string& owner) const {
-    const std::string extension = extension_of(reference), named = "mesh '" + reference + "' of " + owner;
-    if (extension == "dae")
-      throw InputError("mesh_unreadable", named +
-                                              " is a Collada file, which is not read: convert it (for example with "
-                                              "`assimp export`) to STL or OBJ, in metres, and name that one in "
-                                              "<collision>; <visual> may keep it");
-    const std::string bytes = read_file_(reference);
-    try {
-      return load_mesh(bytes, extension, mesh_memory_cap_bytes, Watch{});
-    } catch (const InputError& error) {
-      throw InputError(error.code(), named + ": " + error.what());
-    }
-  }
-
-  const std::function<std::string(const std::string&)>& read_file_;
-  std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const Mesh>> meshes_;
-};
 
 Shape to_shape(const urdf::Collision& collision, const std::string& owner, MeshShelf& meshes) {
   Shape shape;

@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_boxes_a_mesh = 32;
+constexpr std::size_t max_boxes_a_mesh = 32;
 
 Piece make_piece(const Shape& shape) {
   Vec3 half = Vec3::Zero();
@@ -73,7 +73,7 @@ std::vector<Eigen::AlignedBox3d> cover_mesh(const Mesh& mesh) {
   std::vector<std::size_t> all(mesh.triangles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<Cluster> clusters{make_cluster(mesh, all)};
-  while (clusters.size() < most_boxes_a_mesh) {
+  while (clusters.size() < max_boxes_a_mesh) {
     const auto largest = std::max_element(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
       return (a.triangles.size() > 1 ? a.box.volume() : 0) < (b.triangles.size() > 1 ? b.box.volume() : 0);
     });

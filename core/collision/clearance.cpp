@@ -10,7 +10,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_separations = 8;
+constexpr std::size_t max_separations = 8;
 
 Capsule placed(const Frame& pose, const Capsule& capsule) {
   return {{pose * capsule.core.a, pose * capsule.core.b}, capsule.radius_m};
@@ -144,7 +144,7 @@ std::optional<std::vector<Separation>> separations(const Body& a, const Frame& p
         }
       }
       if (gap >= enough_m || distance_to_piece_box(of_a, pose_a, other) >= enough_m) continue;
-      if (gap <= 0 || found.size() == most_separations) return std::nullopt;
+      if (gap <= 0 || found.size() == max_separations) return std::nullopt;
       found.push_back({hull, way.normalized(), gap});
     }
   }
@@ -160,7 +160,7 @@ std::optional<std::vector<Separation>> separations_from_grid(const Body& body, c
     const Vec3 way = separation_from_box(hull.core, grid.origin_m, high_m);
     const double gap = way.norm() - hull.radius_m;
     if (gap >= enough_m) continue;
-    if (gap <= 0 || found.size() == most_separations) return std::nullopt;
+    if (gap <= 0 || found.size() == max_separations) return std::nullopt;
     found.push_back({hull, way.normalized(), gap});
   }
   return found;

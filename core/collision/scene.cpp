@@ -93,8 +93,8 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
     bodies_->count_check();
     return bodies_->tool_line(bodies_->chain.tool_pose(from + t * step));
   };
-  if (!tool_sweep_is_free(bodies_->material, line_at, bodies_->tool_bend(step), bodies_->radii, tool_margin_voxels,
-                          exempt))
+  if (!tool_sweep_is_free(bodies_->material, line_at, bodies_->tool_second_derivative(step), bodies_->radii,
+                          tool_margin_voxels, exempt))
     return Contact::tool_material;
   std::vector<const SceneBodies::Pair*> open;
   for (const SceneBodies::Pair& pair : bodies_->pairs)

@@ -83,7 +83,7 @@ Contact SceneBodies::certify_links(const Configuration& from, const Configuratio
 /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
 /// rotation applied to what the one nearer the tool moves, so that one's speed bounds it; a mimic joint may stand
 /// anywhere, so then all turns are applied to all motions.
-double SceneBodies::tool_bend(const Configuration& step) const {
+double SceneBodies::tool_second_derivative(const Configuration& step) const {
   if (has_mimic)
     return derivative_bounds(chain, turn_rates.dot(step.cwiseAbs()), tool_speed.dot(step.cwiseAbs())).second_m;
   double sum = 0;

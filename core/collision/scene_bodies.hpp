@@ -75,7 +75,7 @@ class SceneBodies {
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const;
   /// Bound on the second derivative of any tool point along from + t step.
-  double tool_bend(const Configuration& step) const;
+  double tool_second_derivative(const Configuration& step) const;
 
   // For bubbles.
   double plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;

@@ -12,7 +12,7 @@ namespace {
 
 /// Pairs that no more joints move are proved free in parts of a box, with that many checks at most.
 constexpr Eigen::Index few_joints = 2;
-constexpr int most_checks = 200;
+constexpr int max_checks = 200;
 
 /// Bound on the second derivative of the capsule's points along any direction in +-half: by two joints it is a turning
 /// about the one that comes first, applied to the motion by the other.
@@ -114,16 +114,16 @@ std::optional<std::vector<Bubble::Advance>> SceneBodies::advances(const std::vec
     const Vec3 lever_a = (plane.capsule.core.a - hull_a).cross(plane.normal);
     const Vec3 lever_b = (plane.capsule.core.b - hull_a).cross(plane.normal);
     Bubble::Advance advance{Configuration(half.size()), Configuration(half.size()), room};
-    double most_a = 0, most_b = 0;
+    double max_a = 0, max_b = 0;
     for (Eigen::Index joint = 0; joint < half.size(); ++joint) {
       const Vec3 turn = approach.turn.col(joint);
       const double shared = plane.normal.dot(approach.end_a.col(joint));
       advance.end_a[joint] = -(shared + turn.dot(lever_a));
       advance.end_b[joint] = -(shared + turn.dot(lever_b));
-      most_a += std::abs(advance.end_a[joint]) * half[joint];
-      most_b += std::abs(advance.end_b[joint]) * half[joint];
+      max_a += std::abs(advance.end_a[joint]) * half[joint];
+      max_b += std::abs(advance.end_b[joint]) * half[joint];
     }
-    if (std::max(most_a, most_b) >= room) advances.push_back(advance);
+    if (std::max(max_a, max_b) >= room) advances.push_back(advance);
   }
   return advances;
 }
@@ -160,7 +160,7 @@ Scene::Pairs Scene::pairs_in(const JointBox& box) const {
   if ((bounded.low.array() > bounded.high.array()).any()) return open;
   for (std::size_t at : pairs()) {
     const SceneBodies::Pair& pair = bodies_->pairs[at];
-    int checks_left = pair.joints() <= few_joints ? most_checks : 1;
+    int checks_left = pair.joints() <= few_joints ? max_checks : 1;
     if (!bodies_->is_free_in(pair, bounded, checks_left)) open.push_back(at);
   }
   return open;

@@ -9,7 +9,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int most_boxes = 4000, points_a_line = 65, points_a_side = 17, random_points = 1000, most_climbs = 200;
+constexpr int max_boxes = 4000, points_a_line = 65, points_a_side = 17, random_points = 1000, max_climbs = 200;
 constexpr double centres_weight = 1e-3;  // of the distance of the centres, where nothing else tells up from down
 
 Eigen::AlignedBox3d box_of(const Mesh& mesh) {
@@ -78,7 +78,7 @@ bool ShapeContact::always_touch(const Configuration& q) const {
     low[coordinate] = chain_.lower()[coordinate];
     high[coordinate] = chain_.upper()[coordinate];
   }
-  int boxes_left = most_boxes;
+  int boxes_left = max_boxes;
   return covered(low, high, boxes_left);
 }
 
@@ -110,7 +110,7 @@ double ShapeContact::apartness(const Configuration& q) const {
 
 bool ShapeContact::climb(Configuration q) const {
   double best = apartness(q), step = 0.1;
-  for (int left = most_climbs; left > 0 && step > 1e-3; --left) {
+  for (int left = max_climbs; left > 0 && step > 1e-3; --left) {
     Configuration next = q;
     for (int coordinate : coordinates_)
       for (double way : {-step, step}) {

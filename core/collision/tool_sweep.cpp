@@ -13,16 +13,16 @@ constexpr double long_motion = 3;
 struct Sweep {
   const Material& material;
   const std::function<ToolLine(double)>& line_at;
-  double bend;
+  double second_derivative;
   ToolRadii radii;  // margin included
   std::optional<Voxel> exempt;
 
-  /// The path of a point over an interval of length w stays within bend w^2 / 8 of its chord.
+  /// The path of a point over an interval of length w stays within second_derivative w^2 / 8 of its chord.
   bool is_free(double from, const ToolLine& start, double to, const ToolLine& end, bool ball_open,
                bool shank_open) const {
     const double width = to - from, middle = (from + to) / 2;
     const ToolLine centre = line_at(middle);
-    const double chord_error = bend * width * width / 8;
+    const double chord_error = second_derivative * width * width / 8;
     if (ball_open) {
       if (material.meets_capsule({centre.ball, centre.ball}, radii.ball, exempt)) return false;
       ball_open = material.meets_capsule({start.ball, end.ball}, radii.ball + chord_error, exempt);
@@ -56,10 +56,11 @@ bool touches_at_a_glance(const Sweep& sweep) {
 
 }  // namespace
 
-bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double bend,
-                        const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
+bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
+                        double second_derivative, const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
   const bool has_shank = radii.shank > 0;
-  const Sweep sweep{material, line_at, bend, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};
+  const Sweep sweep{
+      material, line_at, second_derivative, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};
   const ToolLine start = line_at(0), end = line_at(1);
   if ((start.ball - end.ball).norm() + (start.top - end.top).norm() > long_motion && touches_at_a_glance(sweep))
     return false;

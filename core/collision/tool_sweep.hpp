@@ -1,4 +1,4 @@
-// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the bend
+// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the second derivative
 // between.
 #pragma once
 
@@ -20,9 +20,10 @@ struct ToolRadii {
   double ball = 0, shank = 0;
 };
 
-/// `line_at(t)`: the tool at path parameter t in [0, 1]. `bend`: bound on the second derivative of any tool point by t,
-/// in voxel edges. True only if the tool stays clear of all material but `exempt` by `margin` (voxel edges) at every t.
-bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at, double bend,
-                        const ToolRadii& radii, double margin, std::optional<Voxel> exempt);
+/// `line_at(t)`: the tool at path parameter t in [0, 1]. `second_derivative`: bound on the second derivative of any
+/// tool point by t, in voxel edges. True only if the tool stays clear of all material but `exempt` by `margin` (voxel
+/// edges) at every t.
+bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
+                        double second_derivative, const ToolRadii& radii, double margin, std::optional<Voxel> exempt);
 
 }  // namespace sculpt

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/material/resolution.hpp"
 #include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
@@ -18,8 +19,8 @@ constexpr std::string_view magic = "#binvox";
 
 /// Takes one line off the front of `bytes`.
 std::string_view take_line(std::string_view& bytes) {
-  constexpr std::size_t longest_line = 1000;
-  const std::size_t end = bytes.substr(0, longest_line).find('\n');
+  constexpr std::size_t max_line_bytes = 1000;
+  const std::size_t end = bytes.substr(0, max_line_bytes).find('\n');
   if (end == std::string_view::npos) refuse("its header ends without a line \"data\"; write it again");
   std::string_view line = bytes.substr(0, end);
   bytes.remove_prefix(end + 1);
@@ -33,7 +34,7 @@ int parse_dimensions(std::istringstream& words) {
   const std::string given = std::to_string(depth) + " x " + std::to_string(width) + " x " + std::to_string(height);
   if (depth != width || depth != height)
     refuse("its dimensions are " + given + ", not a cube: write it with equal dimensions");
-  if (depth < 8 || depth > 1024 || !std::has_single_bit(static_cast<unsigned>(depth)))
+  if (!is_resolution(depth))
     refuse("its dimensions are " + given + ": write it with 8, 16, 32, 64, 128, 256, 512 or 1024 voxels an edge");
   return depth;
 }

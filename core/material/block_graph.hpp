@@ -17,6 +17,7 @@ struct BlockGraph {
   }
 };
 
+/// Throws Cancelled.
 BlockGraph build_block_graph(const Octree& octree, const Watch& watch);
 
 }  // namespace sculpt

@@ -139,7 +139,7 @@ class Rows {
 }  // namespace
 
 Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& watch) {
-  constexpr std::size_t most_a_column = 10000;
+  constexpr std::size_t max_a_column = 10000;
   Crossings crossings{VoxelSet(n), {}, {}, 0, {}};
   crossings.met.resize(static_cast<std::size_t>(n) * n / 64);
   crossings.odd = crossings.met;
@@ -153,7 +153,7 @@ Crossings find_crossings(const Surface& surface, int n, int axis, const Watch& w
     for (std::size_t at = 0; at < active.size(); ++at) {
       if (at % 1024 == 0) watch.step(Stage::voxelize, axis * n + row, 3 * n);
       cross(active[at], row, n, met);
-      if (met.size() > most_a_column * static_cast<std::size_t>(n))
+      if (met.size() > max_a_column * static_cast<std::size_t>(n))
         throw InputError("mesh_not_solid",
                          "the mesh is not a solid: its facets lie in one another, more than 10000 deep: "
                          "remove those that are there many times");

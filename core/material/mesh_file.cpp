@@ -48,7 +48,7 @@ class ViewStream final : public Assimp::IOStream {
     const size_t items = std::min(count, (bytes_.size() - at_) / size);
     std::memcpy(out, bytes_.data() + at_, items * size);
     at_ += items * size;
-    if (items == 0 && count > 0 && ++reads_of_nothing_ > most_reads_of_nothing)
+    if (items == 0 && count > 0 && ++reads_of_nothing_ > max_reads_of_nothing)
       throw std::runtime_error("it ends before it is complete");
     return items;
   }
@@ -64,7 +64,7 @@ class ViewStream final : public Assimp::IOStream {
   void Flush() override {}
 
  private:
-  static constexpr int most_reads_of_nothing = 1000;
+  static constexpr int max_reads_of_nothing = 1000;
   std::string_view bytes_;
   size_t at_ = 0;
   int reads_of_nothing_ = 0;

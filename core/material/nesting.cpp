@@ -9,7 +9,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t points_a_shell = 8;
-constexpr std::size_t most_containers = 1000;
+constexpr std::size_t max_containers = 1000;
 
 using Units = std::array<std::int64_t, 3>;
 
@@ -27,7 +27,7 @@ std::vector<bool> find_containers(const std::vector<Shell>& shells) {
     return std::abs(shells[a].volume) > std::abs(shells[b].volume);
   });
   std::vector<bool> is_container(shells.size());
-  for (std::size_t at = 0; at < std::min(by_size.size(), most_containers); ++at)
+  for (std::size_t at = 0; at < std::min(by_size.size(), max_containers); ++at)
     is_container[by_size[at]] = std::any_of(shells.begin(), shells.end(), [&](const Shell& shell) {
       return &shell != &shells[by_size[at]] && shell.is_body && shells[by_size[at]].box.contains(shell.box);
     });

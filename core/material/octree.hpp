@@ -36,6 +36,7 @@ struct Octree {
   int find(Voxel v) const;
 };
 
+/// Throws Cancelled.
 Octree build_octree(const VoxelGrid& voxels, const Watch& watch);
 
 }  // namespace sculpt

@@ -113,7 +113,7 @@ class Body {
 class Reader {
  public:
   Reader(const PlyHeader& header, std::string_view bytes, std::uint64_t memory_cap_bytes)
-      : header_(header), body_(bytes, header), most_triangles_(memory_cap_bytes / (3 * sizeof(Mesh::triangles[0]))) {}
+      : header_(header), body_(bytes, header), max_triangles_(memory_cap_bytes / (3 * sizeof(Mesh::triangles[0]))) {}
 
   Mesh read() {
     for (const PlyElement& element : header_.elements) {
@@ -157,7 +157,7 @@ class Reader {
       } else if (is_corners && (is_face || is_strip)) {
         read_corners(property, is_strip);
         is_strip ? add_strips() : add_polygon(corners_, mesh_);
-        if (mesh_.triangles.size() > most_triangles_)
+        if (mesh_.triangles.size() > max_triangles_)
           throw InputError("memory_cap",
                            "the triangles of the .ply file do not fit into the memory cap: raise it, or "
                            "reduce the mesh to fewer triangles");
@@ -202,7 +202,7 @@ class Reader {
   static constexpr std::uint32_t strip_end = ~std::uint32_t{0};
   const PlyHeader& header_;
   Body body_;
-  std::uint64_t most_triangles_;
+  std::uint64_t max_triangles_;
   std::vector<std::uint32_t> corners_;
   Mesh mesh_;
 };

@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_corners_looked_at = 64;
+constexpr std::size_t max_corners_looked_at = 64;
 
 /// Twice the area, along the normal.
 Vec3 area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -21,7 +21,7 @@ bool is_seen_whole(std::span<const std::uint32_t> corners, std::size_t from, con
 }
 
 std::size_t find_apex(std::span<const std::uint32_t> corners, const Mesh& mesh) {
-  if (corners.size() == 3 || corners.size() > most_corners_looked_at) return 0;
+  if (corners.size() == 3 || corners.size() > max_corners_looked_at) return 0;
   Vec3 normal = Vec3::Zero();
   for (std::size_t c = 1; c + 1 < corners.size(); ++c)
     normal += area_of(mesh.vertices[corners[0]], mesh.vertices[corners[c]], mesh.vertices[corners[c + 1]]);

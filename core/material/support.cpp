@@ -13,14 +13,12 @@ namespace sculpt {
 namespace {
 
 /// Voxels that a search looks at before the whole grid is flooded, a row of words at a time.
-constexpr std::size_t most_looked_at = 8192;
+constexpr std::size_t max_looked_at = 8192;
 /// Height of the columns around the grid: nothing stands there that could come loose.
 constexpr std::int16_t beyond = std::numeric_limits<std::int16_t>::max();
 
 Voxel step_along(const VoxelLine& line) {
-  const Voxel way = line.last - line.first;
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  return {sign(way.i), sign(way.j), sign(way.k)};
+  return sign(line.last - line.first);
 }
 
 /// Of an offset in the 3 x 3 x 3 voxels about one.
@@ -178,7 +176,7 @@ Support::Way Support::search(Voxel from, Voxel gone, std::vector<Voxel>& others,
       foreseen = foreseen && may_fall_.contains(next);
       open.push(next);
     }
-    if (seen.size() > most_looked_at) return Way::long_;
+    if (seen.size() > max_looked_at) return Way::long_;
   }
   return foreseen ? Way::falls : Way::none;
 }

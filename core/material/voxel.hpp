@@ -20,6 +20,10 @@ struct Voxel {
 /// The six face directions: -x +x -y +y -z +z.
 inline constexpr std::array<Voxel, 6> face_steps{{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
+constexpr int sign(int x) { return (x > 0) - (x < 0); }
+/// Of each coordinate: of a way along one axis the step.
+constexpr Voxel sign(Voxel way) { return {sign(way.i), sign(way.j), sign(way.k)}; }
+
 inline int l1(Voxel a, Voxel b) { return std::abs(a.i - b.i) + std::abs(a.j - b.j) + std::abs(a.k - b.k); }
 
 /// A cube of n x n x n voxels of edge `voxel_m`; `origin_m` is the corner of voxel (0,0,0), all in the stock frame.

@@ -14,7 +14,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_hubs = 12;
+constexpr std::size_t max_hubs = 12;
 /// Attempts by effort: configurations to start IK from, and iterations of RRTConnect.
 constexpr int random_seeds[] = {3, 10, 30};
 constexpr int rrt_iterations[] = {150, 600, 3000};
@@ -130,7 +130,7 @@ std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int e
   const auto distance = [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); };
   std::stable_sort(hubs.begin(), hubs.end(),
                    [&](const Configuration& a, const Configuration& b) { return distance(a) < distance(b); });
-  const std::size_t most = effort == 0 ? 3 : most_hubs;
+  const std::size_t most = effort == 0 ? 3 : max_hubs;
   for (std::size_t i = 0; i < std::min(most, hubs.size()); ++i) seeds.push_back(hubs[i]);
   seeds.push_back(home_);
   Random random(mix(seed_, mix(scene_.material().solid().index(voxel), axis + 64 * static_cast<std::size_t>(effort))));
@@ -176,7 +176,7 @@ bool Arm::transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& s
       continue;
     }
     Path& hubs = memory_.hubs[axis];
-    if (hubs.size() < most_hubs) hubs.push_back(hub);
+    if (hubs.size() < max_hubs) hubs.push_back(hub);
     Path to_hub(out);
     to_hub.insert(to_hub.end(), across.begin() + 1, across.end());
     move(shorten(scene_, to_hub));

@@ -65,7 +65,7 @@ Reason explain(const Scene& scene, const Support& support, const ToolRoom& room,
 }  // namespace
 
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch) {
+                                     const RunContext& run) {
   const VoxelSet enclosed = find_enclosed(voxels);
   const Support support(scene.material().solid(), may_fall);
   const ToolRoom room(scene);
@@ -80,14 +80,14 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
     }
   }
   constexpr std::size_t at_once = 64;
-  helpers.for_each_index((residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
+  run.helpers.for_each_index((residue.size() + at_once - 1) / at_once, [&](std::size_t part) {
     for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
-      if (watch.stop.stop_requested()) throw Cancelled{};
+      if (run.watch.stop.stop_requested()) throw Cancelled{};
       auto& [voxel, reason] = residue[at];
-      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, voxel, seed);
+      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, voxel, run.seed);
     }
   });
-  find_behind(residue, scene, room, helpers, watch);
+  find_behind(residue, scene, room, run.helpers, run.watch);
   return residue;
 }
 

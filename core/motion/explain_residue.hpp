@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "core/base/helpers.hpp"
-#include "core/base/watch.hpp"
+#include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/motion/residue.hpp"
@@ -17,6 +16,6 @@ namespace sculpt {
 /// piece, or else for want of a transit. What only stands behind such voxels says so. `may_fall`: what cannot be held.
 /// Throws Cancelled.
 std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                                     std::uint64_t seed, const Helpers& helpers, const Watch& watch);
+                                     const RunContext& run);
 
 }  // namespace sculpt

@@ -8,47 +8,41 @@ namespace sculpt {
 namespace {
 
 /// Of the search for a way in, where the straight one is not free.
-constexpr int most_iterations = 2000;
-constexpr double longest_edge_m = 0.1;
-
-Voxel direction(Voxel from, Voxel to) {
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  return {sign(to.i - from.i), sign(to.j - from.j), sign(to.k - from.k)};
-}
+constexpr int max_iterations = 2000;
+constexpr double max_edge_m = 0.1;
 
 }  // namespace
 
-Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit,
-               std::vector<Refusal>& refusals, std::uint64_t known, std::function<void()> caught_up)
+Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, GantryStart start,
+               const GantryListener& listener)
     : scene_(scene),
       home_(home),
       q_(home),
       seed_(seed),
       stop_(std::move(stop)),
-      emit_(std::move(emit)),
-      refusals_(refusals),
-      known_(known),
-      caught_up_(std::move(caught_up)) {}
+      known_(std::move(start)),
+      listener_(listener) {}
 
 bool Gantry::is_free(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
-  return emitted_ < known_ || scene_.certify(from, to, exempt) == Contact::none;
+  return emitted_ < known_.keyframes || scene_.certify(from, to, exempt) == Contact::none;
 }
 
 const Refusal* Gantry::known_refusal() const {
-  const bool is_next = refused_ < refusals_.size() && refusals_[refused_].keyframes == emitted_;
-  return is_next ? &refusals_[refused_] : nullptr;
+  const auto& refusals = known_.refusals;
+  const bool is_next = refused_ < refusals.size() && refusals[refused_].keyframes == emitted_;
+  return is_next ? &refusals[refused_] : nullptr;
 }
 
 Refusal Gantry::note_refusal(Voxel from, Voxel to) {
   const Refusal refusal{emitted_, from, to};
-  if (refused_ == refusals_.size()) refusals_.push_back(refusal);
+  if (refused_ >= known_.refusals.size()) listener_.refused(refusal);
   ++refused_;
   return refusal;
 }
 
 void Gantry::emit(const Keyframe& keyframe) {
-  if (++emitted_ > known_) return emit_(keyframe);
-  if (emitted_ == known_) caught_up_();
+  if (++emitted_ > known_.keyframes) return listener_.emit(keyframe);
+  if (emitted_ == known_.keyframes) listener_.caught_up();
 }
 
 std::optional<Configuration> Gantry::configuration_at(Voxel voxel) const {
@@ -62,7 +56,7 @@ void Gantry::move(const Configuration& q) {
 
 void Gantry::enter() {
   const auto q = configuration_at(at_);
-  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {most_iterations, longest_edge_m}).path;
+  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {max_iterations, max_edge_m}).path;
   if (stop_.stop_requested()) throw Cancelled{};
   if (way_in_.empty()) throw note_refusal(at_, at_);
   for (std::size_t stop = 1; stop < way_in_.size(); ++stop) move(way_in_[stop]);
@@ -71,7 +65,7 @@ void Gantry::enter() {
 void Gantry::follow(const VoxelRun& run) {
   if (!entered()) enter();
   if (!run.cut) return travel(run.last);
-  const Voxel along = direction(run.first, run.last);
+  const Voxel along = sign(run.last - run.first);
   if (run.first != run.last && at_ + along != run.first) {
     cut(run.first, run.first);
     cut(run.first + along, run.last);
@@ -84,7 +78,7 @@ void Gantry::travel(Voxel to) {
   if (const Refusal* known = known_refusal()) throw note_refusal(known->from, known->to);
   const auto q = configuration_at(to);
   if (!q || !is_free(q_, *q, {})) {
-    const Voxel along = direction(at_, to);
+    const Voxel along = sign(to - at_);
     Voxel last = at_;
     for (Configuration before = q_; last + along != to; last = last + along) {
       const auto next = configuration_at(last + along);
@@ -108,7 +102,7 @@ void Gantry::cut(Voxel first, Voxel last) {
   const Configuration from = q_;
   const auto to = configuration_at(last);
   const Configuration step = to.value_or(from) - from;
-  const Voxel along = direction(at_, first);
+  const Voxel along = sign(first - at_);
   const int count = l1(first, last) + 1;
   for (int m = 1; m <= count; ++m) {
     const Voxel voxel = first + along * (m - 1), before = voxel - along;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/collision/scene.hpp"
-#include "core/search/translating.hpp"
+#include "core/search/voxel_run.hpp"
 #include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
@@ -19,24 +19,35 @@ struct Refusal {
   Voxel from, to;
 };
 
+/// Where a gantry goes on: the first `keyframes` were certified and emitted by another one that followed the same runs,
+/// and all of `refusals` were its own. That is not done again.
+struct GantryStart {
+  std::uint64_t keyframes = 0;
+  std::vector<Refusal> refusals;
+};
+
+/// Who hears of a gantry.
+struct GantryListener {
+  std::function<void(const Keyframe&)> emit;
+  std::function<void(const Refusal&)> refused = [](const Refusal&) {};  ///< another that goes on here must know of it
+  std::function<void()> caught_up = [] {};                              ///< what another one did is over
+  std::function<void()> stopped = [] {};  ///< another could go on here, though no keyframe was just emitted
+};
+
 /// Follows runs with a chain of prismatic joints. `scene` loses the voxels that are cut. Single-threaded.
 class Gantry {
  public:
-  using Emit = std::function<void(const Keyframe&)>;
-
-  /// Stands at `home`. The first `known` keyframes were certified and emitted by another one that followed the same
-  /// runs, and all of `refusals` were its own: that is not done again. `caught_up` is called when they are over.
-  Gantry(
-      Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, Emit emit,
-      std::vector<Refusal>& refusals, std::uint64_t known = 0, std::function<void()> caught_up = [] {});
+  /// Stands at `home`. `listener` must outlive the object.
+  Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std::stop_token stop, GantryStart start,
+         const GantryListener& listener);
 
   /// Where runs begin that follow; before any was followed.
   void begin_at(Voxel entry) { at_ = entry; }
   /// The first run begins with the way from home to there. Throws the Refusal of the first step that is not
-  /// free, which is added to `refusals`; what comes before it in a cut is done then.
+  /// free; what comes before it in a cut is done then. Throws Cancelled.
   void follow(const VoxelRun& run);
   /// Is all that was known over, and something done?
-  bool is_on_its_own() const { return emitted_ > 0 && emitted_ >= known_; }
+  bool is_on_its_own() const { return emitted_ > 0 && emitted_ >= known_.keyframes; }
   /// Has it left home?
   bool entered() const { return !way_in_.empty(); }
   /// Where the ball is, once it entered.
@@ -64,11 +75,10 @@ class Gantry {
   std::stop_token stop_;
   Voxel at_;
   std::vector<Configuration> way_in_;  ///< from home; empty before it left
-  Emit emit_;
-  std::vector<Refusal>& refusals_;
-  std::size_t refused_ = 0;  ///< of `refusals_`, those that were met
-  std::uint64_t emitted_ = 0, known_;
-  std::function<void()> caught_up_;
+  GantryStart known_;
+  const GantryListener& listener_;
+  std::size_t refused_ = 0;  ///< how many steps were
+  std::uint64_t emitted_ = 0;
 };
 
 }  // namespace sculpt

@@ -6,6 +6,7 @@
 
 #include "core/cell/ik.hpp"
 #include "core/motion/room.hpp"
+#include "core/search/translating.hpp"
 #include "core/search/voxel_search.hpp"
 
 namespace sculpt {
@@ -18,17 +19,14 @@ std::array<Voxel, 4> entries(int n) {
 
 class GantryCarve {
  public:
-  GantryCarve(Gantry& gantry, const Scene& scene, const VoxelSet& keep, const Configuration& home,
-              const std::string& search, const VoxelSet* may_fall, const Watch& watch)
+  GantryCarve(Gantry& gantry, const Scene& scene, const GantryTask& task, const Watch& watch)
       : gantry_(gantry),
         scene_(scene),
-        keep_(keep),
-        home_(home),
-        search_(search),
-        may_fall_(may_fall),
+        task_(task),
+        keep_(task.keep),
         watch_(watch),
-        room_(scene, home, watch),
-        wanted_(scene.material().solid().size() - keep.size()) {}
+        room_(scene, task.home, watch),
+        wanted_(scene.material().solid().size() - task.keep.size()) {}
 
   void run() {
     for (const Voxel entry : entries(keep_.n())) {
@@ -67,9 +65,9 @@ class GantryCarve {
       voxels.keep.insert(position);
     }
     std::optional<Support> support;
-    if (may_fall_ != nullptr) ground.support = &support.emplace(standing(), *may_fall_);
+    if (task_.may_fall != nullptr) ground.support = &support.emplace(standing(), *task_.may_fall);
     const auto follow = [this](const VoxelRun& run) { gantry_.follow(run); };
-    if (search_ == "voxel") {
+    if (task_.search == Search::voxel) {
       carve_voxelwise(voxels, ground, follow, counted());
     } else {
       const Octree octree = build_octree(voxels, counted());
@@ -85,7 +83,7 @@ class GantryCarve {
     const bool opened = room_.look_again(scene_);
     const auto is_free = [&](const std::pair<Voxel, Voxel>& step) {
       const auto configuration = [&](Voxel v) {
-        return solve_ik(scene_.chain(), {scene_.grid().centre(v), {}}, home_);
+        return solve_ik(scene_.chain(), {scene_.grid().centre(v), {}}, task_.home);
       };
       const auto from = configuration(step.first), to = configuration(step.second);
       return from && to && scene_.certify(*from, *to, step.second) == Contact::none;
@@ -108,10 +106,8 @@ class GantryCarve {
 
   Gantry& gantry_;
   const Scene& scene_;
+  const GantryTask& task_;
   const VoxelSet& keep_;
-  const Configuration& home_;
-  const std::string& search_;
-  const VoxelSet* may_fall_;
   const Watch& watch_;
   Room room_;
   std::uint64_t wanted_;
@@ -120,9 +116,15 @@ class GantryCarve {
 
 }  // namespace
 
-void carve_with_gantry(Gantry& gantry, const Scene& scene, const VoxelSet& keep, const Configuration& home,
-                       const std::string& search, const VoxelSet* may_fall, const Watch& watch) {
-  GantryCarve(gantry, scene, keep, home, search, may_fall, watch).run();
+void carve_with_gantry(Scene& scene, const GantryTask& task, const GantryStart& start, const GantryListener& listener,
+                       const RunContext& run) {
+  Gantry gantry(scene, task.home, run.seed, run.watch.stop, start, listener);
+  try {
+    GantryCarve(gantry, scene, task, run.watch).run();
+  } catch (const Cancelled&) {
+    if (gantry.is_on_its_own()) listener.stopped();
+    throw;
+  }
 }
 
 }  // namespace sculpt

@@ -1,18 +1,25 @@
 // The translating robot at work: search, robot and room together.
 #pragma once
 
-#include <string>
-
-#include "core/base/watch.hpp"
-#include "core/material/voxel_grid.hpp"
+#include "core/base/run_context.hpp"
+#include "core/material/voxel_set.hpp"
 #include "core/motion/gantry.hpp"
+#include "core/search/search.hpp"
 
 namespace sculpt {
 
-/// Carves from home and back what `search` (octree, else voxel) comes to. What stands in the robot's way it goes
-/// around; what it cannot come to, or may not, is left in `scene`. Only pieces of nothing but `may_fall` may come free;
-/// null: any. Throws Cancelled, and InputError `no_transit` if there is no way home.
-void carve_with_gantry(Gantry& gantry, const Scene& scene, const VoxelSet& keep, const Configuration& home,
-                       const std::string& search, const VoxelSet* may_fall, const Watch& watch);
+/// What a translating robot is to carve; it must outlive the call.
+struct GantryTask {
+  const VoxelSet& keep;
+  const Configuration& home;
+  Search search = Search::octree;      ///< or voxel
+  const VoxelSet* may_fall = nullptr;  ///< only pieces of nothing but this may come free; null: any
+};
+
+/// Carves from home and back what the search comes to, or goes on with that at `start`, with the same keyframes that
+/// would have followed. What stands in the robot's way it goes around; what it cannot come to, or may not, is left in
+/// `scene`. Throws Cancelled, and InputError `no_transit` if there is no way home.
+void carve_with_gantry(Scene& scene, const GantryTask& task, const GantryStart& start, const GantryListener& listener,
+                       const RunContext& run);
 
 }  // namespace sculpt

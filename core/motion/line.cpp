@@ -6,7 +6,7 @@ namespace sculpt {
 namespace {
 
 /// Joint steps longer than this are split: they would leave the line by too much to be worth certifying.
-constexpr double longest_joint_step = 0.4;
+constexpr double max_joint_step = 0.4;
 /// Lines shorter than this (voxel edges) are not split further.
 constexpr double shortest_piece_voxels = 0.12;
 
@@ -19,7 +19,7 @@ struct Tracker {
   bool track(const Vec3& start, const Vec3& end) {
     const Configuration& from = path.back();
     const auto to = solve_rounded(scene.chain(), {end, axis}, from);
-    if (to && (*to - from).cwiseAbs().maxCoeff() <= longest_joint_step) {
+    if (to && (*to - from).cwiseAbs().maxCoeff() <= max_joint_step) {
       hit = scene.certify(from, *to);
       if (hit == Contact::none) {
         path.push_back(*to);

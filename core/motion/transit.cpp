@@ -119,7 +119,7 @@ std::vector<Configuration> plan_rrt(const Scene& scene, const Configuration& fro
   planner.setup();
   int iterations = 0;
   const ob::PlannerTerminationCondition end(
-      [&] { return ++iterations > settings.most_iterations || stop.stop_requested(); });
+      [&] { return ++iterations > settings.max_iterations || stop.stop_requested(); });
   if (planner.solve(end) != ob::PlannerStatus::EXACT_SOLUTION) return {};
   std::vector<Configuration> path;
   for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())

@@ -10,7 +10,7 @@ namespace sculpt {
 
 /// Budgets count steps, never seconds, so that the answer does not depend on the machine.
 struct TransitSettings {
-  int most_iterations = 2000;
+  int max_iterations = 2000;
   double range_rad = 0.7;  ///< longest tree edge, in the norm of the joint space
 };
 

@@ -2,25 +2,34 @@
 
 namespace sculpt {
 
-BatchWriter::BatchWriter(std::function<void(const std::vector<Keyframe>&)> write)
-    : write_(std::move(write)), thread_([this] { run(); }) {}
+BatchWriter::BatchWriter(std::function<void(const std::vector<Keyframe>&)> write, std::function<void()> mark)
+    : write_(std::move(write)), mark_(std::move(mark)), thread_([this] { run(); }) {}
 
 BatchWriter::~BatchWriter() {
   close();
 }
 
 void BatchWriter::add(std::vector<Keyframe> batch) {
+  const std::size_t keyframes = batch.size();
+  add(Part(std::move(batch)), keyframes);
+}
+
+void BatchWriter::add(Mark mark) {
+  add(Part(mark), 0);
+}
+
+void BatchWriter::add(Part part, std::size_t keyframes) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return failure_ || waiting_ <= most_waiting; });
+  changed_.wait(lock, [this] { return failure_ || waiting_ <= max_waiting; });
   if (failure_) std::rethrow_exception(failure_);
-  waiting_ += batch.size();
-  batches_.push_back(std::move(batch));
+  waiting_ += keyframes;
+  parts_.push_back(std::move(part));
   changed_.notify_all();
 }
 
 void BatchWriter::wait() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return failure_ || (batches_.empty() && !writing_); });
+  changed_.wait(lock, [this] { return failure_ || (parts_.empty() && !writing_); });
   if (failure_) std::rethrow_exception(failure_);
 }
 
@@ -50,18 +59,21 @@ void BatchWriter::run() {
 }
 
 bool BatchWriter::write_next() {
-  std::vector<Keyframe> batch;
+  Part part;
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return closed_ || !batches_.empty(); });
-    if (batches_.empty()) return false;
-    batch = std::move(batches_.front());
-    batches_.pop_front();
-    waiting_ -= batch.size();
+    changed_.wait(lock, [this] { return closed_ || !parts_.empty(); });
+    if (parts_.empty()) return false;
+    part = std::move(parts_.front());
+    parts_.pop_front();
+    if (const auto* batch = std::get_if<std::vector<Keyframe>>(&part)) waiting_ -= batch->size();
     writing_ = true;
     changed_.notify_all();
   }
-  write_(batch);
+  if (const auto* batch = std::get_if<std::vector<Keyframe>>(&part))
+    write_(*batch);
+  else
+    mark_();
   {
     const std::lock_guard lock(mutex_);
     writing_ = false;

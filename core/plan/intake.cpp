@@ -1,19 +1,17 @@
 #include "core/plan/intake.hpp"
 
-#include <bit>
 #include <limits>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
 #include "core/material/loose_pieces.hpp"
 #include "core/material/mesh_file.hpp"
-#include "core/material/voxelize.hpp"
+#include "core/material/resolution.hpp"
 #include "core/motion/random_configuration.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int smallest_resolution = 8, largest_resolution = 1024;
 /// Per voxel: bit sets of stock, keep and standing material, their pyramid of counts, and the search's own marks.
 constexpr double bytes_a_voxel = 1.6;
 /// Of a cell's files: read, loaded as the densest kind of mesh (.obj), and made shapes of.
@@ -22,7 +20,7 @@ constexpr int coarse_resolution = 32;
 constexpr int reach_seeds = 24;
 
 void check_resolution(int n) {
-  if (n < smallest_resolution || n > largest_resolution || !std::has_single_bit(static_cast<unsigned>(n)))
+  if (!is_resolution(n))
     throw InputError(
         "resolution_invalid",
         "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");
@@ -45,13 +43,6 @@ VoxelSet read_voxels(const MeshFile& file, int n) {
   return voxels;
 }
 
-Solid make_target(const Job& job, const Grid& grid, const Watch& watch) {
-  if (job.mesh.extension == "binvox") return {read_voxels(job.mesh, grid.n), {}};
-  const Mesh mesh = load_mesh(job.mesh.bytes, job.mesh.extension, job.memory_cap_bytes, watch);
-  watch.step(Stage::load, 1, 1);
-  return find_solid(place_mesh(mesh, job.placement, grid), grid, watch);
-}
-
 VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
   VoxelSet voxels(grid.n);
   for (int k = 0; k < grid.n; ++k)
@@ -66,15 +57,6 @@ VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
                      "the stock box holds no voxel centre of the grid: give min and max in metres from the corner of "
                      "the grid, min below max");
   return voxels;
-}
-
-VoxelSet make_stock(const Job& job, const Grid& grid, const Watch& watch) {
-  if (job.stock.box) return box_voxels(*job.stock.box, grid);
-  if (!job.stock.mesh) return VoxelSet(grid.n, true);
-  if (job.stock.mesh->extension == "binvox") return read_voxels(*job.stock.mesh, grid.n);
-  Mesh mesh = load_mesh(job.stock.mesh->bytes, job.stock.mesh->extension, job.memory_cap_bytes, watch);
-  for (Vec3& vertex : mesh.vertices) vertex += grid.origin_m;
-  return voxelize(mesh, grid, watch);
 }
 
 /// Can the ball come to any of 27 points of the stock, with whatever axis?
@@ -99,12 +81,46 @@ void check_reach(const Cell& cell, const Grid& grid) {
 
 }  // namespace
 
+const Mesh& JobShapes::read(const MeshFile& file, std::optional<Mesh>& mesh, const Watch& watch) const {
+  if (!mesh) mesh = load_mesh(file.bytes, file.extension, job_.memory_cap_bytes, watch);
+  return *mesh;
+}
+
+VoxelSet JobShapes::make_stock(const Grid& grid, const Watch& watch) {
+  const Stock& stock = job_.stock;
+  if (stock.box) return box_voxels(*stock.box, grid);
+  if (!stock.mesh) return VoxelSet(grid.n, true);
+  if (stock.mesh->extension == "binvox") return read_voxels(*stock.mesh, grid.n);
+  Mesh placed = read(*stock.mesh, stock_, watch);
+  for (Vec3& vertex : placed.vertices) vertex += grid.origin_m;
+  return sculpt::voxelize(placed, grid, watch);
+}
+
+Solid JobShapes::make_target(const Grid& grid, const Watch& watch) {
+  if (job_.mesh.extension == "binvox") return {read_voxels(job_.mesh, grid.n), {}};
+  const Mesh& mesh = read(job_.mesh, target_, watch);
+  watch.step(Stage::load, 1, 1);
+  return find_solid(place_mesh(mesh, job_.placement, grid), grid, watch);
+}
+
+const VoxelGrid& JobShapes::voxelize(const Grid& grid, const Watch& watch) {
+  if (voxels_ && voxels_->n() == grid.n) return *voxels_;
+  VoxelSet stock = make_stock(grid, watch);
+  Solid target = make_target(grid, watch);
+  voxels_ = {std::move(stock), std::move(target.inside), target.ambiguous};
+  for (std::size_t w = 0; w < voxels_->keep.words().size(); ++w) voxels_->keep.words()[w] &= voxels_->stock.words()[w];
+  return *voxels_;
+}
+
+VoxelGrid JobShapes::take_voxels(const Grid& grid, const Watch& watch) && {
+  voxelize(grid, watch);
+  target_.reset();
+  stock_.reset();
+  return std::move(*voxels_);
+}
+
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch) {
-  VoxelSet stock = make_stock(job, grid, watch);
-  Solid target = make_target(job, grid, watch);
-  VoxelGrid voxels{std::move(stock), std::move(target.inside), target.ambiguous};
-  for (std::size_t w = 0; w < voxels.keep.words().size(); ++w) voxels.keep.words()[w] &= voxels.stock.words()[w];
-  return voxels;
+  return JobShapes(job).take_voxels(grid, watch);
 }
 
 Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid) {
@@ -135,22 +151,22 @@ void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes) {
                                        "resolution, or raise the memory cap");
 }
 
-void check_job(const Job& job, const Watch& watch) {
+CheckedJob check_job(const Job& job, const Watch& watch) {
   check_sizes(sizes_of(job), job.memory_cap_bytes);
-  if (job.search != "octree" && job.search != "voxel" && job.search != "sweep")
-    throw InputError("search_unknown", "search '" + job.search + "' is not known: use octree, sweep or voxel");
   if (job.threads < 1)
     throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
-  const Cell cell = parse_cell(job.cell);
+  Cell cell = parse_cell(job.cell);
   const Grid grid = cell.grid(job.resolution);
   make_tool(cell.tool, grid.voxel_m, grid.n);
-  if (job.search == "voxel" && !cell.chain().translating())
+  if (job.search == Search::voxel && !cell.chain().translating())
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");
   check_reach(cell, grid);
   const bool given_as_voxels =
       job.mesh.extension == "binvox" || (job.stock.mesh && job.stock.mesh->extension == "binvox");
-  make_voxels(job, cell.grid(given_as_voxels ? job.resolution : std::min(job.resolution, coarse_resolution)), watch);
+  JobShapes shapes(job);
+  shapes.voxelize(given_as_voxels || job.resolution <= coarse_resolution ? grid : cell.grid(coarse_resolution), watch);
+  return {std::move(cell), grid, std::move(shapes)};
 }
 
 }  // namespace sculpt

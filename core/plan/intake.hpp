@@ -6,7 +6,10 @@
 #include <string>
 
 #include "core/base/watch.hpp"
+#include "core/cell/cell.hpp"
+#include "core/material/mesh.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/material/voxelize.hpp"
 #include "core/plan/job.hpp"
 
 namespace sculpt {
@@ -31,12 +34,42 @@ std::uint64_t predict_memory(const JobSizes& sizes);
 /// Throws InputError for what can be refused by that alone: `resolution_invalid`, `memory_cap`.
 void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes);
 
+/// The target and the stock of a job. Their files are read when they are first needed, and only once.
+class JobShapes {
+ public:
+  /// `job` must outlive the object.
+  explicit JobShapes(const Job& job) : job_(job) {}
+
+  /// The labelled voxels of `grid`, which differs from call to call in nothing but its resolution; those made last are
+  /// kept. Throws InputError for files that are no shape, or none in this grid; Cancelled.
+  const VoxelGrid& voxelize(const Grid& grid, const Watch& watch);
+  /// The same for the last time: what was read is given up.
+  VoxelGrid take_voxels(const Grid& grid, const Watch& watch) &&;
+
+ private:
+  const Mesh& read(const MeshFile& file, std::optional<Mesh>& mesh, const Watch& watch) const;
+  VoxelSet make_stock(const Grid& grid, const Watch& watch);
+  Solid make_target(const Grid& grid, const Watch& watch);
+
+  const Job& job_;
+  std::optional<Mesh> target_, stock_;  ///< as the files have them
+  std::optional<VoxelGrid> voxels_;
+};
+
+/// A job that may be planned, with what was read of it and made of it to find that out.
+struct CheckedJob {
+  Cell cell;
+  Grid grid;
+  JobShapes shapes;
+};
+
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
 /// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual
-/// meshes. Throws InputError.
-void check_job(const Job& job, const Watch& watch);
+/// meshes. `job` must outlive what it returns. Throws InputError, Cancelled.
+CheckedJob check_job(const Job& job, const Watch& watch);
 
-/// Mesh (or .binvox) to labelled voxels; used by planning, `voxelize` and `verify FILE`. Throws InputError, Cancelled.
+/// Mesh (or .binvox) to labelled voxels, of a job that needs no check: `voxelize` and `verify FILE`. Throws InputError,
+/// Cancelled.
 VoxelGrid make_voxels(const Job& job, const Grid& grid, const Watch& watch);
 
 /// What is loose or ambiguous of the target; told with every step of `run_job` from the first of `plan` on.

@@ -8,6 +8,7 @@
 #include "core/base/frame.hpp"
 #include "core/cell/cell.hpp"
 #include "core/material/placement.hpp"
+#include "core/search/search.hpp"
 
 namespace sculpt {
 
@@ -30,8 +31,8 @@ struct Stock {
 struct Job {
   MeshFile mesh;
   CellFiles cell;
-  int resolution = 0;            ///< power of two, 8 to 1024
-  std::string search = "sweep";  ///< sweep, octree or voxel; translating robots carve by octree instead of by sweep
+  int resolution = 0;  ///< power of two, 8 to 1024
+  Search search = Search::sweep;
   std::uint64_t seed = 0;
   int threads = 1;           ///< the plan is the same at any number
   bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do

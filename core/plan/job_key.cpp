@@ -61,7 +61,7 @@ std::string job_key(const Job& job) {
     key.add(bytes);
   }
   key.add(static_cast<std::uint64_t>(job.resolution));
-  key.add(job.search);
+  key.add(std::string_view(name(job.search)));
   key.add(job.seed);
   key.add(static_cast<std::uint64_t>(job.allow_freed));
   key.add(static_cast<std::uint64_t>(job.placement.scale_m.has_value()));

@@ -12,32 +12,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_waiting = 1024;
+constexpr std::size_t max_waiting = 1024;
 constexpr std::uint64_t bytes_between_starts = 8 << 20;
 
 }  // namespace
 
-Output::Output(const fs::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
-               const Chain& chain, std::uint64_t remove, const Watch& watch)
-    : path_(path),
-      file_(path, std::ios::binary | mode),
+Output::Output(const OutputTask& task, std::ios::openmode mode, bool lines, const Watch& watch)
+    : path_(task.path),
+      file_(task.path, std::ios::binary | mode),
       lines_(lines ? file_.rdbuf() : nullptr),
-      text_(lines_, header),
-      figures_(chain, header.grid, header.home),
-      remove_(remove),
+      text_(lines_, task.header),
+      figures_(task.chain, task.header.grid, task.header.home),
+      remove_(task.remove),
       watch_(watch) {}
 
-Output::Output(const fs::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
-               std::uint64_t remove, int threads, const Watch& watch)
-    : Output(path, std::ios::trunc, form == TrajectoryForm::text, header, chain, remove, watch) {
-  if (form == TrajectoryForm::binary) binary_.emplace(file_, header);
-  start_writing(threads);
+Output::Output(const OutputTask& task, TrajectoryForm form, const Watch& watch)
+    : Output(task, std::ios::trunc, form == TrajectoryForm::text, watch) {
+  if (form == TrajectoryForm::binary) binary_.emplace(file_, task.header);
+  start_writing(task.threads);
 }
 
-Output::Output(const fs::path& path, const TrajectoryStart& start, const TrajectoryHeader& header, const Chain& chain,
-               std::uint64_t remove, int threads, const Watch& watch, const std::function<void(const Keyframe&)>& visit)
-    : Output(path, std::ios::app, false, header, chain, remove, watch) {
-  std::ifstream in(path, std::ios::binary);
+Output::Output(const OutputTask& task, const TrajectoryStart& start, const std::function<void(const Keyframe&)>& visit,
+               const Watch& watch)
+    : Output(task, std::ios::app, false, watch) {
+  std::ifstream in(path_, std::ios::binary);
   TrajectoryReader reader(in);
   for (std::uint64_t at = 0; at < start.keyframes; ++at) {
     const Keyframe keyframe = reader.next().value();
@@ -48,15 +46,16 @@ Output::Output(const fs::path& path, const TrajectoryStart& start, const Traject
   if (text_.so_far() != start) throw std::logic_error("a trajectory file is not what its checkpoint says");
   marked_ = start;
   started_bytes_ = start.bytes;
-  fs::resize_file(path, start.bytes);
+  fs::resize_file(path_, start.bytes);
   lines_.rdbuf(file_.rdbuf());
-  start_writing(threads);
+  start_writing(task.threads);
 }
 
 void Output::start_writing(int threads) {
   file_.flush();
   check();
-  if (threads > 1) beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); });
+  if (threads > 1)
+    beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); }, [this] { take_mark(); });
 }
 
 void Output::add(std::vector<Keyframe> batch) {
@@ -70,7 +69,7 @@ void Output::add(std::vector<Keyframe> batch) {
 void Output::add(const Keyframe& keyframe) {
   count(keyframe);
   waiting_.push_back(keyframe);
-  if (waiting_.size() == most_waiting) flush();
+  if (waiting_.size() == max_waiting) flush();
   watch_.step(Stage::plan, removed_, remove_);
 }
 
@@ -85,7 +84,10 @@ void Output::flush() {
 
 void Output::mark() {
   flush();
-  hand_over({});  // a batch without keyframes is a mark
+  if (beside_)
+    beside_->add(Mark{});
+  else
+    take_mark();
 }
 
 TrajectoryStart Output::sync() {
@@ -112,7 +114,6 @@ void Output::hand_over(std::vector<Keyframe> batch) {
 }
 
 void Output::write(const std::vector<Keyframe>& batch) {
-  if (batch.empty()) take_mark();
   for (const Keyframe& keyframe : batch) {
     text_.add(keyframe);
     if (binary_) binary_->add(keyframe);

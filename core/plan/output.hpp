@@ -16,17 +16,23 @@
 
 namespace sculpt {
 
-/// All calls from one thread. Throws InputError `file_unwritable`.
+/// Which trajectory is written where; it must outlive the call.
+struct OutputTask {
+  const std::filesystem::path& path;
+  const TrajectoryHeader& header;
+  const Chain& chain;
+  std::uint64_t remove = 0;  ///< voxels to come, for the watch
+  int threads = 1;           ///< with more than one, writing is done on one of its own
+};
+
+/// All calls from one thread. Throws InputError `file_unwritable`; what tells the watch, `add`, Cancelled too.
 class Output {
  public:
-  /// `watch` is told of `remove` voxels to come. With more than one thread writing is done on one of its own.
-  Output(const std::filesystem::path& path, TrajectoryForm form, const TrajectoryHeader& header, const Chain& chain,
-         std::uint64_t remove, int threads, const Watch& watch);
+  Output(const OutputTask& task, TrajectoryForm form, const Watch& watch);
   /// Goes on with a file in the text form that begins with `start` and the same header: what follows is cut off, and
   /// `visit` gets the keyframes that stay.
-  Output(const std::filesystem::path& path, const TrajectoryStart& start, const TrajectoryHeader& header,
-         const Chain& chain, std::uint64_t remove, int threads, const Watch& watch,
-         const std::function<void(const Keyframe&)>& visit);
+  Output(const OutputTask& task, const TrajectoryStart& start, const std::function<void(const Keyframe&)>& visit,
+         const Watch& watch);
 
   void add(std::vector<Keyframe> batch);
   void add(const Keyframe& keyframe);
@@ -44,8 +50,7 @@ class Output {
 
  private:
   /// `lines`: they go into the file from the first on.
-  Output(const std::filesystem::path& path, std::ios::openmode mode, bool lines, const TrajectoryHeader& header,
-         const Chain& chain, std::uint64_t remove, const Watch& watch);
+  Output(const OutputTask& task, std::ios::openmode mode, bool lines, const Watch& watch);
   void start_writing(int threads);
   void count(const Keyframe& keyframe);
   void hand_over(std::vector<Keyframe> batch);

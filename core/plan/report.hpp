@@ -11,7 +11,7 @@
 
 namespace sculpt {
 
-/// The figures of `sculpt report` (DESIGN section 5). Seconds are wall time.
+/// The figures of `sculpt report` (proto/schema.json names them). Seconds are wall time.
 struct Report {
   std::string mesh, robot, search;
   std::uint64_t seed = 0;
@@ -54,7 +54,7 @@ struct Report {
   std::vector<std::string> findings;  ///< first sentences of an unclean replay
 };
 
-/// The report as the JSON object of DESIGN section 5, without "job" and "state", which the server adds; one line.
+/// The report as one line of JSON (proto/schema.json), without "job" and "state", which the server adds.
 std::string report_json(const Report& report);
 /// One line {"voxel":[i,j,k],"reason":"..."} a voxel.
 std::string residue_ndjson(const std::vector<Residue>& residue);

@@ -1,44 +1,62 @@
-// A run as far as it must survive the process: what was done, put out and kept.
+// A run as far as it must survive the process: it hears of all stages, puts out what they emit, and keeps how far they
+// are.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "core/collision/scene.hpp"
+#include "core/motion/arm_carve.hpp"
+#include "core/motion/gantry.hpp"
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/output.hpp"
+#include "core/sweep/sweep.hpp"
 
 namespace sculpt {
 
-/// A unit of work changes `now` when it is over and says so; between that and the next one no more is added to it. All
-/// calls from one thread. Throws InputError `file_unwritable`.
+/// A stage is worked off in units: a batch of layers, a block, a keyframe of a gantry, a piece of the replay. When a
+/// unit is over, the checkpoint is brought up to date, and is true until the next unit is. It is kept in the folder
+/// when that is due. One call at a time, those of the listeners too. Throws InputError `file_unwritable`.
 class RunLog {
  public:
-  /// All must outlive the object. `found`: as it was found, or empty.
+  /// All must outlive the object. `found`: the checkpoint that was found, or an empty one.
   RunLog(CheckpointFolder& kept, Checkpoint& found, Output& to, const Scene& scene)
-      : now(found), output(to), kept_(kept), scene_(scene) {
+      : now_(found), output_(to), kept_(kept), scene_(scene) {
     go_on();
   }
 
-  Checkpoint& now;
-  Output& output;
-
-  bool keeps() const { return kept_.keeps(); }
-  bool due() const { return kept_.due(); }
-
-  /// What was tested until here was so by the run that this one goes on with as well.
-  void go_on();
-  /// Configurations tested by this run and those that it goes on with.
+  /// Where the run is, or where it goes on.
+  const Checkpoint& now() const { return now_; }
+  /// Configurations tested by this run and by those that it goes on with.
   std::uint64_t checks() const { return earlier_checks_ + scene_.checks(); }
 
-  /// `now` is true after what was put out until here: a unit is over.
+  /// They refer to this object.
+  SweepListener hear_sweep();
+  GantryListener hear_gantry();
+  ArmListener hear_arm();
+  std::function<void(const ReplayedPieces&)> hear_replay();
+
+  void end_sweep(const SweepRest& left);
+  void end_arm(const ArmMemory& memory) { now_.arm = memory; }
+  void end_carving();
+  /// Of a plan whose output is finished.
+  void end_plan(std::vector<Residue> residue);
+  /// Keeps what units have finished. A stop does not fail for want of space: what cannot be kept is done again.
+  void save_at_stop();
+
+ private:
+  /// What was tested in this process until here, the run that this one goes on with had tested as well.
+  void go_on();
+  /// A unit that put something out is over.
   void note();
-  /// The same of a unit that puts out nothing; also once the output is finished.
+  /// A unit is over that put out nothing, or came after all output.
   void note_state();
   /// What was noted last, if it is not kept yet.
   void save();
   void save_if_due();
-  /// The same at a stop, which does not fail for want of space: what cannot be kept is done again.
-  void save_at_stop();
 
- private:
+  Checkpoint& now_;
+  Output& output_;
   CheckpointFolder& kept_;
   const Scene& scene_;
   std::uint64_t earlier_checks_ = 0;  ///< by the runs before, less what this one did again

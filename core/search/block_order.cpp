@@ -26,7 +26,7 @@ class Order {
       if (left_[b] > 0 && has_open_face(static_cast<int>(b))) open_.insert(static_cast<int>(b));
   }
 
-  void run(int most_effort, const TryBlock& try_block, const Watch& watch) {
+  void run(int max_effort, const TryBlock& try_block, const Watch& watch) {
     int effort = 0;
     std::uint64_t done_at_pass = 0;
     while (true) {
@@ -35,7 +35,7 @@ class Order {
         try_one(try_block, effort);
       }
       if (aside_.empty()) return;
-      if (done_ == done_at_pass && ++effort > most_effort) return;
+      if (done_ == done_at_pass && ++effort > max_effort) return;
       done_at_pass = done_;
       open_.swap(aside_);
     }
@@ -94,9 +94,9 @@ class Order {
 
 }  // namespace
 
-void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int most_effort,
-                  const TryBlock& try_block, const Watch& watch) {
-  Order(octree, graph, start).run(most_effort, try_block, watch);
+void order_blocks(const Octree& octree, const BlockGraph& graph, Voxel start, int max_effort, const TryBlock& try_block,
+                  const Watch& watch) {
+  Order(octree, graph, start).run(max_effort, try_block, watch);
 }
 
 }  // namespace sculpt

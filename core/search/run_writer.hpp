@@ -18,14 +18,14 @@ class RunWriter {
   void cut(Voxel first, Voxel last) {
     cut_one(first);
     if (first == last) return;
-    cut_one(first + unit(first, last));
+    cut_one(first + sign(last - first));
     run_.last = at_ = last;
   }
 
   /// Goes straight to `voxel` through air.
   void travel(Voxel voxel) {
     if (voxel == at_) return;
-    const Voxel step = unit(at_, voxel);
+    const Voxel step = sign(voxel - at_);
     if (!open_ || run_.cut || step != step_) {
       finish();
       run_ = {false, at_, voxel};
@@ -41,13 +41,6 @@ class RunWriter {
   }
 
  private:
-  /// The step from a voxel towards another on a line with it.
-  static Voxel unit(Voxel from, Voxel to) {
-    const int length = l1(from, to);
-    const Voxel way = to - from;
-    return {way.i / length, way.j / length, way.k / length};
-  }
-
   void cut_one(Voxel voxel) {
     const bool longer = open_ && run_.cut && (run_.first == run_.last || voxel - run_.last == step_);
     if (!longer) {

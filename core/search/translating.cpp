@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/search/boustrophedon.hpp"
 #include "core/search/nearest_blocks.hpp"
 #include "core/search/voxel_search.hpp"
 #include "core/search/voxel_space.hpp"
@@ -11,17 +12,7 @@ namespace sculpt {
 namespace {
 
 /// Ways to blocks that then cannot go whole, one after the other, after which blocks are given up for now.
-constexpr int most_in_vain = 32;
-
-/// Which of the two ends of a block, along one axis, is nearer.
-int nearer_end(int at, int low, int size) {
-  return at - low < low + size - 1 - at ? low : low + size - 1;
-}
-
-Voxel nearest_corner(const Block& block, Voxel from) {
-  return {nearer_end(from.i, block.corner.i, block.size), nearer_end(from.j, block.corner.j, block.size),
-          nearer_end(from.k, block.corner.k, block.size)};
-}
+constexpr int max_in_vain = 32;
 
 std::uint64_t volume(const Block& block) {
   return static_cast<std::uint64_t>(block.size) * block.size * block.size;
@@ -163,7 +154,7 @@ class Carving {
   /// To a block that can go whole; those that cannot are set aside. Nothing if there is no way to any, or too many were
   /// looked for in vain.
   std::optional<Approach> next_approach() {
-    for (int in_vain = 0; !candidates_.empty() && in_vain < most_in_vain;) {
+    for (int in_vain = 0; !candidates_.empty() && in_vain < max_in_vain;) {
       auto approach = straight_approach();
       if (!approach) {
         approach = nearest_approach();
@@ -225,13 +216,13 @@ class Carving {
     std::vector<VoxelLine> gone;
     const auto take = [&](const VoxelLine& line) {
       const int count = support_->remove(line), all = l1(line.first, line.last) + 1;
-      if (count > 0) gone.push_back({line.first, line.first + unit(line) * (count - 1)});
+      if (count > 0) gone.push_back({line.first, line.first + sign(line.last - line.first) * (count - 1)});
       return count == all;
     };
     bool all = take({entered, entered});
     const bool whole = entered == nearest_corner(block, entered);
-    walk(block, entered, [&](Voxel from, Voxel to) {
-      const Voxel step = unit({from, to});
+    walk_rows(block, entered, [&](Voxel from, Voxel to) {
+      const Voxel step = sign(to - from);
       if (whole) {
         all = all && take({from + step, to});
         return;
@@ -243,12 +234,6 @@ class Carving {
     });
     for (std::size_t at = all ? 0 : gone.size(); at-- > 0;) support_->restore(gone[at]);
     return all;
-  }
-
-  static Voxel unit(const VoxelLine& line) {
-    const int length = std::max(1, l1(line.first, line.last));
-    const Voxel way = line.last - line.first;
-    return {way.i / length, way.j / length, way.k / length};
   }
 
   void cut(Voxel voxel) {
@@ -264,36 +249,10 @@ class Carving {
       cut(voxel);
   }
 
-  /// From the voxel where the robot entered: to a corner, then row by row, layer by layer. `go(from, to)`: straight.
-  template <typename Go>
-  static void walk(const Block& block, Voxel entered, const Go& go) {
-    const Voxel corner = nearest_corner(block, entered);
-    Voxel at = entered;
-    const auto go_to = [&](Voxel to) {
-      if (to != at) go(at, to);
-      at = to;
-    };
-    go_to({corner.i, at.j, at.k});
-    go_to({corner.i, corner.j, at.k});
-    go_to(corner);
-    const Voxel in = corner - block.corner;
-    Voxel along{in.i == 0 ? 1 : -1, 0, 0}, aside{0, in.j == 0 ? 1 : -1, 0};
-    const Voxel deeper{0, 0, in.k == 0 ? 1 : -1};
-    for (int layer = 0; layer < block.size; ++layer) {
-      if (layer > 0) go_to(at + deeper);
-      for (int row = 0; row < block.size; ++row) {
-        if (row > 0) go_to(at + aside);
-        go_to(at + along * (block.size - 1));
-        along = along * -1;
-      }
-      aside = aside * -1;
-    }
-  }
-
   void carve(const Block& block) {
     const bool whole = writer_.at() == nearest_corner(block, writer_.at());  // nothing but the corner is cut yet
-    walk(block, writer_.at(), [&](Voxel from, Voxel to) {
-      const Voxel step = unit({from, to});
+    walk_rows(block, writer_.at(), [&](Voxel from, Voxel to) {
+      const Voxel step = sign(to - from);
       if (whole) return writer_.cut(from + step, to);
       while (writer_.at() != to) step_to(writer_.at() + step);
     });

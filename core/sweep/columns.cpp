@@ -10,15 +10,11 @@
 namespace sculpt {
 namespace {
 
-/// Travelling above material keeps a voxel more than needed, so that long edges may bend by half a voxel.
-constexpr double travel_stray = 0.5;
+/// Travelling above material keeps a voxel more than needed, so that long edges may leave their line by half a voxel.
+constexpr double travel_tolerance = 0.5;
 
 Vec3 centre(Voxel cell) {
   return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
-}
-
-int sign(int x) {
-  return (x > 0) - (x < 0);
 }
 
 }  // namespace
@@ -117,7 +113,7 @@ std::vector<std::vector<Columns::Run>> Columns::find_runs(int c) const {
   return rows;
 }
 
-std::vector<Stroke> Columns::cut_layer(int c, Vec3& at, double stray) {
+std::vector<Stroke> Columns::cut_layer(int c, Vec3& at, double tolerance) {
   std::vector<Stroke> strokes;
   cover_down_to(c);
   auto rows = find_runs(c);
@@ -150,17 +146,17 @@ std::vector<Stroke> Columns::cut_layer(int c, Vec3& at, double stray) {
     --left;
     const Voxel first{from_first ? run.first : run.last, best_row, c},
         last{from_first ? run.last : run.first, best_row, c};
-    go_to(first, at, stray, strokes);
-    if (first != last) cut(first + Voxel{sign(last.i - first.i), 0, 0}, last, at, stray, strokes);
+    go_to(first, at, tolerance, strokes);
+    if (first != last) cut(first + Voxel{sign(last.i - first.i), 0, 0}, last, at, tolerance, strokes);
   }
   return strokes;
 }
 
 /// Along a row, straight from a neighbour of `first`.
-void Columns::cut(Voxel first, Voxel last, Vec3& at, double stray, std::vector<Stroke>& strokes) {
+void Columns::cut(Voxel first, Voxel last, Vec3& at, double tolerance, std::vector<Stroke>& strokes) {
   for (CellRows* rows : {&standing_, &covered_})
     clear_cells(rows->row(first.j, first.k), std::min(first.i, last.i), std::max(first.i, last.i));
-  strokes.push_back({centre(last), l1(first, last) + 1, stray, view_.voxel(first), view_.voxel(last)});
+  strokes.push_back({centre(last), l1(first, last) + 1, tolerance, view_.voxel(first), view_.voxel(last)});
   at = centre(last);
 }
 
@@ -208,7 +204,7 @@ int Columns::free_layer_between(const Vec3& from, const Vec3& to, int c) const {
 
 /// Brings the ball to `target` and cuts it: along its layer and in from beside, or along the layer where the ball is
 /// and down, if there is a free way of two legs; else up and over.
-void Columns::go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& strokes) {
+void Columns::go_to(Voxel target, Vec3& at, double tolerance, std::vector<Stroke>& strokes) {
   const Voxel here{static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
                    static_cast<int>(std::lround(at.z()))};
   const auto go = [&](const Vec3& to, double allowed) {
@@ -219,8 +215,8 @@ void Columns::go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& s
   const auto walk = [&](Voxel via, Voxel end) {
     if (!in_layer_free(here.i, here.j, via.i, via.j, here.k) || !in_layer_free(via.i, via.j, end.i, end.j, here.k))
       return false;
-    go(centre(via), stray);
-    go(centre(end), stray);
+    go(centre(via), tolerance);
+    go(centre(end), tolerance);
     return true;
   };
   const Voxel above = target + Voxel{0, 0, 1};
@@ -233,21 +229,21 @@ void Columns::go_to(Voxel target, Vec3& at, double stray, std::vector<Stroke>& s
   } else if (here.k > target.k && here.k <= view_.n) {
     const Voxel over{target.i, target.j, here.k};
     there = walk({target.i, here.j, here.k}, over) || walk({here.i, target.j, here.k}, over);
-    if (there) go(centre(above), stray);
+    if (there) go(centre(above), tolerance);
   }
   if (!there) {
     const double high = std::max(free_layer_between(at, centre(above), target.k) + 1.0, at.z());
-    go({at.x(), at.y(), high}, stray);
-    go({static_cast<double>(above.i), static_cast<double>(above.j), high}, travel_stray);
-    go(centre(above), stray);
+    go({at.x(), at.y(), high}, tolerance);
+    go({static_cast<double>(above.i), static_cast<double>(above.j), high}, travel_tolerance);
+    go(centre(above), tolerance);
   }
-  cut(target, target, at, stray, strokes);
+  cut(target, target, at, tolerance, strokes);
 }
 
-std::vector<Stroke> Columns::rise(Vec3& at, double stray) const {
+std::vector<Stroke> Columns::rise(Vec3& at, double tolerance) const {
   if (at.z() >= view_.n + 1) return {};
   at.z() = view_.n + 1;
-  return {{at, 0, stray, {}, {}}};
+  return {{at, 0, tolerance, {}, {}}};
 }
 
 }  // namespace sculpt

@@ -15,14 +15,8 @@ constexpr std::size_t first_side = 1;  // of the views; four each of a kind foll
 
 }  // namespace
 
-Directions::Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, const Helpers& helpers,
-                       const Watch& watch)
-    : scene_(scene),
-      home_(home),
-      seed_(seed),
-      helpers_(helpers),
-      watch_(watch),
-      turn_(find_stock_turn(scene.chain(), scene.grid())) {
+Directions::Directions(const Scene& scene, const Configuration& home, const RunContext& run)
+    : scene_(scene), home_(home), run_(run), turn_(find_stock_turn(scene.chain(), scene.grid())) {
   const int n = scene.grid().n;
   for (const ToolView& view : tool_views(n)) views_.push_back(view);
   straight_ = views_.size();
@@ -33,9 +27,9 @@ Directions::Directions(const Scene& scene, const Configuration& home, std::uint6
 
 void Directions::find_straight_fields() {
   const std::size_t apart = turn_ ? first_side + 1 : straight_;
-  helpers_.for_each_index(apart, [&](std::size_t direction) { find(direction); });
+  run_.helpers.for_each_index(apart, [&](std::size_t direction) { find(direction); });
   for (std::size_t direction = apart; direction < straight_; ++direction) find(direction);
-  helpers_.for_each_index(straight_, [&](std::size_t direction) {
+  run_.helpers.for_each_index(straight_, [&](std::size_t direction) {
     const PostureField& field = *fields_[direction];
     reach_[direction].emplace(
         scene_.grid().n, [&](const Vec3& cell) { return field.part(cell); },
@@ -77,7 +71,7 @@ std::unique_ptr<PostureField> Directions::search(std::size_t direction) const {
   std::vector<Configuration> known;
   const IkGoal hub{views_[0].ball_m(scene_.grid(), hub_cell(scene_.grid().n)), views_[0].axis()};
   if (const auto above = solve_ik(scene_.chain(), hub, home_); above && direction > 0) known.push_back(*above);
-  return find_field(scene_, views_[direction], home_, known, mix(seed_, direction), helpers_, watch_);
+  return find_field(scene_, views_[direction], home_, known, {mix(run_.seed, direction), run_.helpers, run_.watch});
 }
 
 /// Nothing if the joint does not turn so far.

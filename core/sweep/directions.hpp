@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/run_context.hpp"
 #include "core/sweep/posture_field.hpp"
 #include "core/sweep/reach_rows.hpp"
 #include "core/sweep/stock_turn.hpp"
@@ -16,9 +17,8 @@ namespace sculpt {
 /// shared between threads.
 class Directions {
  public:
-  /// `scene`, `helpers` and `watch` must outlive the object.
-  Directions(const Scene& scene, const Configuration& home, std::uint64_t seed, const Helpers& helpers,
-             const Watch& watch);
+  /// `scene` must outlive the object.
+  Directions(const Scene& scene, const Configuration& home, const RunContext& run);
 
   /// The fields of all straight directions. To be called first. Throws Cancelled.
   void find_straight_fields();
@@ -49,9 +49,7 @@ class Directions {
 
   const Scene& scene_;
   Configuration home_;
-  std::uint64_t seed_;
-  const Helpers& helpers_;
-  const Watch& watch_;
+  RunContext run_;
   std::optional<StockTurn> turn_;
   std::vector<ToolView> views_;
   std::size_t straight_ = 0;

@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr int random_guesses = 24;
-constexpr int most_fields = 3;
+constexpr int max_fields = 3;
 constexpr double probe_half = 0.03;  // rad or m: what the joints do within a cell of a field
 
 std::vector<Configuration> find_guesses(const Chain& chain, const Configuration& home,
@@ -52,8 +52,8 @@ int count_free_probes(const Scene& scene, const ToolView& view, const Configurat
 /// Grows fields from one start after the other and keeps the best.
 class FieldSearch {
  public:
-  FieldSearch(const Scene& scene, const ToolView& view, const Helpers& helpers, const Watch& watch)
-      : scene_(scene), view_(view), helpers_(helpers), watch_(watch) {}
+  FieldSearch(const Scene& scene, const ToolView& view, const RunContext& run)
+      : scene_(scene), view_(view), run_(run) {}
 
   std::unique_ptr<PostureField> run(const std::vector<Configuration>& guesses) {
     const double middle = (view_.n - 1) / 2.0;
@@ -84,19 +84,18 @@ class FieldSearch {
   }
 
   void grow(const Configuration& start) {
-    auto field = std::make_unique<PostureField>(scene_, view_, start, helpers_, watch_);
+    auto field = std::make_unique<PostureField>(scene_, view_, start, run_.helpers, run_.watch);
     if (!best_ || field->usable_cells() > best_->usable_cells()) best_ = std::move(field);
     ++grown_;
   }
 
   bool is_done() const {
-    return grown_ == most_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
+    return grown_ == max_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
   }
 
   const Scene& scene_;
   const ToolView& view_;
-  const Helpers& helpers_;
-  const Watch& watch_;
+  const RunContext& run_;
   std::vector<Start> starts_;
   std::unique_ptr<PostureField> best_;
   int grown_ = 0;
@@ -105,11 +104,10 @@ class FieldSearch {
 }  // namespace
 
 std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
-                                         const std::vector<Configuration>& known, std::uint64_t seed,
-                                         const Helpers& helpers, const Watch& watch) {
-  auto best = FieldSearch(scene, view, helpers, watch).run(find_guesses(scene.chain(), home, known, seed));
-  if (!best) best = std::make_unique<PostureField>(scene, view, home, helpers, watch);
-  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, helpers, watch);
+                                         const std::vector<Configuration>& known, const RunContext& run) {
+  auto best = FieldSearch(scene, view, run).run(find_guesses(scene.chain(), home, known, run.seed));
+  if (!best) best = std::make_unique<PostureField>(scene, view, home, run.helpers, run.watch);
+  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, run.helpers, run.watch);
   return best;
 }
 

@@ -14,9 +14,9 @@ namespace sculpt {
 namespace {
 
 // Edges, in voxel edges. A cut has a voxel at least.
-constexpr double longest_edge = 64, shortest_move = 0.1, first_edge = 8;
-constexpr double intended_share = 0.95;  // of what the tool may stray
-constexpr double shorter = 0.98;         // than an edge that strays too far; more than the root of the intended share
+constexpr double max_edge = 64, shortest_move = 0.1, first_edge = 8;
+constexpr double intended_share = 0.95;  // of what the tool may tolerance
+constexpr double shorter = 0.98;         // than a refused edge; more than the root of the intended share
 
 /// A place on the way along strokes. Strokes without length are passed over.
 class Place {
@@ -78,36 +78,38 @@ struct Stop {
   double ball_off = 0, top_off = 0;  ///< from where ball and shank's end should be (voxel edges)
 };
 
-/// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off,
-/// what its bend in the middle does (it grows with the square of the edge's length), and what the bend changes along
-/// the edge (with the cube and more).
-struct EndStrayed {
-  double off, bow, change;
+/// Bounds on how far one end of the tool is from the line of an edge, in voxel edges: what the edge's ends are off, the
+/// sagitta of an arc with the second derivative of the middle (it grows with the square of the edge's length), and what
+/// the third and fourth derivatives add to it (with the cube and more).
+struct EndDeviation {
+  double off, sagitta, skew;
 
-  double all() const { return off + bow + change; }
-  /// How much longer an edge like this may be, about, to use that room: the x with bow x^2 + change x^3 = room - off.
+  double all() const { return off + sagitta + skew; }
+  /// How much longer an edge like this may be, about, to use `room`: the x with sagitta x^2 + skew x^3 = room - off.
   double stretch(double room, double most) const {
     const double left = room - off;
     if (!(left > 0)) return 0;
-    double x = std::min(std::sqrt(left / (bow + change)), most);
+    double x = std::min(std::sqrt(left / (sagitta + skew)), most);
     for (int step = 0; step < 2; ++step) {
-      const double excess = x * x * (bow + change * x) - left;
+      const double excess = x * x * (sagitta + skew * x) - left;
       if (!(excess > 0)) break;
-      x -= excess / (x * (2 * bow + 3 * change * x));
+      x -= excess / (x * (2 * sagitta + 3 * skew * x));
     }
     return x;
   }
 };
 
-struct Strayed {
+struct EdgeDeviation {
   double length;  ///< of the edge, in voxel edges
-  EndStrayed ball, top;
+  EndDeviation ball, top;
 
-  /// The largest share of what is allowed; above 1 the edge is not certified.
-  double share(const Stray& allowed) const { return std::max(ball.all() / allowed.ball, top.all() / allowed.shank); }
+  /// The largest share of the tolerance; above 1 the edge is not certified.
+  double share(const PathTolerance& allowed) const {
+    return std::max(ball.all() / allowed.ball, top.all() / allowed.shank);
+  }
   /// How long an edge like this may be to use the intended share.
-  double reach(const Stray& allowed) const {
-    const double most = longest_edge / length;
+  double reach(const PathTolerance& allowed) const {
+    const double most = max_edge / length;
     return length * std::min(ball.stretch(intended_share * allowed.ball, most),
                              top.stretch(intended_share * allowed.shank, most));
   }
@@ -120,12 +122,12 @@ class Follower {
       : field_(field),
         chain_(field.chain()),
         voxel_m_(grid.voxel_m),
-        stray_(stray_of(tool, grid.voxel_m)),
+        tolerance_(path_tolerance(tool, grid.voxel_m)),
         speed_(motion_bound(chain_, chain_.stock_link(), chain_.tool_link(), tool.stickout_m)),
         turn_rates_(chain_.turn_rates()) {}
 
-  Followed run(const Vec3& from, const std::vector<Stroke>& strokes) {
-    Followed followed;
+  FollowedStrokes run(const Vec3& from, const std::vector<Stroke>& strokes) {
+    FollowedStrokes followed;
     if (!stand_at(from)) return followed;
     Place place(from, strokes);
     std::size_t in_whole_strokes = 0;
@@ -167,7 +169,7 @@ class Follower {
 
   void look_ahead(Place place) {
     pieces_.clear();
-    for (double most = longest_next_; pieces_.size() < lane_count && !place.at_end(); most = longest_edge) {
+    for (double most = max_next_; pieces_.size() < lane_count && !place.at_end(); most = max_edge) {
       Piece piece{place, next_length(place, most), {}};
       place.advance(piece.length);
       piece.end = place.cell();
@@ -175,7 +177,7 @@ class Follower {
       pieces_.push_back(piece);
     }
     field_.lanes().solve(ahead_);
-    bound_bends();
+    bound_derivatives();
   }
 
   /// So that the rest of the stroke becomes as few pieces as can be expected, all about as long.
@@ -196,13 +198,14 @@ class Follower {
     return 3;
   }
 
-  Stray allowed(const Vec3& from, const Vec3& to, const Stroke& stroke) const {
-    const double wide = field_.may_stray(from, to) ? stroke.stray : 0;
-    return {std::max(wide, stray_.ball), std::max(wide, stray_.shank)};
+  PathTolerance allowed(const Vec3& from, const Vec3& to, const Stroke& stroke) const {
+    const double wide = field_.allows_wide_path(from, to) ? stroke.tolerance : 0;
+    return {std::max(wide, tolerance_.ball), std::max(wide, tolerance_.shank)};
   }
 
-  /// How ball and shank's end bend in the middle of each edge, and what bounds derivatives of higher order.
-  void bound_bends() {
+  /// The derivatives of the paths of ball and shank's end in the middle of each edge, and what bounds those of higher
+  /// order.
+  void bound_derivatives() {
     turn_.fill(0);
     travel_.fill(0);
     for (int c = 0; c < chain_.dof(); ++c) {
@@ -217,32 +220,33 @@ class Follower {
         travel_[lane] += speed_[c] * step;
       }
     }
-    field_.lanes().bend(edges_);
+    field_.lanes().derive(edges_);
   }
 
   /// Goes to the end of the next piece if the edge there is certified. A function with the second and third derivative
   /// b and c in the middle, and a fourth that is at most d, has the second derivative b + c u + r at 1/2 + u, where r
   /// is at most d u^2 / 2. It leaves its chord by what these three do: b / 8, c / (72 sqrt 3) and d / 384 at most.
   bool take(const Piece& piece, std::size_t lane) {
-    longest_next_ = piece.length / 2;
+    max_next_ = piece.length / 2;
     if (!ahead_.solved(static_cast<int>(lane))) return false;
     Stop next = stop_of(lane, piece.end);
     const double more = derivative_bounds(chain_, turn_[lane], travel_[lane]).fourth_m / 384;
-    const auto strayed_by = [&](double off, double bend_m, double change_m) -> EndStrayed {
-      return {off, bend_m / (8 * voxel_m_), (change_m / (72 * std::numbers::sqrt3) + more) / voxel_m_};
+    const auto deviation_of = [&](double off, double second, double third) -> EndDeviation {
+      return {off, second / (8 * voxel_m_), (third / (72 * std::numbers::sqrt3) + more) / voxel_m_};
     };
-    const Strayed strayed{
-        piece.length,
-        strayed_by(std::max(here_.ball_off, next.ball_off), edges_.ball_bend_m[lane], edges_.ball_change_m[lane]),
-        strayed_by(std::max(here_.top_off, next.top_off), edges_.top_bend_m[lane], edges_.top_change_m[lane])};
-    known_[direction_of(piece.from.along())] = strayed;
-    if (!(strayed.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
-      longest_next_ = shorter * piece.length;  // what was learnt makes it shorter yet, as a rule
+    const EdgeDeviation deviation{piece.length,
+                                  deviation_of(std::max(here_.ball_off, next.ball_off),
+                                               edges_.ball_second_derivative[lane], edges_.ball_third_derivative[lane]),
+                                  deviation_of(std::max(here_.top_off, next.top_off),
+                                               edges_.top_second_derivative[lane], edges_.top_third_derivative[lane])};
+    known_[direction_of(piece.from.along())] = deviation;
+    if (!(deviation.share(allowed(here_.cell, next.cell, piece.from.stroke())) <= 1)) {
+      max_next_ = shorter * piece.length;  // what was learnt makes it shorter yet, as a rule
       return false;
     }
     if (!field_.links_are_free(here_.cell, here_.q, next.cell, next.q, held_)) return false;
     here_ = std::move(next);
-    longest_next_ = longest_edge;
+    max_next_ = max_edge;
     return true;
   }
 
@@ -250,8 +254,7 @@ class Follower {
     Keyframe keyframe{here_.q, piece.cuts(), {}, {}};
     if (!keyframe.cut) return keyframe;
     const Stroke& stroke = piece.from.stroke();
-    const auto sign = [](int x) { return (x > 0) - (x < 0); };
-    const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
+    const Voxel step = sign(stroke.last - stroke.first);
     keyframe.first = stroke.first + step * static_cast<int>(piece.from.done());
     keyframe.last = keyframe.first + step * (static_cast<int>(piece.length) - 1);
     return keyframe;
@@ -260,29 +263,29 @@ class Follower {
   const PostureField& field_;
   const Chain& chain_;
   double voxel_m_;
-  Stray stray_;
+  PathTolerance tolerance_;
   Configuration speed_;       ///< m per unit of each joint, for the whole tool
   Configuration turn_rates_;  ///< rad per unit of each joint
 
   Stop here_;
-  int held_ = -1;                                  ///< number of a bubble of the field that holds it, if known
-  double longest_next_ = longest_edge;             ///< after a refusal
-  std::array<std::optional<Strayed>, 4> known_{};  ///< of the last edge along each axis, and along none
-  std::vector<Piece> pieces_;                      ///< from here on, one per lane
-  PostureBatch ahead_;                             ///< their ends
+  int held_ = -1;                                        ///< number of a bubble of the field that holds it, if known
+  double max_next_ = max_edge;                           ///< after a refusal
+  std::array<std::optional<EdgeDeviation>, 4> known_{};  ///< of the last edge along each axis, and along none
+  std::vector<Piece> pieces_;                            ///< from here on, one per lane
+  PostureBatch ahead_;                                   ///< their ends
   EdgeBatch edges_;
   Lanes turn_, travel_;  ///< along each edge, of all joints together (rad; m)
 };
 
 }  // namespace
 
-Stray stray_of(const Tool& tool, double voxel_m) {
-  return {std::min(most_ball_stray, 0.5 - tool.ball_radius_m / voxel_m - tool_margin_voxels),
+PathTolerance path_tolerance(const Tool& tool, double voxel_m) {
+  return {std::min(max_ball_deviation, 0.5 - tool.ball_radius_m / voxel_m - tool_margin_voxels),
           0.5 - tool.shank_radius_m / voxel_m - tool_margin_voxels};
 }
 
-Followed follow(const PostureField& field, const Tool& tool, const Grid& grid, const Vec3& from,
-                const std::vector<Stroke>& strokes) {
+FollowedStrokes follow(const PostureField& field, const Tool& tool, const Grid& grid, const Vec3& from,
+                       const std::vector<Stroke>& strokes) {
   return Follower(field, tool, grid).run(from, strokes);
 }
 

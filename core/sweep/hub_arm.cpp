@@ -56,11 +56,12 @@ std::vector<Configuration> HubArm::find_way(const std::vector<Configuration>& ba
   return find_transit(to);
 }
 
-Followed HubArm::try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const {
+FollowedStrokes HubArm::try_strokes(const PostureField& field, const Vec3& from,
+                                    const std::vector<Stroke>& strokes) const {
   return follow(field, scene_.tool(), scene_.grid(), from, strokes);
 }
 
-std::size_t HubArm::commit(Followed followed, const std::vector<Stroke>& strokes) {
+std::size_t HubArm::commit(FollowedStrokes followed, const std::vector<Stroke>& strokes) {
   for (const Keyframe& keyframe : followed.keyframes)
     if (keyframe.cut) removed_ += static_cast<std::uint64_t>(run_length(keyframe));
   if (!followed.keyframes.empty()) q_ = followed.keyframes.back().q;
@@ -89,7 +90,7 @@ std::vector<Configuration> HubArm::find_transit(const Configuration& to) const {
 std::optional<std::vector<Configuration>> HubArm::way_home() const {
   if (field_ == nullptr) return std::vector<Configuration>{};
   const Vec3 hub = hub_cell(scene_.grid().n);
-  const Followed over = try_strokes(*field_, memory_.at, {{hub, 0, 0, {}, {}}});
+  const FollowedStrokes over = try_strokes(*field_, memory_.at, {{hub, 0, 0, {}, {}}});
   if (memory_.at != hub && over.strokes == 0) return std::nullopt;
   std::vector<Configuration> way;
   for (const Keyframe& keyframe : over.keyframes) way.push_back(keyframe.q);

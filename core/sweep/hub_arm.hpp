@@ -49,9 +49,9 @@ class HubArm {
   const Vec3& at() const { return memory_.at; }
 
   /// What it would do in a direction from `from` on. Any thread.
-  Followed try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const;
+  FollowedStrokes try_strokes(const PostureField& field, const Vec3& from, const std::vector<Stroke>& strokes) const;
   /// Emits what was followed, from where the arm is, and says how many strokes that is.
-  std::size_t commit(Followed followed, const std::vector<Stroke>& strokes);
+  std::size_t commit(FollowedStrokes followed, const std::vector<Stroke>& strokes);
   /// Voxels, since it was made.
   std::uint64_t removed() const { return removed_; }
 

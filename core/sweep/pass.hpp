@@ -1,7 +1,7 @@
 // What the passes of a sweep work on, and how one ended.
 #pragma once
 
-#include "core/base/helpers.hpp"
+#include "core/base/run_context.hpp"
 #include "core/material/support.hpp"
 #include "core/sweep/hub_arm.hpp"
 
@@ -10,8 +10,7 @@ namespace sculpt {
 struct Carving {
   const Scene& scene;
   const VoxelSet& keep;
-  const Helpers& helpers;
-  const Watch& watch;
+  RunContext run;
   Support support;  ///< of what stands when all that is planned is cut
   HubArm arm;
 };

@@ -5,9 +5,9 @@
 namespace sculpt {
 namespace {
 
-constexpr int most_steps = 8;
+constexpr int max_steps = 8;
 constexpr double enough_m = 2e-9, enough_rad = 2e-8;
-constexpr double longest_step = 0.3;  // rad or m; a longer one means that the guess was not close
+constexpr double max_step = 0.3;  // rad or m; a longer one means that the guess was not close
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::optional<Configuration> find_posture(const Chain& chain, const Vec3& ball_m
   JointColumns<6> full;
   JointColumns<5> jacobian(5, chain.dof());
   Configuration q = guess;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const ToolPose pose = chain.tool_pose(q, full);
     const Vec3 turn = pose.axis.cross(axis);
     Eigen::Matrix<double, 5, 1> error;
@@ -34,7 +34,7 @@ std::optional<Configuration> find_posture(const Chain& chain, const Vec3& ball_m
     normal.diagonal().array() += 1e-12;
     Configuration change = Configuration::Zero(chain.dof());
     change.noalias() += jacobian.transpose() * normal.llt().solve(error);
-    if (!(change.cwiseAbs().maxCoeff() < longest_step)) return std::nullopt;
+    if (!(change.cwiseAbs().maxCoeff() < max_step)) return std::nullopt;
     q += change;
   }
   return std::nullopt;

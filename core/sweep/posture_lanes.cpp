@@ -1,3 +1,4 @@
+// One file above 300 lines: Highway compiles it anew for each kind of vectors, and what is in it together.
 #include "core/sweep/posture_lanes.hpp"
 
 #include "core/trajectory/quantum.hpp"
@@ -108,7 +109,7 @@ HWY_INLINE void turn_about_z(Pose& pose, V angle) {
 
 /// Per joint: velocity of the ball and angular velocity.
 struct Jacobian {
-  V3 ball[most_joints], turn[most_joints];
+  V3 ball[max_joints], turn[max_joints];
 };
 
 /// Pose of the tool: its origin is the ball, its z points from the spindle to the ball.
@@ -144,17 +145,18 @@ HWY_INLINE Pose tool_pose(const PostureLanes::Program& program, const V* q, Jaco
 
 constexpr int rows = 5;
 
-/// What is missing: position, then the turning about x and y that brings the tool's axis onto z.
-struct Missing {
+/// How far the tool is from where it should be: position, then the turning about x and y that brings the tool's axis
+/// onto z.
+struct TaskError {
   V row[rows];
 };
-HWY_INLINE Missing missing(const Pose& pose, const V3& ball) {
+HWY_INLINE TaskError task_error(const Pose& pose, const V3& ball) {
   return {{ball.x - pose.at.x, ball.y - pose.at.y, ball.z - pose.at.z, hn::Neg(pose.z.y), pose.z.x}};
 }
 
 /// J J^T + 1e-12 as L D L^T.
 struct Normal {
-  V column[most_joints][rows];
+  V column[max_joints][rows];
   V lower[rows][rows], inverse[rows];
 };
 HWY_INLINE void factorize(const Jacobian& jacobian, std::size_t dof, Normal& normal) {
@@ -184,7 +186,7 @@ HWY_INLINE void factorize(const Jacobian& jacobian, std::size_t dof, Normal& nor
   }
 }
 /// Weights of the rows.
-HWY_INLINE void substitute(const Normal& normal, Missing& rhs) {
+HWY_INLINE void substitute(const Normal& normal, TaskError& rhs) {
   for (int i = 1; i < rows; ++i)
     for (int k = 0; k < i; ++k) rhs.row[i] = rhs.row[i] - normal.lower[i][k] * rhs.row[k];
   for (int i = 0; i < rows; ++i) rhs.row[i] = rhs.row[i] * normal.inverse[i];
@@ -192,40 +194,41 @@ HWY_INLINE void substitute(const Normal& normal, Missing& rhs) {
     for (int k = i + 1; k < rows; ++k) rhs.row[i] = rhs.row[i] - normal.lower[k][i] * rhs.row[k];
 }
 
-constexpr double longest_step = 0.3;  // rad or m; a longer one means that the guess was not close
-constexpr double fading = 0.05;       // m and rad: the pull fades when less than this is missing
+constexpr double max_step = 0.3;  // rad or m; a longer one means that the guess was not close
+constexpr double fading = 0.05;   // m and rad: below this task error the null space motion fades
 
-/// Of the spare freedom, for one step. Takes from `rest` what it does to the tool.
-HWY_INLINE void find_pull(const Normal& normal, std::size_t dof, const V* q, const Pull& pull, Missing& rest,
-                          V* pulled) {
+/// The motion towards the goal for one step. What it does to the tool is taken from `rest`, so that the step after it
+/// makes good for it: what remains is the motion in the null space of the Jacobian.
+HWY_INLINE void null_space_step(const Normal& normal, std::size_t dof, const V* q, const NullSpaceGoal& goal,
+                                TaskError& rest, V* secondary) {
   V square = hn::Zero(d);
   for (int i = 0; i < rows; ++i) square = square + rest.row[i] * rest.row[i];
-  const V strength = all(pull.strength) * hn::Min(all(1), hn::Sqrt(square) * all(1 / fading));
+  const V gain = all(goal.gain) * hn::Min(all(1), hn::Sqrt(square) * all(1 / fading));
   for (std::size_t c = 0; c < dof; ++c) {
-    pulled[c] = strength * (all(pull.towards[static_cast<Eigen::Index>(c)]) - q[c]);
-    for (int i = 0; i < rows; ++i) rest.row[i] = rest.row[i] - normal.column[c][i] * pulled[c];
+    secondary[c] = gain * (all(goal.towards[static_cast<Eigen::Index>(c)]) - q[c]);
+    for (int i = 0; i < rows; ++i) rest.row[i] = rest.row[i] - normal.column[c][i] * secondary[c];
   }
 }
 
-/// Least joint motion that makes good for what is missing, on top of what is pulled. False where it is too long.
-HWY_INLINE Mask step(const Normal& normal, std::size_t dof, Missing& rest, const V* pulled, V* q) {
+/// Least joint motion that takes off the task error, on top of `secondary`. False where it is too long.
+HWY_INLINE Mask step(const Normal& normal, std::size_t dof, TaskError& rest, const V* secondary, V* q) {
   substitute(normal, rest);
   V longest = hn::Zero(d);
   Mask close = hn::Eq(longest, longest);
   for (std::size_t c = 0; c < dof; ++c) {
     V change = normal.column[c][0] * rest.row[0];
     for (int i = 1; i < rows; ++i) change = change + normal.column[c][i] * rest.row[i];
-    if (pulled) change = change + pulled[c];
-    close = hn::And(close, hn::Lt(hn::Abs(change), all(longest_step)));
+    if (secondary) change = change + secondary[c];
+    close = hn::And(close, hn::Lt(hn::Abs(change), all(max_step)));
     q[c] = q[c] + change;
   }
   return close;
 }
 
-HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, const Pull* pull, PostureBatch& batch,
-                           std::size_t lane) {
+HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, const NullSpaceGoal* goal,
+                           PostureBatch& batch, std::size_t lane) {
   const std::size_t dof = program.lower.size();
-  V q[most_joints], pulled[most_joints];
+  V q[max_joints], secondary[max_joints];
   for (std::size_t c = 0; c < dof; ++c) q[c] = hn::Load(d, batch.q.joints[c].data() + lane);
   const V3 given{hn::Load(d, batch.ball_m[0].data() + lane), hn::Load(d, batch.ball_m[1].data() + lane),
                  hn::Load(d, batch.ball_m[2].data() + lane)};
@@ -238,12 +241,12 @@ HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, cons
   Normal normal;
   Mask fine = hn::Eq(all(0), all(0));
   for (int done = 0; done < steps; ++done) {
-    Missing rest = missing(tool_pose(program, q, &jacobian), ball);
+    TaskError rest = task_error(tool_pose(program, q, &jacobian), ball);
     factorize(jacobian, dof, normal);
-    if (pull) find_pull(normal, dof, q, *pull, rest, pulled);
-    fine = hn::And(fine, step(normal, dof, rest, pull ? pulled : nullptr, q));
+    if (goal) null_space_step(normal, dof, q, *goal, rest, secondary);
+    fine = hn::And(fine, step(normal, dof, rest, goal ? secondary : nullptr, q));
   }
-  Missing rest = missing(tool_pose(program, q, nullptr), ball);
+  TaskError rest = task_error(tool_pose(program, q, nullptr), ball);
   fine = hn::And(fine, step(normal, dof, rest, nullptr, q));
 
   for (std::size_t c = 0; c < dof; ++c) {
@@ -262,21 +265,22 @@ HWY_INLINE void solve_some(const PostureLanes::Program& program, int steps, cons
   hn::Store(hn::IfThenElse(fine, top_off, none), d, batch.top_off_m.data() + lane);
 }
 
-/// A turning with its first two derivatives, and the second and third derivative of a point, carried outwards along a
-/// chain.
+/// Of a frame that is carried outwards along a chain, by the share of the edge in place of time: its turning with two
+/// derivatives, and the second and third derivative of the place of its origin.
 struct Motion {
-  V3 turn, turn_rate, turn_bend, bend, change;
+  V3 angular_velocity, angular_acceleration, angular_jerk, acceleration, jerk;
 };
 HWY_INLINE void carry(Motion& motion, const V3& arm) {
-  const V3 moved = cross(motion.turn, arm), turned = cross(motion.turn_rate, arm) + cross(motion.turn, moved);
-  motion.bend = motion.bend + turned;
-  motion.change = motion.change + cross(motion.turn_bend, arm) + cross(motion.turn_rate, moved) * all(2) +
-                  cross(motion.turn, turned);
+  const V3 moved = cross(motion.angular_velocity, arm),
+           turned = cross(motion.angular_acceleration, arm) + cross(motion.angular_velocity, moved);
+  motion.acceleration = motion.acceleration + turned;
+  motion.jerk = motion.jerk + cross(motion.angular_jerk, arm) + cross(motion.angular_acceleration, moved) * all(2) +
+                cross(motion.angular_velocity, turned);
 }
 
 /// Outward recursion of a serial chain's velocities (Craig, Introduction to Robotics, 5.6) without joint accelerations,
 /// derived twice.
-HWY_INLINE void bend_some(const PostureLanes::Program& program, EdgeBatch& edges, std::size_t lane) {
+HWY_INLINE void derive_some(const PostureLanes::Program& program, EdgeBatch& edges, std::size_t lane) {
   Pose pose = start_of(program);
   Motion motion{zero3(), zero3(), zero3(), zero3(), zero3()};
   for (const PostureLanes::Move& move : program.moves) {
@@ -286,39 +290,40 @@ HWY_INLINE void bend_some(const PostureLanes::Program& program, EdgeBatch& edges
     const V value = (from + all(0.5) * rate) * all(move.multiplier) + all(move.offset);
     const V3 moved = pose.z * (all(move.multiplier) * rate);
     // Of the joint's own motion, whose direction turns.
-    const V3 rate_of_moved = cross(motion.turn, moved);
-    const V3 bend_of_moved = cross(motion.turn_rate, moved) + cross(motion.turn, rate_of_moved);
+    const V3 acceleration_of_moved = cross(motion.angular_velocity, moved);
+    const V3 jerk_of_moved =
+        cross(motion.angular_acceleration, moved) + cross(motion.angular_velocity, acceleration_of_moved);
     if (move.turns) {
-      motion.turn_bend = motion.turn_bend + bend_of_moved;
-      motion.turn_rate = motion.turn_rate + rate_of_moved;
-      motion.turn = motion.turn + moved;
+      motion.angular_jerk = motion.angular_jerk + jerk_of_moved;
+      motion.angular_acceleration = motion.angular_acceleration + acceleration_of_moved;
+      motion.angular_velocity = motion.angular_velocity + moved;
       turn_about_z(pose, value);
     } else {
       const V3 arm = pose.z * value;
       carry(motion, arm);
-      motion.bend = motion.bend + rate_of_moved * all(2);
-      motion.change = motion.change + bend_of_moved * all(3);
+      motion.acceleration = motion.acceleration + acceleration_of_moved * all(2);
+      motion.jerk = motion.jerk + jerk_of_moved * all(3);
       pose.at = pose.at + arm;
     }
     const V3 before = pose.at;
     pose = pose * move.after;
     carry(motion, pose.at - before);
   }
-  hn::Store(length(motion.bend), d, edges.ball_bend_m.data() + lane);
-  hn::Store(length(motion.change), d, edges.ball_change_m.data() + lane);
+  hn::Store(length(motion.acceleration), d, edges.ball_second_derivative.data() + lane);
+  hn::Store(length(motion.jerk), d, edges.ball_third_derivative.data() + lane);
   carry(motion, pose.z * all(-program.stickout_m));
-  hn::Store(length(motion.bend), d, edges.top_bend_m.data() + lane);
-  hn::Store(length(motion.change), d, edges.top_change_m.data() + lane);
+  hn::Store(length(motion.acceleration), d, edges.top_second_derivative.data() + lane);
+  hn::Store(length(motion.jerk), d, edges.top_third_derivative.data() + lane);
 }
 
 }  // namespace
 
-void solve_lanes(const PostureLanes::Program& program, int steps, const Pull* pull, PostureBatch& batch) {
-  for (std::size_t lane = 0; lane < lane_count; lane += hn::Lanes(d)) solve_some(program, steps, pull, batch, lane);
+void solve_lanes(const PostureLanes::Program& program, int steps, const NullSpaceGoal* goal, PostureBatch& batch) {
+  for (std::size_t lane = 0; lane < lane_count; lane += hn::Lanes(d)) solve_some(program, steps, goal, batch, lane);
 }
 
-void bend_lanes(const PostureLanes::Program& program, EdgeBatch& edges) {
-  for (std::size_t lane = 0; lane < lane_count; lane += hn::Lanes(d)) bend_some(program, edges, lane);
+void derive_lanes(const PostureLanes::Program& program, EdgeBatch& edges) {
+  for (std::size_t lane = 0; lane < lane_count; lane += hn::Lanes(d)) derive_some(program, edges, lane);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -331,7 +336,7 @@ namespace sculpt {
 namespace {
 
 HWY_EXPORT(solve_lanes);
-HWY_EXPORT(bend_lanes);
+HWY_EXPORT(derive_lanes);
 
 PostureLanes::Fixed fixed_of(const Frame& frame) {
   PostureLanes::Fixed fixed;
@@ -360,12 +365,12 @@ PostureLanes::PostureLanes(const Chain& chain, const Vec3& axis) {
   program_.stickout_m = chain.stickout_m();
 }
 
-void PostureLanes::solve(PostureBatch& batch, int steps, const Pull* pull) const {
-  HWY_DYNAMIC_DISPATCH(solve_lanes)(program_, steps, pull, batch);
+void PostureLanes::solve(PostureBatch& batch, int steps, const NullSpaceGoal* goal) const {
+  HWY_DYNAMIC_DISPATCH(solve_lanes)(program_, steps, goal, batch);
 }
 
-void PostureLanes::bend(EdgeBatch& edges) const {
-  HWY_DYNAMIC_DISPATCH(bend_lanes)(program_, edges);
+void PostureLanes::derive(EdgeBatch& edges) const {
+  HWY_DYNAMIC_DISPATCH(derive_lanes)(program_, edges);
 }
 
 }  // namespace sculpt

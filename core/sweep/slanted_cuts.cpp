@@ -7,11 +7,11 @@
 namespace sculpt {
 namespace {
 
-/// Outside the grid the ball keeps a voxel more than needed, so that long edges may bend by half a voxel.
-constexpr double travel_stray = 0.5;
+/// Outside the grid the ball keeps a voxel more than needed, so that long edges may leave their line by half a voxel.
+constexpr double travel_tolerance = 0.5;
 constexpr int outside_by = 2;  ///< cells from the last of the grid to where the ball travels
 /// Of the search around the ball: cells looked at, and how far off they may be.
-constexpr std::size_t most_hops = 3000;
+constexpr std::size_t max_hops = 3000;
 constexpr int window = 64;
 
 Vec3 centre(Voxel cell) {
@@ -20,8 +20,7 @@ Vec3 centre(Voxel cell) {
 
 template <typename Visit>
 void for_each_cut(const Stroke& stroke, const Visit& visit) {
-  const auto sign = [](int x) { return (x > 0) - (x < 0); };
-  const Voxel way = stroke.last - stroke.first, step{sign(way.i), sign(way.j), sign(way.k)};
+  const Voxel step = sign(stroke.last - stroke.first);
   for (int m = 0; m < stroke.count; ++m) visit(stroke.first + step * m);
 }
 
@@ -85,7 +84,7 @@ Sortie SlantedCuts::plan_sortie(std::size_t most) {
   const Voxel out = way_out(at_);
   if (const auto way = route(out, gate_)) {
     go(out, 0, sortie);
-    for (const Voxel via : *way) go(via, travel_stray, sortie);
+    for (const Voxel via : *way) go(via, travel_tolerance, sortie);
   } else {
     retrace(sortie);
   }
@@ -97,7 +96,7 @@ Sortie SlantedCuts::plan_sortie(std::size_t most) {
 void SlantedCuts::retrace(Sortie& sortie) {
   for (std::size_t stroke = sortie.strokes.size(); stroke-- > 0;) {
     const Vec3 before = stroke == 0 ? centre(gate_) : sortie.strokes[stroke - 1].to;
-    sortie.strokes.push_back({before, 0, sortie.strokes[stroke].stray, {}, {}});
+    sortie.strokes.push_back({before, 0, sortie.strokes[stroke].tolerance, {}, {}});
   }
   at_ = gate_;
 }
@@ -120,7 +119,7 @@ bool SlantedCuts::cut_near(Sortie& sortie) {
   ++search_;
   see(at_);
   hops_ = {{at_, 0}};
-  for (std::size_t hop = 0; hop < hops_.size() && hop < most_hops; ++hop)
+  for (std::size_t hop = 0; hop < hops_.size() && hop < max_hops; ++hop)
     for (const Voxel step : steps) {
       const Voxel next = hops_[hop].cell + step;
       if (!see(next)) continue;
@@ -165,7 +164,7 @@ bool SlantedCuts::cut_far(Sortie& sortie) {
       go(out, 0, sortie);
       sortie.serves.resize(sortie.strokes.size(), sortie.serves.back());
     }
-    for (const Voxel via : *way) go(via, travel_stray, sortie);
+    for (const Voxel via : *way) go(via, travel_tolerance, sortie);
     go(target + view_.lean, 0, sortie);
     cut(target, sortie);
     return true;
@@ -198,9 +197,9 @@ bool SlantedCuts::is_reachable_between(Voxel from, Voxel to) const {
   return true;
 }
 
-void SlantedCuts::go(Voxel cell, double stray, Sortie& sortie) {
+void SlantedCuts::go(Voxel cell, double tolerance, Sortie& sortie) {
   if (cell == at_) return;
-  sortie.strokes.push_back({centre(cell), 0, stray, {}, {}});
+  sortie.strokes.push_back({centre(cell), 0, tolerance, {}, {}});
   at_ = cell;
   last_step_ = {};
 }

@@ -1,4 +1,19 @@
 // What the ball does along a tilted tool direction, cell by cell: no joints yet.
+//
+// Seen from the side in cells of a view of 6, the axis leans by one cell to the right for one up; # and w stand, w is
+// wanted:
+//
+//      c = 7   . . . g . . . .      g: the gate, where sorties begin and end
+//      c = 3   # # . . . .
+//      c = 2   # # . . . .          (2, 1) is lit: the tool touches (3, 1), (2, 2), (3, 2) and so on: air
+//      c = 1   # # w . # #
+//      c = 0   # # # w # #          (3, 0) is not: # stands at (4, 0)
+//
+// A sortie: from the gate, beside the grid, to (7, 6), where the line of (2, 1) is two cells out, in along the line to
+// (3, 2), and with one step more (2, 1) is cut. From there steps across a face or along the axis through lit air are
+// tried to other cuts, straight on first; if none is found within 3000 cells the ball goes out along the axis and in to
+// the nearest lit one. At last back to the gate. Where the arm cannot follow, the sortie is taken back and the cut that
+// failed given up.
 #pragma once
 
 #include <functional>
@@ -23,9 +38,9 @@ struct Sortie {
 /// tool fits (ToolShadow); outside the grid it goes straight. Not shared between threads.
 class SlantedCuts {
  public:
-  /// `wanted`: what to cut of what stands. `reachable`: may the ball's centre be at this cell, for links and limits?
-  /// Where it may be, it may also be all along the axis from there out. `gate`: where sorties begin and end, a voxel
-  /// above the grid's topmost cells.
+  /// `wanted`: what to cut of what stands. `gate`: where sorties begin and end, a voxel above the grid's topmost cells.
+  /// `reachable`: is the arm able to hold the ball's centre at this cell, links and joint limits considered? If it says
+  /// so of a cell, it must say so of every cell from there out along the axis: a ball that came in can then go out.
   SlantedCuts(const ToolView& view, const VoxelSet& standing, const std::vector<Voxel>& wanted, Voxel gate,
               std::function<bool(const Vec3& cell)> reachable);
 
@@ -54,7 +69,7 @@ class SlantedCuts {
   std::optional<std::vector<Voxel>> route(Voxel out, Voxel in) const;
   bool is_reachable_between(Voxel from, Voxel to) const;
   void walk(std::size_t hop, Sortie& sortie);
-  void go(Voxel cell, double stray, Sortie& sortie);
+  void go(Voxel cell, double tolerance, Sortie& sortie);
   void cut(Voxel cell, Sortie& sortie);
   bool see(Voxel cell);
 

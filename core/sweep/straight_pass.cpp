@@ -10,13 +10,13 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t first_layers_at_once = 8;  // so that there is soon something to write
-constexpr std::size_t most_layers_at_once = 16;
+constexpr std::size_t max_layers_at_once = 16;
 
 struct Layer {
   int c;
   Vec3 from;
   std::vector<Stroke> strokes;
-  Followed followed;
+  FollowedStrokes followed;
 };
 
 struct Batch {
@@ -36,9 +36,9 @@ class StraightPass {
   StraightPass(Carving& carving, const PostureField& field, const ReachRows& reach, StraightMark from)
       : support_(carving.support),
         arm_(carving.arm),
-        helpers_(carving.helpers),
+        helpers_(carving.run.helpers),
         field_(field),
-        stray_(stray_of(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
+        tolerance_(path_tolerance(carving.scene.tool(), carving.scene.grid().voxel_m).ball),
         columns_(field.view(), carving.support.standing(), carving.keep, reach, std::move(from.given_up)),
         now_(std::move(from)) {}
 
@@ -49,7 +49,7 @@ class StraightPass {
     Batch batch = plan(entered ? arm_.at() : hub_cell(field_.view().n));
     while (!batch.layers.empty()) {
       // As if nothing failed, what comes next is planned beside.
-      now_.layers_at_once = std::min(2 * now_.layers_at_once, most_layers_at_once);
+      now_.layers_at_once = std::min(2 * now_.layers_at_once, max_layers_at_once);
       StraightMark next = mark();
       Batch ahead;
       std::optional<HubArm::Entry> entry;
@@ -103,7 +103,7 @@ class StraightPass {
     while (now_.layer >= 0 && layers.size() < now_.layers_at_once) {
       const int c = now_.layer;
       const Vec3 from = end;
-      std::vector<Stroke> strokes = columns_.cut_layer(c, end, stray_);
+      std::vector<Stroke> strokes = columns_.cut_layer(c, end, tolerance_);
       const std::optional<Stroke> freeing = remove_held(from, strokes);
       if (freeing) end = strokes.empty() ? from : strokes.back().to;
       if (is_done(strokes, freeing)) --now_.layer;
@@ -190,7 +190,7 @@ class StraightPass {
 
   void rise() {
     Vec3 end = arm_.at();
-    const std::vector<Stroke> up = columns_.rise(end, stray_);
+    const std::vector<Stroke> up = columns_.rise(end, tolerance_);
     if (arm_.commit(arm_.try_strokes(field_, arm_.at(), up), up) < up.size())
       throw std::logic_error("the tool came down where it cannot go up again");
   }
@@ -199,7 +199,7 @@ class StraightPass {
   HubArm& arm_;
   const Helpers& helpers_;
   const PostureField& field_;
-  double stray_;
+  double tolerance_;
   Columns columns_;
   StraightMark now_;  ///< as of what is planned; what was given up, `columns_` knows
 };

@@ -12,7 +12,7 @@ namespace sculpt {
 struct Stroke {
   Vec3 to = Vec3::Zero();
   int count = 0;          ///< 0: nothing is cut
-  double stray = 0;       ///< how far the tool may leave the line (voxel edges) without coming near any material
+  double tolerance = 0;   ///< how far the tool may leave the line (voxel edges) without coming near any material
   Voxel first{}, last{};  ///< cut: voxels of the grid
 
   bool cuts() const { return count > 0; }
@@ -25,7 +25,8 @@ inline Stroke part_of(const Stroke& cut, const Vec3& start, int first, int last)
   const int steps = std::max(1, cut.count - 1);
   const Voxel step{way.i / steps, way.j / steps, way.k / steps};
   const Vec3 along = (cut.to - start) / cut.count;
-  return {start + along * (last + 1), last + 1 - first, cut.stray, cut.first + step * first, cut.first + step * last};
+  return {start + along * (last + 1), last + 1 - first, cut.tolerance, cut.first + step * first,
+          cut.first + step * last};
 }
 
 }  // namespace sculpt

@@ -105,7 +105,7 @@ class Sweep {
     for_each_voxel(rest, [&](Voxel v) { wanted.push_back(v); });
     const Scene& scene = carving_.scene;
     const double length = scene.tool().stickout_m / scene.grid().voxel_m;
-    now_.out_of_reach = find_out_of_tool_reach(standing(), wanted, tool_steps(), length, carving_.watch);
+    now_.out_of_reach = find_out_of_tool_reach(standing(), wanted, tool_steps(), length, carving_.run.watch);
   }
 
   /// Of what straight directions left, what tilted ones might cut.
@@ -132,14 +132,14 @@ class Sweep {
     });
     const double all_through = 2.0 * view.n;
     return wanted.size() -
-           find_out_of_tool_reach(standing(), wanted, {view.along(view.lean)}, all_through, carving_.watch).size();
+           find_out_of_tool_reach(standing(), wanted, {view.along(view.lean)}, all_through, carving_.run.watch).size();
   }
 
   /// The direction, of those from `first` to before `end` that are not used up, along which most can be cut now, if
   /// that is `fewest` voxels or more.
   template <typename Count>
   std::optional<std::size_t> best(std::size_t first, std::size_t end, std::uint64_t fewest, const Count& count) {
-    carving_.helpers.for_each_index(
+    carving_.run.helpers.for_each_index(
         end - first, [&](std::size_t at) { counts_[first + at] = now_.used_up[first + at] ? 0 : count(first + at); });
     const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first);
     const auto most = std::max_element(begin, counts_.begin() + static_cast<std::ptrdiff_t>(end));
@@ -163,21 +163,20 @@ void remove_cut(Support& support, const VoxelSet& standing) {
 
 }  // namespace
 
-SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                          const Configuration& home, std::uint64_t seed, const Helpers& helpers,
-                          const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch) {
-  Directions directions(scene, home, seed, helpers, watch);
+SweepRest carve_by_sweeps(const Scene& scene, const SweepTask& task, const std::optional<SweepStart>& start,
+                          const SweepListener& listener, const RunContext& run) {
+  Directions directions(scene, task.home, run);
   std::optional<Support> support;
-  helpers.for_each_index(2, [&](std::size_t task) {
-    if (task == 0) {
+  run.helpers.for_each_index(2, [&](std::size_t part) {
+    if (part == 0) {
       directions.find_straight_fields();
     } else {
-      support.emplace(voxels.stock, may_fall);
+      support.emplace(task.voxels.stock, task.may_fall);
       if (start) remove_cut(*support, start->standing);
     }
   });
-  Carving carving{scene, voxels.keep,         helpers,
-                  watch, std::move(*support), {scene, home, directions.stock_turn(), seed, listener.emit, watch}};
+  HubArm arm(scene, task.home, directions.stock_turn(), run.seed, listener.emit, run.watch);
+  Carving carving{scene, task.voxels.keep, run, std::move(*support), std::move(arm)};
   Sweep sweep(carving, directions, listener.note);
   if (start) sweep.resume(*start);
   listener.ready();

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "core/base/watch.hpp"
+#include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/sweep/sweep_memory.hpp"
@@ -13,11 +14,17 @@
 
 namespace sculpt {
 
+/// What sweeps are to carve; it must outlive them.
+struct SweepTask {
+  const VoxelGrid& voxels;
+  const VoxelSet& may_fall;  ///< what cannot be held
+  const Configuration& home;
+};
+
 /// What sweeps leave standing.
 struct SweepRest {
   VoxelSet standing;
-  std::vector<Voxel>
-      out_of_tool_reach;  ///< of it, what is to be removed but never can be, as find_out_of_tool_reach has it
+  std::vector<Voxel> out_of_tool_reach;  ///< to be removed, but never can be, as find_out_of_tool_reach has it
 };
 
 /// Where a sweep goes on.
@@ -36,10 +43,9 @@ struct SweepListener {
 
 /// Carves what the tool reaches along its axes, the straight and the tilted ones, from home and back to home; or goes
 /// on with that at `start`, with the same keyframes that would have followed. `scene` holds the full stock and is not
-/// changed: what is free against all of it is free for ever. Every edge that is emitted is certified. `may_fall`: what
-/// cannot be held. The same with any `helpers`. Throws Cancelled.
-SweepRest carve_by_sweeps(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                          const Configuration& home, std::uint64_t seed, const Helpers& helpers,
-                          const std::optional<SweepStart>& start, const SweepListener& listener, const Watch& watch);
+/// changed: what is free against all of it is free for ever. Every edge that is emitted is certified. Throws Cancelled,
+/// and InputError `no_transit` if there is no way home.
+SweepRest carve_by_sweeps(const Scene& scene, const SweepTask& task, const std::optional<SweepStart>& start,
+                          const SweepListener& listener, const RunContext& run);
 
 }  // namespace sculpt

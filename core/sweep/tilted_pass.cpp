@@ -10,14 +10,14 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_sorties_at_once = 8, most_cuts = 256;
+constexpr std::size_t max_sorties_at_once = 8, max_cuts = 256;
 
 class TiltedPass {
  public:
   TiltedPass(Carving& carving, const PostureField& field, const std::vector<Voxel>& wanted)
       : support_(carving.support),
         arm_(carving.arm),
-        helpers_(carving.helpers),
+        helpers_(carving.run.helpers),
         field_(field),
         hub_(hub_cell(field.view().n)),
         cuts_(field.view(), carving.support.standing(), wanted, gate(field.view().n),
@@ -26,7 +26,7 @@ class TiltedPass {
   PassEnd run() {
     const std::uint64_t before = arm_.removed();
     bool spared = false;
-    std::size_t at_once = most_sorties_at_once, each = most_cuts;
+    std::size_t at_once = max_sorties_at_once, each = max_cuts;
     for (;;) {
       std::vector<Sortie> sorties = plan(at_once, each);
       if (sorties.empty()) break;
@@ -39,14 +39,14 @@ class TiltedPass {
         for (std::size_t planned = sorties.size(); planned-- > 0;) take_back(sorties[planned]);
         break;
       }
-      std::vector<Followed> followed(sorties.size());
+      std::vector<FollowedStrokes> followed(sorties.size());
       helpers_.for_each_index(
           sorties.size(), [&](std::size_t at) { followed[at] = arm_.try_strokes(field_, hub_, sorties[at].strokes); });
       const std::size_t done = commit(sorties, followed);
       for (std::size_t later = sorties.size(); later-- > done;) take_back(sorties[later]);
       if (done == sorties.size()) {
-        at_once = std::min(2 * at_once, most_sorties_at_once);
-        each = std::min(2 * each, most_cuts);
+        at_once = std::min(2 * at_once, max_sorties_at_once);
+        each = std::min(2 * each, max_cuts);
       } else {
         cuts_.give_up(sorties[done].strokes[sorties[done].serves[followed[done].strokes]]);
         at_once = 1;
@@ -99,7 +99,7 @@ class TiltedPass {
   }
 
   /// Emits the sorties before the first that could not be followed to its end, and says which that is.
-  std::size_t commit(const std::vector<Sortie>& sorties, const std::vector<Followed>& followed) {
+  std::size_t commit(const std::vector<Sortie>& sorties, const std::vector<FollowedStrokes>& followed) {
     for (std::size_t at = 0; at < sorties.size(); ++at) {
       if (followed[at].strokes < sorties[at].strokes.size()) return at;
       arm_.commit(followed[at], sorties[at].strokes);

@@ -25,7 +25,7 @@ void check_segments(const BinaryIn& in, const std::vector<FileSegment>& segments
     const std::uint64_t keyframes = segment.first_keyframe - expected.first_keyframe;
     const bool in_order = at == 0 ? segment.offset == first_offset && keyframes == 0 && segment.first_removed == 0
                                   : segment.offset > expected.offset && keyframes >= 1 &&
-                                        keyframes <= most_segment_keyframes &&
+                                        keyframes <= max_segment_keyframes &&
                                         segment.first_removed >= expected.first_removed;
     if (!in_order) in.refuse("the index is not that of a trajectory");
     expected = segment;
@@ -75,7 +75,7 @@ void BinaryWriter::add(const Keyframe& keyframe) {
     check_run(keyframe, impl_->grid, "keyframe " + std::to_string(impl_->keyframes + impl_->pending.keyframes()));
   impl_->pending.add(keyframe);
   impl_->pending_removed += static_cast<std::uint64_t>(run_length(keyframe));
-  if (impl_->pending.keyframes() == most_segment_keyframes) impl_->end_segment();
+  if (impl_->pending.keyframes() == max_segment_keyframes) impl_->end_segment();
 }
 
 void BinaryWriter::finish() {

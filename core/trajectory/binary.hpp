@@ -41,7 +41,8 @@ class BinaryFile {
 
   /// The keyframes of one segment, its checksum checked.
   std::vector<Keyframe> read(std::size_t segment) const;
-  /// The segment that removes the voxel with this ordinal, from 0 to removed() - 1 in the order of removal.
+  /// The segment that removes the voxel with this ordinal, from 0 to removed() - 1 in the order of removal. Throws
+  /// std::out_of_range for others.
   std::size_t segment_that_removes(std::uint64_t ordinal) const;
 
  private:

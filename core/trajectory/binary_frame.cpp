@@ -11,7 +11,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::uint32_t longest_header = 1 << 20;
+constexpr std::uint32_t max_header_bytes = 1 << 20;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ TrajectoryHeader read_preamble(BinaryIn& in, std::string& raw) {
   if (const auto version = word_at<std::uint32_t>(raw, 8); version != binary_version)
     in.refuse("version " + std::to_string(version) + " is not known, only " + std::to_string(binary_version));
   const auto size = word_at<std::uint32_t>(raw, 12);
-  if (size > longest_header) in.refuse("the header is longer than " + std::to_string(longest_header) + " bytes");
+  if (size > max_header_bytes) in.refuse("the header is longer than " + std::to_string(max_header_bytes) + " bytes");
   const std::string where = in.where(), line = in.bytes(size);
   raw += line;
   const std::string crc = in.bytes(4);
@@ -79,11 +79,11 @@ std::string SegmentBytes::head() const {
 SegmentBytes read_segment(BinaryIn& in, std::size_t joints) {
   const std::string head = in.bytes(segment_head_bytes - 1);
   SegmentBytes segment{word_at<std::uint32_t>(head, 0), word_at<std::uint64_t>(head, 4), {}};
-  if (segment.keyframes < 1 || segment.keyframes > most_segment_keyframes)
+  if (segment.keyframes < 1 || segment.keyframes > max_segment_keyframes)
     in.refuse("a segment of " + std::to_string(segment.keyframes) + " keyframes, not 1 to " +
-              std::to_string(most_segment_keyframes));
+              std::to_string(max_segment_keyframes));
   const auto size = word_at<std::uint32_t>(head, 12);
-  if (size > longest_segment(segment.keyframes, joints))
+  if (size > max_segment_bytes(segment.keyframes, joints))
     in.refuse("a segment of " + std::to_string(segment.keyframes) + " keyframes cannot take " + std::to_string(size) +
               " bytes");
   segment.body = in.bytes(size);

@@ -57,14 +57,14 @@ char* write_number(char* out, double value) {
   const std::uint64_t whole = size / one, part = size % one;
   if (!quanta || whole >= 100'000) {
     if (!std::isfinite(value)) throw std::invalid_argument("a trajectory value is not finite");
-    return std::to_chars(out, out + longest_number, value).ptr;
+    return std::to_chars(out, out + max_number_bytes, value).ptr;
   }
   if (*quanta < 0) *out++ = '-';
   if (needs_exponent(whole, part)) return write_with_exponent(out, part);
   if (whole < 10)
     *out++ = static_cast<char>('0' + whole);
   else
-    out = std::to_chars(out, out + longest_number, whole).ptr;
+    out = std::to_chars(out, out + max_number_bytes, whole).ptr;
   if (part == 0) return out;
   const auto digits = static_cast<std::uint32_t>(part), first = digits / 10'000, last = digits - first * 10'000;
   const std::uint32_t hundreds = first / 100, tens = last / 100;

@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int fraction_digits = 7, most_whole_digits = 8;
+constexpr int fraction_digits = 7, max_whole_digits = 8;
 static_assert(quanta_per_unit == 1e7);
 
 class Scanner {
@@ -25,7 +25,7 @@ class Scanner {
   bool read_value(double& value) {
     const bool negative = skip("-");
     std::int64_t quanta = 0;
-    if (!read_whole(most_whole_digits, quanta)) return false;
+    if (!read_whole(max_whole_digits, quanta)) return false;
     int digits = 0;
     if (skip(".")) {
       for (; digits < fraction_digits && next_is_digit(); ++digits) quanta = 10 * quanta + take_digit();
@@ -61,12 +61,12 @@ class Scanner {
   }
 
   // JSON has no leading zeros.
-  bool read_whole(int most_digits, std::int64_t& value) {
+  bool read_whole(int max_digits, std::int64_t& value) {
     if (!next_is_digit()) return false;
     value = take_digit();
     if (value == 0) return !next_is_digit();
     for (int digits = 1; next_is_digit(); ++digits) {
-      if (digits == most_digits) return false;
+      if (digits == max_digits) return false;
       value = 10 * value + take_digit();
     }
     return true;

@@ -12,7 +12,7 @@ namespace sculpt {
 inline constexpr double quanta_per_unit = 1e7;
 /// The most quanta that a value may have: up to here value -> quanta -> value is exact and their decimal text is
 /// unique.
-inline constexpr std::int64_t most_quanta = 1'000'000'000'000'000;
+inline constexpr std::int64_t max_quanta = 1'000'000'000'000'000;
 
 /// Dividing a whole number by 1e7 gives the double nearest to that decimal: exactly what its text is read back as.
 inline double from_quanta(std::int64_t quanta) {
@@ -22,7 +22,7 @@ inline double from_quanta(std::int64_t quanta) {
 /// Nothing for a value that is no multiple of the quantum, or beyond the most (NaN too).
 inline std::optional<std::int64_t> to_quanta(double value) {
   const double scaled = value * quanta_per_unit;
-  if (!(std::abs(scaled) <= static_cast<double>(most_quanta))) return {};
+  if (!(std::abs(scaled) <= static_cast<double>(max_quanta))) return {};
   const auto quanta = static_cast<std::int64_t>(scaled + (scaled < 0 ? -0.5 : 0.5));
   if (from_quanta(quanta) != value) return {};
   return quanta;

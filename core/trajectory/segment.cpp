@@ -13,8 +13,8 @@
 namespace sculpt {
 namespace {
 
-constexpr int most_order = 3;
-constexpr std::size_t longest_varint = 10;
+constexpr int max_order = 3;
+constexpr std::size_t max_varint_bytes = 10;
 constexpr std::uint64_t token_move = 0, token_again = 1, first_cut_token = 2;
 constexpr std::uint64_t directions = face_steps.size(), start_anywhere = 6, starts = 7;
 
@@ -33,7 +33,7 @@ char* write_varint(char* out, std::uint64_t value) {
 }
 
 void append_varint(std::string& out, std::uint64_t value) {
-  std::array<char, longest_varint> bytes;
+  std::array<char, max_varint_bytes> bytes;
   out.append(bytes.data(), write_varint(bytes.data(), value));
 }
 
@@ -48,9 +48,8 @@ void append_cut(std::string& out, const Keyframe& keyframe, LastCut& last) {
   LastCut cut{keyframe.last, last.direction, static_cast<std::uint64_t>(run_length(keyframe))};
   const Voxel gap = keyframe.first - last.end, run = keyframe.last - keyframe.first;
   const std::uint64_t start = direction_of(gap);
-  const auto sign = [](int value) { return (value > 0) - (value < 0); };
   if (cut.length > 1)
-    cut.direction = direction_of({sign(run.i), sign(run.j), sign(run.k)});
+    cut.direction = direction_of(sign(run));
   else if (start != start_anywhere)
     cut.direction = start;  // of one voxel any direction is right: this one is what rows of such cuts repeat
   if (start == cut.direction && cut.direction == last.direction && cut.length == last.length) {
@@ -89,7 +88,7 @@ std::size_t bytes_of(const std::vector<Int>& residuals) {
 
 template <typename Int>
 void append_residuals(std::string& out, const std::vector<Int>& residuals) {
-  const auto bytes = std::make_unique_for_overwrite<char[]>(longest_varint * (residuals.size() + 1));
+  const auto bytes = std::make_unique_for_overwrite<char[]>(max_varint_bytes * (residuals.size() + 1));
   char* end = bytes.get();
   std::uint64_t zeros = 0;
   const auto end_zeros = [&] {
@@ -112,9 +111,9 @@ void append_residuals(std::string& out, const std::vector<Int>& residuals) {
 
 template <typename Int>
 void append_by_differences(std::string& out, const std::vector<std::int64_t>& values) {
-  std::array<std::vector<Int>, most_order + 1> residuals{std::vector<Int>(values.begin(), values.end())};
+  std::array<std::vector<Int>, max_order + 1> residuals{std::vector<Int>(values.begin(), values.end())};
   std::size_t best = 0, least = bytes_of(residuals[0]);
-  for (std::size_t order = 1; order <= most_order; ++order) {
+  for (std::size_t order = 1; order <= max_order; ++order) {
     residuals[order] = differences(residuals[order - 1]);
     if (const std::size_t bytes = bytes_of(residuals[order]); bytes < least) {
       best = order;
@@ -126,7 +125,7 @@ void append_by_differences(std::string& out, const std::vector<std::int64_t>& va
 }
 
 void append_column(std::string& out, const std::vector<std::int64_t>& values) {
-  constexpr std::int64_t narrow = std::int64_t{1} << (31 - most_order);  // its differences fit into 32 bits
+  constexpr std::int64_t narrow = std::int64_t{1} << (31 - max_order);  // its differences fit into 32 bits
   const bool is_narrow = std::all_of(values.begin(), values.end(), [](auto v) { return v < narrow && v > -narrow; });
   is_narrow ? append_by_differences<std::int32_t>(out, values) : append_by_differences<std::int64_t>(out, values);
 }
@@ -151,8 +150,8 @@ class Decoder {
 
   void read_column(std::vector<Keyframe>& keyframes, Eigen::Index joint) {
     const int order = byte();
-    if (order > most_order) refuse("a joint's order of differences is " + std::to_string(order));
-    std::array<std::uint64_t, most_order> before{};  // unsigned: sums may wrap, what counts is checked
+    if (order > max_order) refuse("a joint's order of differences is " + std::to_string(order));
+    std::array<std::uint64_t, max_order> before{};  // unsigned: sums may wrap, what counts is checked
     std::uint64_t zeros = 0;
     for (Keyframe& keyframe : keyframes) {
       std::uint64_t value = 0;
@@ -164,7 +163,7 @@ class Decoder {
       }
       for (int level = order; level-- > 0;) value = before[static_cast<std::size_t>(level)] += value;
       const auto quanta = static_cast<std::int64_t>(value);
-      if (quanta > most_quanta || quanta < -most_quanta) refuse("a joint value is out of range");
+      if (quanta > max_quanta || quanta < -max_quanta) refuse("a joint value is out of range");
       keyframe.q[joint] = from_quanta(quanta);
     }
     if (zeros > 0) refuse("a run of zeros is longer than the segment");
@@ -235,9 +234,9 @@ class Decoder {
 
 }  // namespace
 
-std::size_t longest_segment(std::size_t keyframes, std::size_t joints) {
-  constexpr std::size_t longest_token = 3 + 3 * 2, longest_residual = 10;
-  return keyframes * (longest_token + longest_residual * joints) + 2 * joints;
+std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints) {
+  constexpr std::size_t max_token_bytes = 3 + 3 * 2, max_residual_bytes = 10;
+  return keyframes * (max_token_bytes + max_residual_bytes * joints) + 2 * joints;
 }
 
 void SegmentEncoder::add(const Keyframe& keyframe) {
@@ -245,7 +244,7 @@ void SegmentEncoder::add(const Keyframe& keyframe) {
     append_cut(tokens_, keyframe, last_);
   else
     append_varint(tokens_, token_move);
-  quanta_.reserve(most_segment_keyframes * static_cast<std::size_t>(keyframe.q.size()));
+  quanta_.reserve(max_segment_keyframes * static_cast<std::size_t>(keyframe.q.size()));
   for (const double value : keyframe.q) quanta_.push_back(quanta_of(value));
   ++keyframes_;
 }

@@ -11,10 +11,10 @@
 
 namespace sculpt {
 
-inline constexpr std::size_t most_segment_keyframes = 4096;
+inline constexpr std::size_t max_segment_keyframes = 4096;
 
 /// Upper bound of a body's bytes: no reader takes more memory than that for what a file promises.
-std::size_t longest_segment(std::size_t keyframes, std::size_t joints);
+std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints);
 
 /// What the next cut of a segment is told relative to.
 struct LastCut {

@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 // No line of a trajectory comes near: 16 joints take half a KiB. It bounds the memory that hostile input can take.
-constexpr std::size_t longest_line = 1 << 20;
+constexpr std::size_t max_line_bytes = 1 << 20;
 
 std::string line_name(std::uint64_t line) {
   return "trajectory line " + std::to_string(line);
@@ -23,7 +23,7 @@ std::string line_name(std::uint64_t line) {
 
 class TextSource : public TrajectorySource {
  public:
-  explicit TextSource(std::istream& in) : in_(in), buffer_(longest_line) {
+  explicit TextSource(std::istream& in) : in_(in), buffer_(max_line_bytes) {
     const auto text = read();
     if (!text) refuse(1, "the file is empty");
     header_ = parse_header_line(*text, line_name(1));
@@ -57,7 +57,7 @@ class TextSource : public TrajectorySource {
     const auto taken = static_cast<std::size_t>(in_.gcount());
     if (in_.eof() && taken == 0) return std::nullopt;
     if (in_.bad()) refuse(line_, "the file cannot be read");
-    if (in_.fail()) refuse(line_, "longer than " + std::to_string(longest_line) + " bytes");
+    if (in_.fail()) refuse(line_, "longer than " + std::to_string(max_line_bytes) + " bytes");
     return std::string_view(buffer_.data(), in_.eof() ? taken : taken - 1);
   }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/material/resolution.hpp"
 #include "core/trajectory/number_text.hpp"
 
 namespace sculpt {
@@ -17,7 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 8;
-constexpr int largest_resolution = 1024;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw InputError("trajectory_invalid", where + ": " + what + "; fetch or plan the trajectory again");
@@ -43,7 +43,7 @@ char* write_text(char* out, std::string_view text) {
 char* write_voxel(char* out, Voxel voxel) {
   for (auto [before, value] : {std::pair{'[', voxel.i}, {',', voxel.j}, {',', voxel.k}}) {
     *out++ = before;
-    out = std::to_chars(out, out + longest_number, value).ptr;
+    out = std::to_chars(out, out + max_number_bytes, value).ptr;
   }
   *out++ = ']';
   return out;
@@ -145,8 +145,8 @@ Voxel parse_voxel(const Json& value, const std::string& where) {
   std::array<int, 3> at{};
   if (!value.is_array() || value.size() != 3) refuse(where, "a voxel is not a list of 3 whole numbers");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!value[axis].is_number_unsigned() || value[axis].get<std::uint64_t>() >= largest_resolution)
-      refuse(where, "a voxel index is not a whole number from 0 to " + std::to_string(largest_resolution - 1));
+    if (!value[axis].is_number_unsigned() || value[axis].get<std::uint64_t>() >= max_resolution)
+      refuse(where, "a voxel index is not a whole number from 0 to " + std::to_string(max_resolution - 1));
     at[axis] = value[axis].get<int>();
   }
   return {at[0], at[1], at[2]};
@@ -155,7 +155,7 @@ Voxel parse_voxel(const Json& value, const std::string& where) {
 }  // namespace
 
 void append_number(std::string& text, double value) {
-  std::array<char, longest_number> digits;
+  std::array<char, max_number_bytes> digits;
   text.append(digits.data(), write_number(digits.data(), value));
 }
 
@@ -178,8 +178,8 @@ std::string header_line(const TrajectoryHeader& header) {
   return text + R"(,"seed":)" + std::to_string(header.seed) + (header.held ? R"(,"held":true})" : "}");
 }
 
-std::size_t longest_keyframe_line(std::size_t joints) {
-  return 128 + joints * (longest_number + 1);
+std::size_t max_keyframe_line_bytes(std::size_t joints) {
+  return 128 + joints * (max_number_bytes + 1);
 }
 
 char* write_keyframe_line(char* out, const Keyframe& keyframe) {
@@ -208,15 +208,15 @@ TrajectoryHeader parse_header_line(std::string_view text, const std::string& whe
   if (fields.count("format") != 1) refuse(where, "format " + fields.get("format").dump() + " is not known, only 1");
   TrajectoryHeader header;
   std::set<std::string> seen;
-  for (const Json& joint : fields.array("joints", 1, most_joints)) {
+  for (const Json& joint : fields.array("joints", 1, max_joints)) {
     if (!joint.is_string() || !seen.insert(joint.get<std::string>()).second)
       refuse(where, "field \"joints\" is not a list of different names");
     header.joints.push_back(joint.get<std::string>());
   }
   header.home = fields.numbers("home", header.joints.size());
   const std::uint64_t resolution = fields.count("resolution");
-  if (resolution < 1 || resolution > largest_resolution)
-    refuse(where, "resolution " + std::to_string(resolution) + " is not in 1 to " + std::to_string(largest_resolution));
+  if (resolution < 1 || resolution > max_resolution)
+    refuse(where, "resolution " + std::to_string(resolution) + " is not in 1 to " + std::to_string(max_resolution));
   header.grid.n = static_cast<int>(resolution);
   header.grid.voxel_m = fields.number("voxel_m", std::numeric_limits<double>::min());
   header.grid.origin_m = fields.numbers("origin_m", 3);

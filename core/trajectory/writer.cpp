@@ -53,7 +53,7 @@ TrajectoryWriter::TrajectoryWriter(std::ostream& out, const TrajectoryHeader& he
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::add(const Keyframe& keyframe) {
-  char* const line = impl_->make_room(longest_keyframe_line(static_cast<std::size_t>(keyframe.q.size())));
+  char* const line = impl_->make_room(max_keyframe_line_bytes(static_cast<std::size_t>(keyframe.q.size())));
   impl_->send(write_keyframe_line(line, keyframe));
   ++impl_->end.keyframes;
   impl_->end.removed += static_cast<std::uint64_t>(run_length(keyframe));

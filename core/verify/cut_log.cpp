@@ -35,8 +35,7 @@ std::vector<FreedPiece> CutLog::find_freed(const VoxelSet& stock, const VoxelSet
   for (std::size_t at = cuts_.size(); at-- > 0;) {
     if (at % cuts_a_step == 0) step();
     const Voxel first = voxel(cuts_[at].first), last = voxel(cuts_[at].last);
-    const Voxel way = first - last,
-                back{(way.i > 0) - (way.i < 0), (way.j > 0) - (way.j < 0), (way.k > 0) - (way.k < 0)};
+    const Voxel back = sign(first - last);
     for (int part = 0; part <= l1(first, last); ++part) {
       const Voxel removed = last + back * part;
       const HeldVoxels::Gain gain = held.put_back(removed, may_fall);

@@ -8,7 +8,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int most_parts = 4096;
+constexpr int max_parts = 4096;
 // Over the rounding errors of depths and bounds.
 constexpr double slack_mm = 1e-6;
 
@@ -75,7 +75,7 @@ bool overlap_everywhere(const SolidBody& a, const SolidBody& b, const LinkMotion
   std::vector<JointRange> open{range};
   std::vector<Frame> poses;
   for (int parts = 0; !open.empty(); ++parts) {
-    if (parts == most_parts) return false;
+    if (parts == max_parts) return false;
     const JointRange part = open.back();
     open.pop_back();
     motion.place_links(part.middle, poses);

@@ -106,8 +106,8 @@ double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Fr
 // The second derivative by two joints is the turn of the nearer one applied to the velocity that the farther one gives,
 // so it is at most (step of the nearer) * (speed by the farther); a shift nearer than the other joint does not bend
 // anything.
-double bend_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
-                  const Vec3& centre) {
+double sagitta_bound(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                     const Configuration& steps, const Vec3& centre) {
   double turning = 0;  // steps of all turning joints nearer than the current one
   for (const MovingJoint& joint : joints)
     if (joint.turns) turning += std::abs(joint.rate * steps[joint.coordinate]);

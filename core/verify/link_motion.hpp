@@ -72,7 +72,7 @@ double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Fr
 /// Bound on how far the point `centre` strays from the straight line between its two end positions while the
 /// coordinates move linearly by 2 * steps, with `poses` half-way: half the largest second derivative. 0 where all
 /// joints are prismatic.
-double bend_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
-                  const Vec3& centre);
+double sagitta_bound(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                     const Configuration& steps, const Vec3& centre);
 
 }  // namespace sculpt

@@ -22,8 +22,7 @@ std::string text(double value) {
 
 // The voxels of a cut, in order.
 std::vector<Voxel> run_of(const Keyframe& keyframe) {
-  const auto sign = [](int value) { return (value > 0) - (value < 0); };
-  const Voxel run = keyframe.last - keyframe.first, way{sign(run.i), sign(run.j), sign(run.k)};
+  const Voxel way = sign(keyframe.last - keyframe.first);
   std::vector<Voxel> voxels;
   for (int part = 0; part < run_length(keyframe); ++part) voxels.push_back(keyframe.first + way * part);
   return voxels;

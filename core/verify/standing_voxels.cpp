@@ -11,7 +11,7 @@ namespace {
 
 // Nothing as near to a voxel as this counts as clear of it.
 constexpr double edge_mm = 1e-6;
-constexpr int most_rows = 4096;
+constexpr int max_rows = 4096;
 
 // The tree's keys 32768 and up are its positive octant, so the material lies in one octant and its corner at 0.
 octomap::OcTreeKey key_of(Voxel v) {
@@ -101,7 +101,7 @@ bool StandingVoxels::known_empty(const Vec3& low, const Vec3& high) const {
     first[at] = static_cast<int>(std::clamp(std::floor((low[axis] - edge_mm) / voxel_mm_), 0.0, n - 1.0));
     last[at] = static_cast<int>(std::clamp(std::floor((high[axis] + edge_mm) / voxel_mm_), 0.0, n - 1.0));
   }
-  if ((last[1] - first[1] + 1) * (last[2] - first[2] + 1) > most_rows) return false;
+  if ((last[1] - first[1] + 1) * (last[2] - first[2] + 1) > max_rows) return false;
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j) {
       const std::size_t begin = voxels_.index({first[0], j, k}), end = voxels_.index({last[0], j, k});

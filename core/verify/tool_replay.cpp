@@ -92,7 +92,7 @@ bool ToolReplay::shank_meets(const Target& target, const Line& line, double grow
 // turning, and a thicker cylinder in the middle, tight when it hardly moves. It meets nothing if either does not.
 bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) const {
   const Line &start = sweep.start, &end = sweep.end;
-  const double radius = shank_ + sweep.bend + slack_mm;
+  const double radius = shank_ + sweep.sagitta + slack_mm;
   const Vec3 low = start.ball.cwiseMin(end.ball).cwiseMin(start.top).cwiseMin(end.top).array() - radius;
   const Vec3 high = start.ball.cwiseMax(end.ball).cwiseMax(start.top).cwiseMax(end.top).array() + radius;
   if ((low.array() > target.high.array()).any() || (high.array() < target.low.array()).any()) return false;
@@ -110,8 +110,8 @@ bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) con
   const Vec3 sides = box.max_ - box.min_ + Vec3::Constant(2 * radius);
   if (!touches(target, fcl::Boxd(sides), pose, low, high)) return false;
 
-  const double ball_way = (end.ball - start.ball).norm() / 2 + sweep.bend,
-               top_way = (end.top - start.top).norm() / 2 + sweep.bend;
+  const double ball_way = (end.ball - start.ball).norm() / 2 + sweep.sagitta,
+               top_way = (end.top - start.top).norm() / 2 + sweep.sagitta;
   const double length = (middle.top - middle.ball).norm();
   const double way = std::max(ball_way, top_way), tilt = (ball_way + top_way) / length;
   if (way > voxel_ || tilt > 0.5) return true;
@@ -125,18 +125,18 @@ ToolReplay::Finding ToolReplay::settle(const Task& task, const std::vector<Frame
   const Target& target = *task.target;
   Sweep sweep{line_in(target, start), line_in(target, end), line_in(target, middle), 0};
   const Frame& tool = middle[static_cast<std::size_t>(cell_.tool_link)];
-  sweep.bend = bend_limit(target.joints, middle, steps, tool * Vec3(0, 0, stickout_));
+  sweep.sagitta = sagitta_bound(target.joints, middle, steps, tool * Vec3(0, 0, stickout_));
   double way = (sweep.end.ball - sweep.start.ball).norm() / 2;
   if (task.shank) {
-    sweep.bend = std::max(sweep.bend, bend_limit(target.joints, middle, steps, tool.translation()));
+    sweep.sagitta = std::max(sweep.sagitta, sagitta_bound(target.joints, middle, steps, tool.translation()));
     way = std::max(way, (sweep.end.top - sweep.start.top).norm() / 2);
     if (!swept_shank_meets(target, sweep)) return Finding::free;
     if (shank_meets(target, sweep.middle, 0, 0)) return Finding::touches;
   } else {
-    if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.bend + slack_mm)) return Finding::free;
+    if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + slack_mm)) return Finding::free;
     if (ball_meets(target, sweep.middle.ball, sweep.middle.ball, 0)) return Finding::touches;
   }
-  return way + sweep.bend < too_close_voxels * voxel_ ? Finding::too_close : Finding::unknown;
+  return way + sweep.sagitta < too_close_voxels * voxel_ ? Finding::too_close : Finding::unknown;
 }
 
 void ToolReplay::certify(const JointMotion& motion, double from, double to, const std::vector<Frame>& start,
@@ -173,10 +173,10 @@ bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxe
   std::vector<Frame> poses;
   motion_.place_links(motion.at(0.5), poses);
   const Frame tool = poses[static_cast<std::size_t>(cell_.tool_link)];
-  const auto bend_at = [&](const Vec3& at) { return bend_limit(material.joints, poses, motion.step / 2, at); };
-  const double whole_bend = std::max(bend_at(tool * Vec3(0, 0, stickout_)), bend_at(tool.translation()));
+  const auto sagitta_at = [&](const Vec3& at) { return sagitta_bound(material.joints, poses, motion.step / 2, at); };
+  const double whole_sagitta = std::max(sagitta_at(tool * Vec3(0, 0, stickout_)), sagitta_at(tool.translation()));
   const double room =
-      whole_bend / (parts * parts) + slack_mm;  // a part has the same second derivative, and 1/n the time
+      whole_sagitta / (parts * parts) + slack_mm;  // a part has the same second derivative, and 1/n the time
 
   std::vector<Frame> ends;
   motion_.place_links(motion.from, ends);

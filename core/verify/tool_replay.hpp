@@ -47,7 +47,7 @@ class ToolReplay {
   };
   struct Sweep {
     Line start, end, middle;  // in the target's frame
-    double bend;              // how far any point of the line strays from the straight way between start and end
+    double sagitta;           // how far any point of the line strays from the straight way between start and end
   };
   enum class Finding { free, touches, too_close, unknown };
 

@@ -7,7 +7,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_unseen = 32;
+constexpr std::size_t max_unseen = 32;
 constexpr std::chrono::milliseconds idle_every(100);
 
 }  // namespace
@@ -44,7 +44,7 @@ bool TrajectoryPieces::may_go_on() const {
   if (all_read_) return std::find(busy_.begin(), busy_.end(), true) == busy_.end();
   // Who is not busy waits here too, and takes what it has not seen as soon as it goes on.
   for (std::size_t other = 0; other < unseen_.size(); ++other)
-    if (busy_[other] && unseen_[other].size() >= most_unseen) return false;
+    if (busy_[other] && unseen_[other].size() >= max_unseen) return false;
   return true;
 }
 

@@ -21,7 +21,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double largest_tolerance_voxels = 0.04;
+constexpr double max_tolerance_voxels = 0.04;
 constexpr double joint_slack = 1e-9;
 // Joint values are stored in steps of 1e-7 rad or m, rounded to the inside of the limits: home may be that far aside.
 constexpr double home_slack = 1e-7 + joint_slack;
@@ -192,9 +192,9 @@ class Replay {
         std::abs(header().tool.shank_radius_m - tool.shank_radius_m) > length_slack_m ||
         std::abs(header().tool.stickout_m - tool.stickout_m) > length_slack_m)
       find("the header's tool is not the cell's");
-    if (header().tolerance_m > largest_tolerance_voxels * grid.voxel_m + length_slack_m)
+    if (header().tolerance_m > max_tolerance_voxels * grid.voxel_m + length_slack_m)
       find("the header's tolerance is " + text(header().tolerance_m / grid.voxel_m) + " voxels, more than " +
-           text(largest_tolerance_voxels));
+           text(max_tolerance_voxels));
     for (std::size_t at = 0; at < joints_.size(); ++at)
       if (std::abs(header().home[static_cast<Eigen::Index>(at)] - cell_.rest[static_cast<std::size_t>(joints_[at])]) >
           home_slack)

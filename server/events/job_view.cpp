@@ -37,7 +37,7 @@ Json job_view(const ViewSources& sources, const JobRecord& job) {
   view["priority"] = job.schedule.priority;
   view["mesh"] = spec.mesh.name;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);
-  view["search"] = spec.search.value_or(Job{}.search);
+  view["search"] = spec.search.value_or(name(Job{}.search));
   view["seed"] = spec.seed;
   view["resolution"] = spec.resolution;
   view["attempt"] = job.attempt;

@@ -1,7 +1,6 @@
 #include "server/run/translate.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "core/base/extension.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -54,10 +53,7 @@ CellFiles read_cell(const std::string& hash, const Blobs& blobs) {
 }  // namespace
 
 std::string mesh_kind(const std::string& name) {
-  std::string kind = std::filesystem::path(name).extension().string();
-  if (!kind.empty()) kind.erase(0, 1);
-  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return kind;
+  return extension_of(name);
 }
 
 JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {
@@ -77,7 +73,7 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
   job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
   job.cell = read_cell(cell_bundle, blobs);
   job.resolution = static_cast<int>(spec.resolution);
-  if (spec.search) job.search = *spec.search;
+  if (spec.search) job.search = parse_search(*spec.search);
   job.seed = spec.seed;
   job.threads = spec.threads.value_or(defaults.threads);
   job.allow_freed = spec.allow_freed;

@@ -16,6 +16,7 @@
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/progress_line.hpp"
 #include "clients/cli/report_table.hpp"
+#include "core/base/extension.hpp"
 #include "core/trajectory/export.hpp"
 
 namespace sculpt::cli {

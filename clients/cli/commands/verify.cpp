@@ -19,6 +19,7 @@
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/progress_line.hpp"
 #include "clients/cpp/client.hpp"
+#include "core/base/extension.hpp"
 #include "core/plan/intake.hpp"
 #include "core/trajectory/reader.hpp"
 

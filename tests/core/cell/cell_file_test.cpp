@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/cell/shipped_cells.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 
 namespace sculpt {

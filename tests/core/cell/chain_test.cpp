@@ -190,7 +190,7 @@ TEST(Chain, WithoutAMovableJointIsRefused) {
 
 TEST(Chain, OfTooManyJointsIsRefused) {
   std::string xml = R"(<robot name="snake"><link name="l0"/>)";
-  for (int joint = 0; joint <= most_joints; ++joint)
+  for (int joint = 0; joint <= max_joints; ++joint)
     xml += "<link name=\"l" + std::to_string(joint + 1) + "\"/><joint name=\"j" + std::to_string(joint) +
            "\" type=\"revolute\"><parent link=\"l" + std::to_string(joint) + "\"/><child link=\"l" +
            std::to_string(joint + 1) +
@@ -200,9 +200,9 @@ TEST(Chain, OfTooManyJointsIsRefused) {
     return Chain(robot, robot.find_link("l0"), robot.find_link("l" + std::to_string(link)), 0,
                  std::vector<double>(robot.joints.size(), 0.0));
   };
-  EXPECT_EQ(chain_to(most_joints).dof(), most_joints);
+  EXPECT_EQ(chain_to(max_joints).dof(), max_joints);
   try {
-    chain_to(most_joints + 1);
+    chain_to(max_joints + 1);
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), "urdf_invalid");

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/cell/shipped_cells.hpp"
+
 namespace sculpt {
 
 namespace {

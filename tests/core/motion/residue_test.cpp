@@ -14,7 +14,7 @@ std::vector<Residue> explain(const Cell& cell, const VoxelSet& keep, Voxel left)
   standing.insert(left);
   const VoxelGrid voxels{standing, keep};
   const Scene scene(cell, cell.grid(keep.n()), standing);
-  return explain_residue(scene, voxels, find_unheld(voxels), 0, 2, {});
+  return explain_residue(scene, voxels, find_unheld(voxels), {0, 2, {}});
 }
 
 TEST(Residue, AVoxelInTheOpenThatWasLeftLacksATransit) {
@@ -58,7 +58,7 @@ TEST(Residue, BelowAVoxelThatWasLeftForReachTheToolIsNotToBlame) {
   standing.insert({4, 4, 5});
   const Cell cell = parse_cell(files);
   const VoxelGrid voxels{standing, keep};
-  const auto residue = explain_residue(Scene(cell, cell.grid(8), standing), voxels, find_unheld(voxels), 0, 2, {});
+  const auto residue = explain_residue(Scene(cell, cell.grid(8), standing), voxels, find_unheld(voxels), {0, 2, {}});
   ASSERT_EQ(residue.size(), 2u);
   EXPECT_EQ(residue[0].reason, Reason::behind_out_of_reach);
   EXPECT_EQ(residue[1].reason, Reason::out_of_reach);

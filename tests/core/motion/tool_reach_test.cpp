@@ -89,7 +89,7 @@ TEST(ToolReach, IsJustWhatTheArmsSearchLeaves) {
     const std::vector<Voxel> never = find_out_of_tool_reach(VoxelSet(8, true), wanted, tool_steps(), length, {});
     out_of_reach += static_cast<int>(never.size());
     Job job = make_job(files, target, seed);
-    job.search = "octree";
+    job.search = Search::octree;
     const ScratchFile file;
     const JobResult result = run_job(job, file.path(), {});
     std::vector<Voxel> left;

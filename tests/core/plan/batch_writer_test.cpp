@@ -46,7 +46,7 @@ TEST(BatchWriter, HoldsBackWhileTooMuchWaits) {
   std::promise<void> allow;
   std::shared_future<void> allowed = allow.get_future().share();
   BatchWriter writer([allowed](const std::vector<Keyframe>&) { allowed.wait(); });
-  constexpr std::size_t third = BatchWriter::most_waiting / 3 + 1;
+  constexpr std::size_t third = BatchWriter::max_waiting / 3 + 1;
   std::atomic<int> added = 0;
   std::thread adder([&] {
     for (int at = 0; at < 12; ++at) {
@@ -81,7 +81,7 @@ TEST(BatchWriter, WhatWritingThrowsIsThrownToWhoeverAddsOrFinishes) {
 
 TEST(BatchWriter, AFailureEndsTheWaitOfWhoeverIsHeldBack) {
   BatchWriter writer([](const std::vector<Keyframe>&) { throw std::runtime_error("the disk is full"); });
-  EXPECT_THROW(for (;;) writer.add(numbered(0, BatchWriter::most_waiting / 2)), std::runtime_error);
+  EXPECT_THROW(for (;;) writer.add(numbered(0, BatchWriter::max_waiting / 2)), std::runtime_error);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(JobKey, DependsOnWhateverThePlanDependsOn) {
   std::vector<Job> others(10, job);
   others[0].seed = 1;
   others[1].resolution = 16;
-  others[2].search = "voxel";
+  others[2].search = Search::voxel;
   others[3].mesh.bytes.back() ^= 1;
   others[4].cell.cell_json += ' ';
   others[5].cell.files.begin()->second += ' ';

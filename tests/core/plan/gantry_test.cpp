@@ -22,7 +22,7 @@ struct Planned {
 };
 
 Planned plan(Job job, const std::string& search) {
-  job.search = search;
+  job.search = parse_search(search);
   const ScratchFile file;
   Planned planned{run_job(job, file.path(), {}), {}, {}};
   planned.trajectory = read_file(file.path());

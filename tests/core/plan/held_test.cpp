@@ -75,7 +75,7 @@ void expect_held(const std::filesystem::path& trajectory, const VoxelGrid& voxel
 
 std::uint64_t expect_held(const VoxelSet& target, const std::string& search, std::uint64_t seed) {
   Job job = make_job(shipped_cell("panda-turntable"), target, seed);
-  job.search = search;
+  job.search = parse_search(search);
   const ScratchFile file;
   const JobResult result = run_job(job, file.path(), {});
   expect_sound(result);

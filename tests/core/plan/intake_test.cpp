@@ -58,12 +58,35 @@ TEST(Intake, RefusesABinvoxOfAnotherResolution) {
   expect_refused(job, "resolution_invalid", "--resolution 8");
 }
 
+TEST(Intake, AMeshIsReadOnce) {
+  Job job;
+  job.cell = shipped_cell("gantry");
+  job.mesh = {read_file(SOURCE_DIR "/config/samples/bust.stl"), "stl", "bust.stl"};
+  for (const int resolution : {16, 64}) {  // the coarse grid of the check is the job's own, and is not
+    job.resolution = resolution;
+    int loads = 0;
+    Watch watch;
+    watch.tell = [&](const Progress& at) {
+      loads += at.stage == Stage::load && at.done == 0 && at.total == job.mesh.bytes.size();
+    };
+    CheckedJob checked = check_job(job, watch);
+    const VoxelGrid voxels = std::move(checked.shapes).take_voxels(checked.grid, watch);
+    EXPECT_EQ(loads, 1);
+    EXPECT_EQ(voxels.n(), resolution);
+    EXPECT_EQ(voxels.keep.words(), make_voxels(job, checked.grid, {}).keep.words());
+  }
+}
+
 TEST(Intake, RefusesUnknownSearchesAndNoThreads) {
-  Job job = sound_job();
-  job.search = "magic";
-  expect_refused(job, "search_unknown", "octree");
-  job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
-  job.search = "voxel";
+  try {
+    parse_search("magic");
+    FAIL() << "a search of that name";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), "search_unknown");
+    EXPECT_NE(std::string(error.what()).find("octree"), std::string::npos) << error.what();
+  }
+  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
+  job.search = Search::voxel;
   expect_refused(job, "search_unknown", "translating");
   job = sound_job();
   job.threads = 0;

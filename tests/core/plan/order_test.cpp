@@ -17,7 +17,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int most_effort = 2;
+constexpr int max_effort = 2;
 
 std::string text(const std::map<Voxel, Reason>& left) {
   std::string sentence = std::to_string(left.size()) + " voxels left:";
@@ -47,7 +47,7 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) left.push_back(block);
   Random random(order_seed);
-  for (int effort = 0; effort <= most_effort && !left.empty();) {
+  for (int effort = 0; effort <= max_effort && !left.empty();) {
     for (std::size_t b = left.size(); b-- > 1;) std::swap(left[b], left[random.next() % (b + 1)]);
     int removed = 0;
     std::erase_if(left, [&](const Block& block) {
@@ -58,7 +58,7 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
     if (removed == 0) ++effort;
   }
   std::map<Voxel, Reason> residue;
-  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), job.seed, 1, {}))
+  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), {job.seed, 1, {}}))
     residue[one.voxel] = one.reason;
   return residue;
 }

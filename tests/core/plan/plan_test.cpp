@@ -27,7 +27,7 @@ TEST(Plan, RandomShapesVoxelByVoxelLeaveTheSameAsTheOctree) {
     Job job = make_job(cell, random_target(seed % 2 == 0 ? 8 : 16, seed));
     const ScratchFile by_octree, by_voxel;
     const JobResult octree = run_job(job, by_octree.path(), {});
-    job.search = "voxel";
+    job.search = Search::voxel;
     const JobResult voxel = run_job(job, by_voxel.path(), {});
     expect_sound(voxel);
     EXPECT_EQ(voxel.report.voxels.removed, octree.report.voxels.removed);

@@ -129,7 +129,7 @@ class Resume : public testing::TestWithParam<Kind> {
     const CellFiles cell =
         std::string(GetParam().cell) == "clamped gantry" ? clamped_gantry() : shipped_cell(GetParam().cell);
     Job job = make_job(cell, random_target(GetParam().resolution, seed), seed);
-    job.search = GetParam().search;
+    job.search = parse_search(GetParam().search);
     job.threads = 1 + static_cast<int>(seed % 2);
     return job;
   }
@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Resume,
 
 Job arm_job() {
   Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 3), 3);
-  job.search = "octree";
+  job.search = Search::octree;
   return job;
 }
 
@@ -272,7 +272,7 @@ TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
 
 TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
   Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
-  job.search = "voxel";
+  job.search = Search::voxel;
   std::vector<Progress> told;
   const Outcome expected = uninterrupted(job, &told);
   const JobFolder folder(job);
@@ -292,7 +292,7 @@ TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
 
 TEST(ResumedRun, GoesOnWithAReplayWhereItWasStopped) {
   Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
-  job.search = "voxel";
+  job.search = Search::voxel;
   std::vector<Progress> told;
   const Outcome expected = uninterrupted(job, &told);
   const JobFolder folder(job);

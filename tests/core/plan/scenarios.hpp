@@ -14,7 +14,7 @@ inline Job scenario(const std::string& name, const std::string& cell, int resolu
   job.mesh = {read_file(std::filesystem::path(SOURCE_DIR) / "tests/scenarios" / file), extension, file};
   job.cell = shipped_cell(cell);
   job.resolution = resolution;
-  job.search = search;
+  job.search = parse_search(search);
   const double edge_m = 0.2 / 16;
   job.placement.scale_m = 1;
   // The vase's axis and the single voxel would stand between voxels at 16, the figure is not in the middle of its page.

@@ -48,7 +48,7 @@ class SweepRuns {
                                  [&](const SweepMemory& memory) {
                                    run.places.push_back({memory, run.keyframes.size(), scene.checks() - checks_before});
                                  }};
-    run.rest = carve_by_sweeps(scene, voxels_, may_fall_, home(scene), seed_, threads, start, listener, {});
+    run.rest = carve_by_sweeps(scene, {voxels_, may_fall_, home(scene)}, start, listener, {seed_, threads, {}});
     run.checks = scene.checks() - checks_before;
     return run;
   }

@@ -17,7 +17,7 @@ namespace {
 
 Job sweep_job(const CellFiles& cell, const VoxelSet& target, std::uint64_t seed = 0) {
   Job job = make_job(cell, target, seed);
-  job.search = "sweep";
+  job.search = Search::sweep;
   return job;
 }
 
@@ -32,7 +32,7 @@ TEST(Sweep, LeavesWhatOctreeLeavesForTheSameReasons) {
     const JobResult sweep = run_job(job, by_sweep.path(), {});
     EXPECT_EQ(sweep.report.search, "sweep");
     expect_sound(sweep);
-    job.search = "octree";
+    job.search = Search::octree;
     // What lies free for one of them lies free for the other, and what sweeps leave is tried by octree's own means. So
     // the sets are equal, unless a transit is found from one place and not from another: no seed here has that.
     EXPECT_EQ(left_of(sweep), left_of(run_job(job, by_octree.path(), {})));
@@ -157,8 +157,8 @@ TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
     const Scene scene(cell, cell.grid(16), voxels.stock);
     const Chain& chain = scene.chain();
     const Configuration home = rounded(cell.home(chain), chain.lower(), chain.upper());
-    const SweepRest rest = carve_by_sweeps(scene, voxels, find_unheld(voxels), home, seed, 2, {},
-                                           {[](const std::vector<Keyframe>&) {}}, {});
+    const SweepRest rest = carve_by_sweeps(scene, {voxels, find_unheld(voxels), home}, {},
+                                           {[](const std::vector<Keyframe>&) {}}, {seed, 2, {}});
     std::vector<Voxel> wanted;
     std::size_t standing = 0;
     for_each_voxel(voxels.stock, [&](Voxel v) {
@@ -198,7 +198,7 @@ TEST(Sweep, ATranslatingRobotCarvesByOctreeInstead) {
   const ScratchFile asked, other;
   const JobResult result = run_job(job, asked.path(), {});
   EXPECT_EQ(result.report.search, "octree");
-  job.search = "octree";
+  job.search = Search::octree;
   EXPECT_EQ(run_job(job, other.path(), {}).report.plan_sha256, result.report.plan_sha256);
 }
 

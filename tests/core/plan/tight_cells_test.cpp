@@ -46,7 +46,7 @@ Outcome plan(const TightMachine& machine, const VoxelSet& target, const std::str
   Outcome outcome;
   try {
     Job job = make_job(machine.files(), target);
-    job.search = search;
+    job.search = parse_search(search);
     outcome.result = run_job(job, file.path(), {});
     outcome.trajectory = read_file(file.path());
   } catch (const InputError& error) {

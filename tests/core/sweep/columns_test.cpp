@@ -57,9 +57,9 @@ class Replay {
     return grid.contains(voxel) && standing_.contains(voxel);
   }
 
-  /// Nothing stands at the cells that the tool, off by `stray`, can be in, nor above them.
-  void expect_free(const Vec3& at, double stray) const {
-    const double reach = 0.45 + stray;
+  /// Nothing stands at the cells that the tool, off by `tolerance`, can be in, nor above them.
+  void expect_free(const Vec3& at, double tolerance) const {
+    const double reach = 0.45 + tolerance;
     const auto low = [&](double x) { return static_cast<int>(std::lround(x - reach)); };
     const auto high = [&](double x) { return static_cast<int>(std::lround(x + reach)); };
     for (int b = low(at.y()); b <= high(at.y()); ++b)
@@ -70,7 +70,8 @@ class Replay {
   void pass(const Stroke& stroke) const {
     const int steps = 1 + static_cast<int>(10 * (stroke.to - at_).norm());
     for (int s = 0; s <= steps; ++s)
-      ASSERT_NO_FATAL_FAILURE(expect_free(at_ + (stroke.to - at_) * (static_cast<double>(s) / steps), stroke.stray));
+      ASSERT_NO_FATAL_FAILURE(
+          expect_free(at_ + (stroke.to - at_) * (static_cast<double>(s) / steps), stroke.tolerance));
   }
 
   void cut(const Stroke& stroke) {

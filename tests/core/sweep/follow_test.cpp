@@ -24,9 +24,9 @@ std::vector<Stroke> random_strokes(const PostureField& field, Random& random) {
   std::vector<Stroke> strokes;
   while (strokes.size() < 12) {
     const Voxel from{whole(n), whole(n), whole(n)};
-    const double stray = random.unit() < 0.5 ? 0.04 : 0.5;
+    const double tolerance = random.unit() < 0.5 ? 0.04 : 0.5;
     if (!field.usable(centre(from))) continue;
-    strokes.push_back({centre(from), 0, stray, {}, {}});
+    strokes.push_back({centre(from), 0, tolerance, {}, {}});
     const int axis = whole(3), way = random.unit() < 0.5 ? 1 : -1;
     const Voxel step{axis == 0 ? way : 0, axis == 1 ? way : 0, axis == 2 ? way : 0};
     const int count = 1 + whole(n);
@@ -57,7 +57,8 @@ void expect_near(const Configuration& from, const Configuration& to, double ball
 /// Plays keyframes against the strokes that they were made of.
 class Player {
  public:
-  explicit Player(const Stray& stray) : stray_(stray), here_(hub), q_(*PandaField::get().field.at(hub)) {}
+  explicit Player(const PathTolerance& tolerance)
+      : tolerance_(tolerance), here_(hub), q_(*PandaField::get().field.at(hub)) {}
 
   /// One stroke, from keyframe `at` (updated) on.
   void play(const Stroke& stroke, const std::vector<Keyframe>& keyframes, std::size_t& at) {
@@ -89,7 +90,7 @@ class Player {
     cut += length;
     ASSERT_LE(cut, stroke.count);
     // Beside material the allowance is the tool's own, and the ball is where it should be at each moment.
-    expect_near(q_, keyframe.q, stray_.ball, stray_.shank,
+    expect_near(q_, keyframe.q, tolerance_.ball, tolerance_.shank,
                 [&](double t, const ToolPose&) { return Vec3(from + along * (before + t * length)); });
   }
 
@@ -97,8 +98,8 @@ class Player {
     const PandaField& panda = PandaField::get();
     const Vec3 line = (stroke.to - from).normalized();
     const double length = (stroke.to - from).norm();
-    expect_near(q_, keyframe.q, std::max(stroke.stray, stray_.ball), std::max(stroke.stray, stray_.shank),
-                [&](double, const ToolPose& pose) {
+    expect_near(q_, keyframe.q, std::max(stroke.tolerance, tolerance_.ball),
+                std::max(stroke.tolerance, tolerance_.shank), [&](double, const ToolPose& pose) {
                   const Vec3 cell = (pose.ball_m - panda.grid.origin_m) / panda.grid.voxel_m - Vec3::Constant(0.5);
                   return Vec3(from + line * std::clamp(line.dot(cell - from), 0.0, length));
                 });
@@ -109,24 +110,24 @@ class Player {
     return (field.chain().tool_pose(q_).ball_m - field.ball_m(cell)).norm() < 1e-6;
   }
 
-  Stray stray_;
+  PathTolerance tolerance_;
   Vec3 here_;
   Configuration q_;
 };
 
 TEST(Follow, KeepsBallAndShankNearTheLineAndNamesEachVoxelOnceAndInOrder) {
   const PandaField& panda = PandaField::get();
-  const Stray stray = stray_of(panda.scene.tool(), panda.grid.voxel_m);
+  const PathTolerance tolerance = path_tolerance(panda.scene.tool(), panda.grid.voxel_m);
   std::size_t followed_strokes = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const std::vector<Stroke> strokes = random_strokes(panda.field, random);
-    const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+    const FollowedStrokes followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
     ASSERT_LE(followed.strokes, strokes.size());
     followed_strokes += followed.strokes;
     all += strokes.size();
-    Player player(stray);
+    Player player(tolerance);
     std::size_t at = 0;
     for (std::size_t stroke = 0; stroke < followed.strokes; ++stroke) {
       SCOPED_TRACE("stroke " + std::to_string(stroke));
@@ -147,11 +148,11 @@ TEST(Follow, GivesTheSameKeyframesWhateverComesLater) {
   for (std::uint64_t seed = 100; seed < 110; ++seed) {
     Random random(seed);
     const std::vector<Stroke> strokes = random_strokes(panda.field, random);
-    const Followed all = follow_first(strokes, strokes.size());
+    const FollowedStrokes all = follow_first(strokes, strokes.size());
     std::size_t keyframes = 0;
     for (std::size_t count = 0; count <= all.strokes; ++count) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", strokes " + std::to_string(count));
-      const Followed first = follow_first(strokes, count);
+      const FollowedStrokes first = follow_first(strokes, count);
       ASSERT_EQ(first.strokes, count);
       ASSERT_LE(first.keyframes.size(), all.keyframes.size());
       for (std::size_t at = 0; at < first.keyframes.size(); ++at) {
@@ -175,7 +176,7 @@ TEST(Follow, TakesOneKeyframeForEachOfManyShortStrokes) {
     }
     strokes.push_back({centre({row % 2 ? 4 : 10, row + 1, 12}), 0, 0.04, {}, {}});
   }
-  const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, {4, 4, 13}, strokes);
+  const FollowedStrokes followed = follow(panda.field, panda.scene.tool(), panda.grid, {4, 4, 13}, strokes);
   EXPECT_EQ(followed.strokes, strokes.size());
   EXPECT_EQ(followed.keyframes.size(), strokes.size());
 }
@@ -183,7 +184,7 @@ TEST(Follow, TakesOneKeyframeForEachOfManyShortStrokes) {
 TEST(Follow, KeyframesAreWhatIsStored) {
   const PandaField& panda = PandaField::get();
   Random random(7);
-  const Followed followed =
+  const FollowedStrokes followed =
       follow(panda.field, panda.scene.tool(), panda.grid, hub, random_strokes(panda.field, random));
   ASSERT_FALSE(followed.keyframes.empty());
   for (const Keyframe& keyframe : followed.keyframes) ASSERT_EQ(keyframe.q, rounded(keyframe.q));
@@ -193,7 +194,7 @@ TEST(Follow, LeavesOutAStrokeThatEndsWhereTheFieldIsNotUsable) {
   const PandaField& panda = PandaField::get();
   Vec3 nowhere(-40, 8, 8);  // far outside the grid, where clamping to a cell of the lattice gives no posture
   const std::vector<Stroke> strokes{{{8, 8, 15}, 0, 0.04, {}, {}}, {nowhere, 0, 0.04, {}, {}}};
-  const Followed followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
+  const FollowedStrokes followed = follow(panda.field, panda.scene.tool(), panda.grid, hub, strokes);
   EXPECT_EQ(followed.strokes, 1u);
   EXPECT_LT((panda.field.chain().tool_pose(followed.keyframes.back().q).ball_m - panda.field.ball_m({8, 8, 15})).norm(),
             1e-6);
@@ -213,7 +214,7 @@ TEST(Follow, NeverGoesThroughWhatStandsBetweenTwoUsablePlaces) {
     SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << from.transpose() << " to " << to.transpose());
     const auto start = field.at(from);
     if (!start) continue;
-    const Followed followed = follow(field, full.tool(), full.grid(), from, {{to, 0, 0.04, {}, {}}});
+    const FollowedStrokes followed = follow(field, full.tool(), full.grid(), from, {{to, 0, 0.04, {}, {}}});
     (followed.strokes == 1 ? followed_strokes : refused) += 1;
     Configuration q = *start;
     for (const Keyframe& keyframe : followed.keyframes) {
@@ -229,10 +230,10 @@ TEST(Follow, StrayIsWhatIsLeftOfAVoxelBesideTheTool) {
   Tool tool{};
   tool.ball_radius_m = 0.45e-3;
   tool.shank_radius_m = 0.40e-3;
-  EXPECT_NEAR(stray_of(tool, 1e-3).ball, 0.04, 1e-12) << "no more than the trajectory's tolerance";
-  EXPECT_NEAR(stray_of(tool, 1e-3).shank, 0.095, 1e-12);
+  EXPECT_NEAR(path_tolerance(tool, 1e-3).ball, 0.04, 1e-12) << "no more than the trajectory's tolerance";
+  EXPECT_NEAR(path_tolerance(tool, 1e-3).shank, 0.095, 1e-12);
   tool.ball_radius_m = 0.48e-3;
-  EXPECT_NEAR(stray_of(tool, 1e-3).ball, 0.015, 1e-12);
+  EXPECT_NEAR(path_tolerance(tool, 1e-3).ball, 0.015, 1e-12);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(PostureField, OfATiltedDirectionReachesPastTheSidesThatItLeansTo) {
   for (std::size_t which : {0u, 4u}) {
     const ToolView view = tilted_views(16)[which];
     SCOPED_TRACE(::testing::Message() << "axis " << view.axis().transpose());
-    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, which, 1, {});
+    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, {which, 1, {}});
     EXPECT_GT(field->usable_cells(), PostureField::all_cells() * 3 / 4);
     const Vec3 lean(view.lean.i, view.lean.j, view.lean.k), last = Vec3::Constant(15) + 2 * lean;
     Random random(which);
@@ -108,11 +108,11 @@ TEST(PostureField, OfATiltedDirectionReachesPastTheSidesThatItLeansTo) {
   }
 }
 
-/// Ball and shank for ball positions between two cells, off by `stray` voxel edges on all sides.
-bool tool_is_clear(const Scene& scene, const PostureField& field, const Vec3& from, const Vec3& to, double stray) {
+/// Ball and shank for ball positions between two cells, off by `tolerance` voxel edges on all sides.
+bool tool_is_clear(const Scene& scene, const PostureField& field, const Vec3& from, const Vec3& to, double tolerance) {
   const Tool& tool = scene.tool();
   const Vec3 a = field.ball_m(from), b = field.ball_m(to), reach = tool.stickout_m * field.view().axis();
-  const Vec3 around = Vec3::Constant(tool.ball_radius_m + stray * scene.grid().voxel_m);
+  const Vec3 around = Vec3::Constant(tool.ball_radius_m + tolerance * scene.grid().voxel_m);
   const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
   return scene.room_is_clear(low.cwiseMin(low + reach) - around, high.cwiseMax(high + reach) + around);
 }
@@ -131,7 +131,7 @@ TEST(PostureField, KeepsTheToolOffWhatStandsBesideTheStock) {
       const bool clear = tool_is_clear(scene, field, from, from, 0.04);
       in_the_way += !clear;
       ASSERT_TRUE(clear || !field.usable(from)) << from.transpose();
-      ASSERT_TRUE(!field.may_stray(from, to) || tool_is_clear(scene, field, from, to, 0.5));
+      ASSERT_TRUE(!field.allows_wide_path(from, to) || tool_is_clear(scene, field, from, to, 0.5));
     }
   }
   EXPECT_GT(in_the_way, 20);

@@ -114,21 +114,21 @@ TEST(PostureLanes, MoreStepsCloseALargerGap) {
 
 TEST(PostureLanes, ArePulledWhereTheToolLeavesFreedom) {
   const Chain chain = shipped_chain(panda()).chain();
-  const Pull pull{(chain.lower() + chain.upper()) / 2, 0.3};
+  const NullSpaceGoal goal{(chain.lower() + chain.upper()) / 2, 0.3};
   int nearer = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Around around(chain, seed, 0.01, 0.01, 0.1);
     const PostureLanes lanes(chain, around.pose.axis);
     PostureBatch free = around.batch, pulled = around.batch;
     lanes.solve(free, 6);
-    lanes.solve(pulled, 6, &pull);
+    lanes.solve(pulled, 6, &goal);
     for (int lane = 0; lane < lane_count; ++lane) {
       const auto at = static_cast<std::size_t>(lane);
       if (!free.solved(lane) || !pulled.solved(lane) || free.ball_off_m[at] > 1e-6 || pulled.ball_off_m[at] > 1e-6)
         continue;
       ++all;
-      nearer += (pulled.q.get(lane, chain.dof()) - pull.towards).norm() <
-                (free.q.get(lane, chain.dof()) - pull.towards).norm();
+      nearer += (pulled.q.get(lane, chain.dof()) - goal.towards).norm() <
+                (free.q.get(lane, chain.dof()) - goal.towards).norm();
     }
   }
   EXPECT_GT(all, 1000);
@@ -180,15 +180,15 @@ TEST(PostureLanes, BendAsTheDifferencesOfTheToolSay) {
         edges.from.set(lane, from);
         edges.to.set(lane, nearby(from, random, 0.7));
       }
-      lanes.bend(edges);
+      lanes.derive(edges);
       for (int lane = 0; lane < lane_count; ++lane) {
         const Configuration from = edges.from.get(lane, chain.dof()), step = edges.to.get(lane, chain.dof()) - from;
         const auto [ball, top] = tool_derivatives(chain, from + 0.5 * step, step);
         const auto at = static_cast<std::size_t>(lane);
-        ASSERT_NEAR(edges.ball_bend_m[at], ball.second_m.norm(), 1e-5);
-        ASSERT_NEAR(edges.top_bend_m[at], top.second_m.norm(), 1e-5);
-        ASSERT_NEAR(edges.ball_change_m[at], ball.third_m.norm(), 1e-4);
-        ASSERT_NEAR(edges.top_change_m[at], top.third_m.norm(), 1e-4);
+        ASSERT_NEAR(edges.ball_second_derivative[at], ball.second_m.norm(), 1e-5);
+        ASSERT_NEAR(edges.top_second_derivative[at], top.second_m.norm(), 1e-5);
+        ASSERT_NEAR(edges.ball_third_derivative[at], ball.third_m.norm(), 1e-4);
+        ASSERT_NEAR(edges.top_third_derivative[at], top.third_m.norm(), 1e-4);
       }
     }
   }
@@ -237,7 +237,7 @@ TEST(PostureLanes, GiveTheSameBitsOnAllTargets) {
   int tried = 0;
   for (const SampleChain& sample : sample_chains()) {
     const Chain chain = sample.chain();
-    const Pull pull{(chain.lower() + chain.upper()) / 2, 0.1};
+    const NullSpaceGoal goal{(chain.lower() + chain.upper()) / 2, 0.1};
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       SCOPED_TRACE(sample.title + ", seed " + std::to_string(seed));
       const Around around(chain, seed, 0.005, 0.01);
@@ -248,11 +248,11 @@ TEST(PostureLanes, GiveTheSameBitsOnAllTargets) {
         hwy::SetSupportedTargetsForTest(left & -left);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         PostureBatch batch = around.batch;
-        lanes.solve(batch, 2, &pull);
+        lanes.solve(batch, 2, &goal);
         EdgeBatch edges;
         edges.from = around.batch.q;
         edges.to = batch.q;
-        lanes.bend(edges);
+        lanes.derive(edges);
         if (left == targets) {
           first = batch;
           first_edges = edges;
@@ -264,10 +264,10 @@ TEST(PostureLanes, GiveTheSameBitsOnAllTargets) {
         }
         ASSERT_TRUE(same_bits(batch.ball_off_m, first.ball_off_m));
         ASSERT_TRUE(same_bits(batch.top_off_m, first.top_off_m));
-        ASSERT_TRUE(same_bits(edges.ball_bend_m, first_edges.ball_bend_m));
-        ASSERT_TRUE(same_bits(edges.top_bend_m, first_edges.top_bend_m));
-        ASSERT_TRUE(same_bits(edges.ball_change_m, first_edges.ball_change_m));
-        ASSERT_TRUE(same_bits(edges.top_change_m, first_edges.top_change_m));
+        ASSERT_TRUE(same_bits(edges.ball_second_derivative, first_edges.ball_second_derivative));
+        ASSERT_TRUE(same_bits(edges.top_second_derivative, first_edges.top_second_derivative));
+        ASSERT_TRUE(same_bits(edges.ball_third_derivative, first_edges.ball_third_derivative));
+        ASSERT_TRUE(same_bits(edges.top_third_derivative, first_edges.top_third_derivative));
       }
     }
   }

@@ -78,7 +78,7 @@ class Replay {
       ASSERT_FALSE(keep_.contains(*exempt));
       ASSERT_EQ(in_voxels(to), Vec3(exempt->i + 0.5, exempt->j + 0.5, exempt->k + 0.5));
     }
-    const double radius = stroke.stray > 0 ? 0.45 + stroke.stray : 0.5 - 1e-6;
+    const double radius = stroke.tolerance > 0 ? 0.45 + stroke.tolerance : 0.5 - 1e-6;
     const int samples = 1 + static_cast<int>(16 * (to - from).norm());
     for (int s = 0; s <= samples; ++s) {
       const Vec3 cell = from + (to - from) * (static_cast<double>(s) / samples), ball = in_voxels(cell);

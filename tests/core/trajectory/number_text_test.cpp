@@ -16,7 +16,7 @@ namespace sculpt {
 namespace {
 
 std::string written(double value) {
-  std::array<char, longest_number> out;
+  std::array<char, max_number_bytes> out;
   return {out.data(), write_number(out.data(), value)};
 }
 
@@ -31,8 +31,8 @@ void expect_shortest(double value) {
 
 TEST(NumberText, IsTheShortestFormOfEveryMultipleOfTheQuantum) {
   for (std::int64_t quanta = 0; quanta < 1'100'000; ++quanta) expect_shortest(from_quanta(quanta));
-  for (std::int64_t size = 1; size <= most_quanta; size *= 10)
-    for (std::int64_t factor = 1; factor < 100 && factor * size <= most_quanta; ++factor)
+  for (std::int64_t size = 1; size <= max_quanta; size *= 10)
+    for (std::int64_t factor = 1; factor < 100 && factor * size <= max_quanta; ++factor)
       for (std::int64_t aside : {-1, 0, 1}) {
         expect_shortest(from_quanta(factor * size + aside));
         expect_shortest(-from_quanta(factor * size + aside));
@@ -40,7 +40,7 @@ TEST(NumberText, IsTheShortestFormOfEveryMultipleOfTheQuantum) {
   Random random(1);
   for (int n = 0; n < 500'000; ++n) {
     SCOPED_TRACE(n);
-    const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % most_quanta;
+    const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % max_quanta;
     expect_shortest(from_quanta(random.next() % 2 == 0 ? quanta : -quanta));
   }
 }
@@ -64,7 +64,7 @@ TEST(NumberText, RefusesWhatIsNotFinite) {
 TEST(Quantum, ComesBackFromEveryMultiple) {
   Random random(3);
   for (int n = 0; n < 1'000'000; ++n) {
-    const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % (most_quanta + 1);
+    const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % (max_quanta + 1);
     ASSERT_EQ(to_quanta(from_quanta(quanta)), quanta);
     ASSERT_EQ(to_quanta(-from_quanta(quanta)), -quanta);
   }

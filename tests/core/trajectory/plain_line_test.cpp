@@ -10,7 +10,7 @@ namespace sculpt {
 namespace {
 
 std::string line_of(const Keyframe& keyframe) {
-  std::vector<char> out(longest_keyframe_line(static_cast<std::size_t>(keyframe.q.size())));
+  std::vector<char> out(max_keyframe_line_bytes(static_cast<std::size_t>(keyframe.q.size())));
   return {out.data(), write_keyframe_line(out.data(), keyframe) - 1};
 }
 

@@ -48,7 +48,7 @@ inline double random_value(Random& random) {
 
 // Multiples of the quantum of any size, with zeros among them.
 inline double random_stored_value(Random& random) {
-  const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % (most_quanta + 1);
+  const auto quanta = static_cast<std::int64_t>(random.next() >> (14 + random.next() % 50)) % (max_quanta + 1);
   return from_quanta(random.next() % 2 == 0 ? quanta : -quanta);
 }
 

@@ -172,7 +172,7 @@ TEST(BendLimit, IsNeverExceededAndZeroWithoutTurns) {
       for (int link = 0; link < 10; ++link) {
         const auto joints = sample.motion.joints_between(base, link);
         const auto b = static_cast<std::size_t>(base), l = static_cast<std::size_t>(link);
-        const double limit = bend_limit(joints, middle, 0.5 * sample.step.cwiseAbs(), middle[l] * local);
+        const double limit = sagitta_bound(joints, middle, 0.5 * sample.step.cwiseAbs(), middle[l] * local);
         if (std::none_of(joints.begin(), joints.end(), [](const MovingJoint& joint) { return joint.turns; })) {
           EXPECT_EQ(limit, 0);
         }

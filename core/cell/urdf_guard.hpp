@@ -1,0 +1,12 @@
+// What a URDF could do to urdfdom, or be misread as, refused before it is parsed.
+#pragma once
+
+#include <string>
+
+namespace sculpt {
+
+/// Throws InputError `urdf_invalid` for a text that is too large, nests so deep that a recursive parser runs out of
+/// stack, or is a xacro source.
+void check_urdf(const std::string& xml);
+
+}  // namespace sculpt

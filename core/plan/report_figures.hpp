@@ -1,0 +1,23 @@
+// What came of each stage -> the figures of the report.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/watch.hpp"
+#include "core/collision/scene.hpp"
+#include "core/material/octree.hpp"
+#include "core/plan/path_figures.hpp"
+#include "core/plan/report.hpp"
+#include "core/verify/verify.hpp"
+
+namespace sculpt {
+
+void count_voxels(Report& report, const VoxelGrid& voxels, const Doubts& doubts, const Octree& octree);
+void list_unchecked_links(Report& report, const Scene& scene);
+/// `checks`: configurations tested for it.
+void count_path(Report& report, const PathFigures& figures, double voxel_m, std::uint64_t checks);
+void count_residue(Report& report, const std::vector<Residue>& residue);
+void count_replay(Report& report, const Verdict& verdict);
+
+}  // namespace sculpt
