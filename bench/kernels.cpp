@@ -6,15 +6,15 @@
 #include <iterator>
 
 #include "core/material/block_graph.hpp"
-#include "core/material/mesh_file.hpp"
-#include "core/material/voxelize.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "core/motion/line.hpp"
 #include "core/motion/transit.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
+#include "core/solid/voxelize.hpp"
 #include "core/sweep/columns.hpp"
+#include "core/sweep/field/posture_lanes.hpp"
 #include "core/sweep/follow.hpp"
-#include "core/sweep/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {

@@ -15,7 +15,7 @@ struct BlobRef {
   std::string name;  ///< file name of the client; its extension says what the blob is
 };
 
-/// Metres and radians; meaning as in core/material/placement.hpp.
+/// Metres and radians; meaning as in core/solid/placement.hpp.
 struct PlacementSpec {
   std::optional<double> scale_m;
   std::array<double, 3> rotation_rad{};

@@ -12,6 +12,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/base/log.hpp"
 #include "server/base/settled_config.hpp"
+#include "server/confine/confinement.hpp"
 #include "server/files/data_folder.hpp"
 #include "server/listener.hpp"
 #include "server/net/net.hpp"
@@ -21,7 +22,6 @@
 #include "server/ops/store_opening.hpp"
 #include "server/queue/stage_times.hpp"
 #include "server/results/retention.hpp"
-#include "server/run/confinement.hpp"
 #include "server/run/isolated_run.hpp"
 #include "server/run/job_run.hpp"
 

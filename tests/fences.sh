@@ -27,40 +27,39 @@ forbid "the client library knows only proto" "$(include '(core|server|clients/cl
 forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
-# The data flow inside core: a folder sees only what stands before it.
-forbid "base is the first" "$(include 'core/(material|cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/base
-forbid "material comes before cells" "$(include 'core/(cell|trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/material
-forbid "cells come before trajectories" "$(include 'core/(trajectory|collision|search|motion|sweep|verify|plan)/')" -- core/cell
-forbid "trajectory sees base, material and cell" "$(include 'core/(collision|search|motion|sweep|verify|plan)/')" -- core/trajectory
-forbid "collision comes before planning" "$(include 'core/(trajectory|search|motion|sweep|verify|plan)/')" -- core/collision
-forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision|motion|sweep|verify|plan)/')" -- core/search
-forbid "motion comes before sweep and verify" "$(include 'core/(sweep|verify|plan)/')" -- core/motion
-forbid "sweep comes after motion" "$(include 'core/(verify|plan)/')" -- core/sweep
+# The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
+core_folders=(base mesh material solid cell trajectory collision search motion sweep verify plan)
+for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
+  above=$(IFS='|' && echo "${core_folders[*]:i+1}")
+  forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
+done
+forbid "voxels know no mesh" "$(include 'core/mesh/')" -- core/material
+forbid "collision knows no trajectory" "$(include 'core/trajectory/')" -- core/collision
+forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision)/')" -- core/search
 forbid "planners know keyframes, not how a file of them is read or written" \
-  "$(include 'core/trajectory/(binary|export|file_segment|form|header|number_text|plain_line|reader|segment|text_source|trajectory_|writer)')" -- core/motion core/sweep
+  "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
 forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
-forbid "only plan sees all stages" "$(include 'core/plan/')" -- core/base core/material core/cell core/collision core/search core/motion core/trajectory core/verify core/sweep
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
-server_folders=(base files store run queue results access net events api http ops)
+server_folders=(base files store confine run queue results access net events api http ops)
 for ((i = 0; i < ${#server_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${server_folders[*]:i+1}")
   forbid "server/${server_folders[i]} stands below ${above//|/, }" "$(include "server/(${above:+($above)/|}[a-z_]+\.hpp)")" -- "server/${server_folders[i]}"
 done
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
-fcl_headers='collision/fcl_shape|collision/shape_contact|verify/solid_body|verify/standing_voxels|verify/tool_replay'
-forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'material/mesh_file\.cpp')" -- core server proto clients
+fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/standing_voxels|verify/tool_replay'
+forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'mesh/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
-forbid "TinyXML-2 only in verify/urdf_text.cpp" "$(include 'tinyxml2')" "$(door 'verify/urdf_text\.cpp')" -- core server proto clients
-forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
-forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_]+\.[ch]pp')" -- core server clients
-forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_]+\.[ch]pp')" -- core server clients
-forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/posture_lanes\.cpp')" -- core server proto clients
+forbid "TinyXML-2 only in verify/robot/urdf_text.cpp" "$(include 'tinyxml2')" "$(door 'verify/robot/urdf_text\.cpp')" -- core server proto clients
+forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_/]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
+forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/shape/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_/]+\.[ch]pp')" -- core server clients
+forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
+forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/field/posture_lanes\.cpp')" -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
-forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/run/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
+  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.
 forbid "no header of core names fcl::, ompl::, octomap:: or ai..." '\b(fcl|ompl|octomap|urdf)::|\bai(Scene|Mesh|Node|Vector3D)\b' "\.cpp$|$(door "($fcl_headers)\.hpp")" -- core

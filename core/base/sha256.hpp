@@ -1,5 +1,5 @@
-// Content hashes. By Nettle: it has nothing to start, where OpenSSL takes more than a millisecond, a twentieth of a short
-// plan.
+// Content hashes. By Nettle: it has nothing to start, where OpenSSL takes more than a millisecond, a twentieth of a
+// short plan.
 #pragma once
 
 #include <nettle/sha2.h>

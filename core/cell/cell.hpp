@@ -17,23 +17,24 @@ using LinkPair = std::pair<int, int>;
 
 /// Everything a cell is made of, as bytes: it can be sent to a machine that does not share this disk.
 struct CellFiles {
-  std::string name;                          ///< file name without extension
+  std::string name;  ///< file name without extension
   std::string cell_json;
-  std::map<std::string, std::string> files;  ///< the URDF under its name in the cell file, each mesh under its reference in the URDF
+  std::map<std::string, std::string>
+      files;  ///< the URDF under its name in the cell file, each mesh under its reference in the URDF
 };
 
 struct Cell {
   std::string name;
-  std::string urdf;                          ///< the text that `robot` was read from; empty for a cell made in code
+  std::string urdf;  ///< the text that `robot` was read from; empty for a cell made in code
   Robot robot;
   int stock_link = -1;
   int tool_link = -1;
-  double stock_size_m = 0;                   ///< edge of the grid's cube
-  Vec3 stock_origin_m = Vec3::Zero();        ///< corner of voxel (0,0,0) in the stock link's frame
+  double stock_size_m = 0;             ///< edge of the grid's cube
+  Vec3 stock_origin_m = Vec3::Zero();  ///< corner of voxel (0,0,0) in the stock link's frame
   ToolSpec tool;
-  std::vector<double> rest;                  ///< value of every robot joint at home
-  std::vector<LinkPair> ignore_pairs;        ///< may touch, whatever is found out about them; sorted, none twice
-  std::vector<LinkPair> check_pairs;         ///< must not touch, whatever is found out about them; sorted, none twice
+  std::vector<double> rest;            ///< value of every robot joint at home
+  std::vector<LinkPair> ignore_pairs;  ///< may touch, whatever is found out about them; sorted, none twice
+  std::vector<LinkPair> check_pairs;   ///< must not touch, whatever is found out about them; sorted, none twice
 
   Grid grid(int n) const { return {n, stock_size_m / n, stock_origin_m}; }
   /// The cell must outlive the chain.
@@ -42,11 +43,13 @@ struct Cell {
   Configuration home(const Chain& chain) const;
 };
 
-/// Reads the cell file, its URDF and every mesh it refers to. package://NAME/rest is looked for under the cell file's "packages" map, else in
-/// each folder above the URDF (NAME itself or a sub-folder NAME), else in ROS_PACKAGE_PATH. Throws InputError `cell_invalid` or `file_missing`.
+/// Reads the cell file, its URDF and every mesh it refers to. package://NAME/rest is looked for under the cell file's
+/// "packages" map, else in each folder above the URDF (NAME itself or a sub-folder NAME), else in ROS_PACKAGE_PATH.
+/// Throws InputError `cell_invalid` or `file_missing`.
 CellFiles read_cell_files(const std::filesystem::path& path);
 
-/// Throws InputError `cell_invalid` (unknown or missing fields with their JSON pointer, link or joint names that do not exist, home outside limits) or `urdf_invalid`.
+/// Throws InputError `cell_invalid` (unknown or missing fields with their JSON pointer, link or joint names that do not
+/// exist, home outside limits) or `urdf_invalid`.
 Cell parse_cell(const CellFiles& files);
 
 }  // namespace sculpt

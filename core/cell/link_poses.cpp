@@ -4,9 +4,12 @@ namespace sculpt {
 
 Frame joint_pose(const Joint& joint, double value) {
   switch (joint.kind) {
-    case JointKind::fixed: return joint.origin;
-    case JointKind::revolute: return joint.origin * Eigen::AngleAxisd(value, joint.axis);
-    case JointKind::prismatic: return joint.origin * Eigen::Translation3d(value * joint.axis);
+    case JointKind::fixed:
+      return joint.origin;
+    case JointKind::revolute:
+      return joint.origin * Eigen::AngleAxisd(value, joint.axis);
+    case JointKind::prismatic:
+      return joint.origin * Eigen::Translation3d(value * joint.axis);
   }
   return joint.origin;
 }

@@ -3,7 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/extension.hpp"
 #include "core/base/watch.hpp"
-#include "core/material/mesh_file.hpp"
+#include "core/mesh/mesh_file.hpp"
 
 namespace sculpt {
 namespace {

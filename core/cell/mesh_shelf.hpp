@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/frame.hpp"
-#include "core/material/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace sculpt {
 

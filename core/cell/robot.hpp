@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/frame.hpp"
-#include "core/material/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace sculpt {
 
@@ -17,12 +17,12 @@ enum class ShapeKind { sphere, box, cylinder, mesh };
 struct Shape {
   ShapeKind kind = ShapeKind::box;
   Frame pose = Frame::Identity();
-  Vec3 sides_m = Vec3::Zero();            ///< box: full sides
-  double radius_m = 0;                    ///< sphere, cylinder
-  double length_m = 0;                    ///< cylinder
-  std::shared_ptr<const Mesh> mesh;       ///< mesh: in metres (URDF scale applied)
-  std::string mesh_file;                  ///< mesh: its reference as the URDF writes it
-  Vec3 mesh_scale = Vec3::Ones();         ///< mesh: the URDF's scale, applied already
+  Vec3 sides_m = Vec3::Zero();       ///< box: full sides
+  double radius_m = 0;               ///< sphere, cylinder
+  double length_m = 0;               ///< cylinder
+  std::shared_ptr<const Mesh> mesh;  ///< mesh: in metres (URDF scale applied)
+  std::string mesh_file;             ///< mesh: its reference as the URDF writes it
+  Vec3 mesh_scale = Vec3::Ones();    ///< mesh: the URDF's scale, applied already
 };
 
 struct Link {
@@ -33,7 +33,8 @@ struct Link {
 
 enum class JointKind { fixed, revolute, prismatic };
 
-/// Child frame = parent frame * origin * (turn by q about `axis` | shift by q along `axis`). Continuous joints are revolute with limits of -2 pi and 2 pi.
+/// Child frame = parent frame * origin * (turn by q about `axis` | shift by q along `axis`). Continuous joints are
+/// revolute with limits of -2 pi and 2 pi.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
@@ -41,9 +42,9 @@ struct Joint {
   int child_link = -1;
   Frame origin = Frame::Identity();
   Vec3 axis = Vec3::UnitZ();
-  double lower = 0, upper = 0;   ///< rad or m
-  double max_speed = 0;          ///< rad/s or m/s; 0 = not given
-  int mimic = -1;                ///< joint that this one follows: q = multiplier * q_mimic + offset
+  double lower = 0, upper = 0;  ///< rad or m
+  double max_speed = 0;         ///< rad/s or m/s; 0 = not given
+  int mimic = -1;               ///< joint that this one follows: q = multiplier * q_mimic + offset
   double mimic_multiplier = 1, mimic_offset = 0;
 };
 
@@ -59,8 +60,9 @@ struct Robot {
   int find_joint(const std::string& joint) const;
 };
 
-/// `read_file` returns the bytes behind a mesh reference exactly as the URDF writes it (package:// or relative); it throws InputError where it cannot.
-/// Throws InputError `urdf_invalid` (malformed, no links, floating or planar joints, a mimic that names nothing, non-positive sizes).
+/// `read_file` returns the bytes behind a mesh reference exactly as the URDF writes it (package:// or relative); it
+/// throws InputError where it cannot. Throws InputError `urdf_invalid` (malformed, no links, floating or planar joints,
+/// a mimic that names nothing, non-positive sizes).
 Robot parse_urdf(const std::string& xml, const std::function<std::string(const std::string& reference)>& read_file);
 
 }  // namespace sculpt

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/collision/fcl_shape.hpp"
+#include "core/collision/shape/fcl_shape.hpp"
 
 namespace sculpt {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/collision/body.hpp"
 #include "core/collision/material.hpp"
+#include "core/collision/shape/body.hpp"
 
 namespace sculpt {
 

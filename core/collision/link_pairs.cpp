@@ -4,8 +4,8 @@
 #include <array>
 #include <set>
 
-#include "core/collision/motion_bound.hpp"
-#include "core/collision/shape_contact.hpp"
+#include "core/collision/shape/motion_bound.hpp"
+#include "core/collision/shape/shape_contact.hpp"
 
 namespace sculpt {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/collision/distance.hpp"
+#include "core/collision/shape/distance.hpp"
 #include "core/material/voxel_set.hpp"
 
 namespace sculpt {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/cell/cell.hpp"
-#include "core/collision/body.hpp"
 #include "core/collision/bubble.hpp"
 #include "core/collision/clearance.hpp"
 #include "core/collision/contact.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
-#include "core/collision/motion_bound.hpp"
+#include "core/collision/shape/body.hpp"
+#include "core/collision/shape/motion_bound.hpp"
 #include "core/collision/tool_sweep.hpp"
 
 namespace sculpt {

@@ -1,5 +1,5 @@
-// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the second derivative
-// between.
+// Tool against material along an edge: ball and shank swept, bounded by exact end poses and a bound on the second
+// derivative between.
 #pragma once
 
 #include <functional>

@@ -8,10 +8,12 @@
 
 namespace sculpt {
 
-/// Header "#binvox 1", dim n n n, translate = `grid.origin_m`, scale = n * voxel_m, then data in the format's order (y fastest, then z, then x).
+/// Header "#binvox 1", dim n n n, translate = `grid.origin_m`, scale = n * voxel_m, then data in the format's order (y
+/// fastest, then z, then x).
 std::string write_binvox(const VoxelSet& voxels, const Grid& grid);
 
-/// Throws InputError `binvox_invalid` (names what is wrong: header, dimensions not cubic, runs too short or too long...).
+/// Throws InputError `binvox_invalid` (names what is wrong: header, dimensions not cubic, runs too short or too
+/// long...).
 VoxelSet read_binvox(std::string_view bytes);
 
 }  // namespace sculpt

@@ -20,11 +20,17 @@ struct Voxel {
 /// The six face directions: -x +x -y +y -z +z.
 inline constexpr std::array<Voxel, 6> face_steps{{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
-constexpr int sign(int x) { return (x > 0) - (x < 0); }
+constexpr int sign(int x) {
+  return (x > 0) - (x < 0);
+}
 /// Of each coordinate: of a way along one axis the step.
-constexpr Voxel sign(Voxel way) { return {sign(way.i), sign(way.j), sign(way.k)}; }
+constexpr Voxel sign(Voxel way) {
+  return {sign(way.i), sign(way.j), sign(way.k)};
+}
 
-inline int l1(Voxel a, Voxel b) { return std::abs(a.i - b.i) + std::abs(a.j - b.j) + std::abs(a.k - b.k); }
+inline int l1(Voxel a, Voxel b) {
+  return std::abs(a.i - b.i) + std::abs(a.j - b.j) + std::abs(a.k - b.k);
+}
 
 /// A cube of n x n x n voxels of edge `voxel_m`; `origin_m` is the corner of voxel (0,0,0), all in the stock frame.
 struct Grid {
@@ -33,9 +39,7 @@ struct Grid {
   Vec3 origin_m = Vec3::Zero();
 
   Vec3 centre(Voxel v) const { return origin_m + voxel_m * Vec3(v.i + 0.5, v.j + 0.5, v.k + 0.5); }
-  bool contains(Voxel v) const {
-    return v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i < n && v.j < n && v.k < n;
-  }
+  bool contains(Voxel v) const { return v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i < n && v.j < n && v.k < n; }
 };
 
 }  // namespace sculpt

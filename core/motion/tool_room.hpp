@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/collision/body.hpp"
 #include "core/collision/scene.hpp"
+#include "core/collision/shape/body.hpp"
 
 namespace sculpt {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/motion/arm_carve.hpp"
-#include "core/motion/gantry_carve.hpp"
+#include "core/motion/gantry/gantry_carve.hpp"
 #include "core/sweep/sweep.hpp"
 
 namespace sculpt {

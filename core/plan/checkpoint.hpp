@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/motion/arm.hpp"
-#include "core/motion/gantry.hpp"
+#include "core/motion/gantry/gantry.hpp"
 #include "core/motion/residue.hpp"
 #include "core/search/block_order.hpp"
 #include "core/sweep/sweep_memory.hpp"

@@ -5,8 +5,8 @@
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
 #include "core/material/loose_pieces.hpp"
-#include "core/material/mesh_file.hpp"
 #include "core/material/resolution.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "core/motion/random_configuration.hpp"
 
 namespace sculpt {

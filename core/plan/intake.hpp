@@ -7,10 +7,10 @@
 
 #include "core/base/watch.hpp"
 #include "core/cell/cell.hpp"
-#include "core/material/mesh.hpp"
 #include "core/material/voxel_grid.hpp"
-#include "core/material/voxelize.hpp"
+#include "core/mesh/mesh.hpp"
 #include "core/plan/job.hpp"
+#include "core/solid/voxelize.hpp"
 
 namespace sculpt {
 

@@ -7,8 +7,8 @@
 
 #include "core/base/frame.hpp"
 #include "core/cell/cell.hpp"
-#include "core/material/placement.hpp"
 #include "core/search/search.hpp"
+#include "core/solid/placement.hpp"
 
 namespace sculpt {
 

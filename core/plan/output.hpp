@@ -10,7 +10,7 @@
 #include "core/base/watch.hpp"
 #include "core/plan/batch_writer.hpp"
 #include "core/plan/path_figures.hpp"
-#include "core/trajectory/binary.hpp"
+#include "core/trajectory/binary/binary.hpp"
 #include "core/trajectory/form.hpp"
 #include "core/trajectory/writer.hpp"
 

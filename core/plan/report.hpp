@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/motion/residue.hpp"
-#include "core/verify/exempt_pair.hpp"
+#include "core/verify/robot/exempt_pair.hpp"
 
 namespace sculpt {
 

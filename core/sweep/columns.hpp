@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/sweep/reach_rows.hpp"
+#include "core/sweep/reach/reach_rows.hpp"
 #include "core/sweep/stroke.hpp"
 
 namespace sculpt {

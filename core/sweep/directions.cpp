@@ -6,7 +6,7 @@
 #include "core/base/helpers.hpp"
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
-#include "core/sweep/find_field.hpp"
+#include "core/sweep/field/find_field.hpp"
 
 namespace sculpt {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/run_context.hpp"
-#include "core/sweep/posture_field.hpp"
-#include "core/sweep/reach_rows.hpp"
+#include "core/sweep/field/posture_field.hpp"
+#include "core/sweep/reach/reach_rows.hpp"
 #include "core/sweep/stock_turn.hpp"
 
 namespace sculpt {

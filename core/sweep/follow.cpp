@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/collision/margins.hpp"
-#include "core/collision/motion_bound.hpp"
-#include "core/sweep/posture_lanes.hpp"
+#include "core/collision/shape/motion_bound.hpp"
+#include "core/sweep/field/posture_lanes.hpp"
 
 namespace sculpt {
 namespace {

@@ -16,7 +16,7 @@
 // where a cut of one voxel is refused the strokes end.
 #pragma once
 
-#include "core/sweep/posture_field.hpp"
+#include "core/sweep/field/posture_field.hpp"
 #include "core/sweep/stroke.hpp"
 #include "core/trajectory/keyframe.hpp"
 

@@ -20,9 +20,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/sweep/reach/tool_shadow.hpp"
+#include "core/sweep/reach/tool_view.hpp"
 #include "core/sweep/stroke.hpp"
-#include "core/sweep/tool_shadow.hpp"
-#include "core/sweep/tool_view.hpp"
 
 namespace sculpt {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/motion_bound.hpp"
+#include "core/collision/shape/motion_bound.hpp"
 
 namespace sculpt {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/cell/chain.hpp"
-#include "core/material/placement.hpp"
+#include "core/solid/placement.hpp"
 
 namespace sculpt {
 

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <string>
 
-#include "core/trajectory/binary.hpp"
+#include "core/trajectory/binary/binary.hpp"
 #include "core/trajectory/reader.hpp"
 #include "core/trajectory/trajectory_line.hpp"
 #include "core/trajectory/writer.hpp"

@@ -2,8 +2,8 @@
 
 #include <istream>
 
-#include "core/trajectory/binary_frame.hpp"
-#include "core/trajectory/binary_source.hpp"
+#include "core/trajectory/binary/binary_frame.hpp"
+#include "core/trajectory/binary/binary_source.hpp"
 #include "core/trajectory/text_source.hpp"
 
 namespace sculpt {

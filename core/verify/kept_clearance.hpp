@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/verify/link_motion.hpp"
 #include "core/verify/replay_finding.hpp"
+#include "core/verify/robot/link_motion.hpp"
 
 namespace sculpt {
 

@@ -6,7 +6,7 @@
 
 #include "core/verify/kept_clearance.hpp"
 #include "core/verify/replay_finding.hpp"
-#include "core/verify/solid_body.hpp"
+#include "core/verify/robot/solid_body.hpp"
 #include "core/verify/standing_voxels.hpp"
 
 namespace sculpt {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
-#include "core/verify/checked_pairs.hpp"
 #include "core/verify/findings.hpp"
 #include "core/verify/link_replay.hpp"
+#include "core/verify/robot/checked_pairs.hpp"
 #include "core/verify/tool_replay.hpp"
 #include "core/verify/trajectory_pieces.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/verify/solid_body.hpp"
+#include "core/verify/robot/solid_body.hpp"
 
 namespace sculpt {
 namespace {

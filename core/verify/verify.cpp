@@ -15,8 +15,8 @@
 #include "core/trajectory/reader.hpp"
 #include "core/verify/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
+#include "core/verify/robot/urdf_differences.hpp"
 #include "core/verify/trajectory_pieces.hpp"
-#include "core/verify/urdf_differences.hpp"
 
 namespace sculpt {
 namespace {

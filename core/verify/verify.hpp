@@ -10,8 +10,8 @@
 #include "core/base/watch.hpp"
 #include "core/cell/cell.hpp"
 #include "core/material/voxel_grid.hpp"
-#include "core/verify/exempt_pair.hpp"
 #include "core/verify/findings.hpp"
+#include "core/verify/robot/exempt_pair.hpp"
 
 namespace sculpt {
 

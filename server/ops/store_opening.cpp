@@ -1,8 +1,8 @@
 #include "server/ops/store_opening.hpp"
 
+#include "server/base/job_id.hpp"
 #include "server/files/orphans.hpp"
 #include "server/files/store_mark.hpp"
-#include "server/store/job_id.hpp"
 #include "server/store/sqlite.hpp"
 #include "server/store/store_facts.hpp"
 

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "server/run/confinement.hpp"
+#include "server/confine/confinement.hpp"
 
 namespace sculpt::server {
 namespace {

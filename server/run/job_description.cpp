@@ -5,9 +5,9 @@
 #include <istream>
 #include <iterator>
 
+#include "server/confine/confinement.hpp"
 #include "server/files/folder_lock.hpp"
 #include "server/run/child_process.hpp"
-#include "server/run/confinement.hpp"
 #include "server/run/job_run.hpp"
 
 namespace sculpt::server {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "server/store/job_id.hpp"
+#include "server/base/job_id.hpp"
 #include "server/store/job_store.hpp"
 
 namespace sculpt::server {

@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "proto/error_codes.hpp"
+#include "server/base/job_id.hpp"
 #include "server/store/job_commands.hpp"
-#include "server/store/job_id.hpp"
 #include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
 #include "server/store/run_ending.hpp"

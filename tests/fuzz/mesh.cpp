@@ -1,12 +1,12 @@
 // A mesh file, and what is inside it; the first byte says of which kind it claims to be.
-#include "core/material/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 #include <array>
 
 #include "core/base/error.hpp"
-#include "core/material/mesh_file.hpp"
-#include "core/material/placement.hpp"
-#include "core/material/voxelize.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/solid/placement.hpp"
+#include "core/solid/voxelize.hpp"
 #include "tests/fuzz/target.hpp"
 
 void read_hostile(std::string_view bytes) {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "core/material/mesh_file.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 
 namespace sculpt {

@@ -20,8 +20,7 @@ inline ToolDerivatives tool_derivatives(const Chain& chain, const Configuration&
       return pose.ball_m + up_m * pose.axis;
     };
     const double h = 1e-3, wide = 1e-2;
-    return {(at(h) - 2 * at(0) + at(-h)) / (h * h),
-            (at(2 * h) - 2 * at(h) + 2 * at(-h) - at(-2 * h)) / (2 * h * h * h),
+    return {(at(h) - 2 * at(0) + at(-h)) / (h * h), (at(2 * h) - 2 * at(h) + 2 * at(-h) - at(-2 * h)) / (2 * h * h * h),
             (at(2 * wide) - 4 * at(wide) + 6 * at(0) - 4 * at(-wide) + at(-2 * wide)) / (wide * wide * wide * wide)};
   };
   return {of_end(0), of_end(chain.stickout_m())};

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/collision/motion_bound.hpp"
 #include "core/collision/scene.hpp"
+#include "core/collision/shape/motion_bound.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 #include "tests/core/collision/small_arm.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/collision/distance.hpp"
+#include "core/collision/shape/distance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "core/base/random.hpp"
 #include "core/collision/scene.hpp"
-#include "core/collision/shape_contact.hpp"
+#include "core/collision/shape/shape_contact.hpp"
 #include "tests/core/collision/small_arm.hpp"
 
 namespace sculpt {

@@ -1,4 +1,4 @@
-#include "core/collision/motion_bound.hpp"
+#include "core/collision/shape/motion_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/base/random.hpp"
-#include "core/material/mesh.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace sculpt::shapes {
 

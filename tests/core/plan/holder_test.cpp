@@ -1,7 +1,7 @@
 // A tool with a holder, from the cell file to the replay.
 #include <gtest/gtest.h>
 
-#include "core/collision/body.hpp"
+#include "core/collision/shape/body.hpp"
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <sstream>
 
-#include "core/material/mesh_file.hpp"
-#include "core/material/placement.hpp"
-#include "core/material/voxelize.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/solid/placement.hpp"
+#include "core/solid/voxelize.hpp"
 #include "tests/core/search/replay.hpp"
 
 namespace sculpt {

@@ -1,9 +1,9 @@
-#include "core/sweep/cell_rows.hpp"
+#include "core/sweep/reach/cell_rows.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/sweep/reach_rows.hpp"
+#include "core/sweep/reach/reach_rows.hpp"
 
 namespace sculpt {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "core/cell/ik.hpp"
-#include "core/sweep/posture_field.hpp"
+#include "core/sweep/field/posture_field.hpp"
 
 namespace sculpt {
 

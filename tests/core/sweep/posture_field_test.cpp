@@ -1,9 +1,9 @@
-#include "core/sweep/posture_field.hpp"
+#include "core/sweep/field/posture_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/sweep/find_field.hpp"
+#include "core/sweep/field/find_field.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 #include "tests/core/sweep/panda_field.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/sweep/posture_lanes.hpp"
+#include "core/sweep/field/posture_lanes.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "core/sweep/find_field.hpp"
+#include "core/sweep/field/find_field.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 

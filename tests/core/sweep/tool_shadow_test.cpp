@@ -1,4 +1,4 @@
-#include "core/sweep/tool_shadow.hpp"
+#include "core/sweep/reach/tool_shadow.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/trajectory/binary.hpp"
+#include "core/trajectory/binary/binary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
-#include "core/trajectory/binary_frame.hpp"
+#include "core/trajectory/binary/binary_frame.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/reader.hpp"
 #include "random_trajectory.hpp"

@@ -4,10 +4,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
-#include "core/trajectory/binary.hpp"
-#include "core/trajectory/binary_frame.hpp"
+#include "core/trajectory/binary/binary.hpp"
+#include "core/trajectory/binary/binary_frame.hpp"
+#include "core/trajectory/binary/segment.hpp"
 #include "core/trajectory/reader.hpp"
-#include "core/trajectory/segment.hpp"
 #include "random_trajectory.hpp"
 
 namespace sculpt {

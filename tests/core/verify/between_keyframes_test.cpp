@@ -1,7 +1,7 @@
 // Motions whose two ends are free and which touch something on the way.
 #include <gtest/gtest.h>
 
-#include "core/material/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/writer.hpp"
 #include "core/verify/findings.hpp"

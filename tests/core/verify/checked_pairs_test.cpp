@@ -1,12 +1,12 @@
 // Which pairs the replay keeps apart, and that what it leaves out can be left out.
-#include "core/verify/checked_pairs.hpp"
+#include "core/verify/robot/checked_pairs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "core/verify/bearing.hpp"
-#include "core/verify/joint_range.hpp"
+#include "core/verify/robot/bearing.hpp"
+#include "core/verify/robot/joint_range.hpp"
 #include "small_cells.hpp"
 
 namespace sculpt {

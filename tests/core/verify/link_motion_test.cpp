@@ -1,4 +1,4 @@
-#include "core/verify/link_motion.hpp"
+#include "core/verify/robot/link_motion.hpp"
 
 #include <gtest/gtest.h>
 

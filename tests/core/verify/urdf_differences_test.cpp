@@ -1,5 +1,5 @@
 // What the loader reads from a URDF is held against a second reader: each thing that it could get wrong is found.
-#include "core/verify/urdf_differences.hpp"
+#include "core/verify/robot/urdf_differences.hpp"
 
 #include <gtest/gtest.h>
 

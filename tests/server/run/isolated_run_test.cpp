@@ -6,9 +6,9 @@
 #include <mutex>
 
 #include "server/base/storage_error.hpp"
+#include "server/confine/confinement.hpp"
 #include "server/files/blobs.hpp"
 #include "server/run/child_process.hpp"
-#include "server/run/confinement.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/job_run.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/random.hpp"
+#include "server/base/job_id.hpp"
 #include "server/base/time_stamp.hpp"
-#include "server/store/job_id.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -1,0 +1,126 @@
+#include "core/verify/robot/link_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+constexpr double mm = 1000;
+
+std::vector<int> joints_to_root(const Robot& robot, int link) {
+  std::vector<int> joints;
+  while (robot.links[static_cast<std::size_t>(link)].parent_joint >= 0) {
+    joints.push_back(robot.links[static_cast<std::size_t>(link)].parent_joint);
+    link = robot.joints[static_cast<std::size_t>(joints.back())].parent_link;
+  }
+  return joints;
+}
+
+double axis_distance(const MovingJoint& joint, const std::vector<Frame>& poses, const Vec3& point) {
+  const Frame& pose = poses[static_cast<std::size_t>(joint.link)];
+  return (pose.linear() * joint.axis).cross(point - pose.translation()).norm();
+}
+
+}  // namespace
+
+LinkMotion::LinkMotion(const Robot& robot, const std::vector<int>& joints, const std::vector<double>& rest,
+                       int stock_link)
+    : robot_(&robot), stock_link_(stock_link) {
+  for (std::size_t index = 0; index < robot.joints.size(); ++index) {
+    const Joint& joint = robot.joints[index];
+    Step step{joint.origin, joint.kind, joint.axis.normalized(), joint.parent_link, joint.child_link, -1, 1, 0};
+    step.origin.translation() *= mm;
+    // A mimic joint may follow a mimic joint: value = rate * value of `source` + constant all along the way.
+    int source = static_cast<int>(index);
+    for (std::size_t hops = 0; robot.joints[static_cast<std::size_t>(source)].mimic >= 0 && hops < robot.joints.size();
+         ++hops) {
+      const Joint& follower = robot.joints[static_cast<std::size_t>(source)];
+      step.constant += step.rate * follower.mimic_offset;
+      step.rate *= follower.mimic_multiplier;
+      source = follower.mimic;
+    }
+    const auto found = std::find(joints.begin(), joints.end(), source);
+    if (found != joints.end() && joint.kind != JointKind::fixed) {
+      step.coordinate = static_cast<int>(found - joints.begin());
+    } else {
+      step.constant += step.rate * rest[static_cast<std::size_t>(source)];
+    }
+    if (joint.kind == JointKind::prismatic) {
+      step.rate *= mm;
+      step.constant *= mm;
+    }
+    steps_.push_back(step);
+  }
+}
+
+void LinkMotion::place_links(const Configuration& q, std::vector<Frame>& poses) const {
+  poses.resize(robot_->links.size());
+  poses[static_cast<std::size_t>(robot_->root)] = Frame::Identity();
+  for (const Step& step : steps_) {
+    const double value = step.coordinate < 0 ? step.constant : step.rate * q[step.coordinate] + step.constant;
+    Frame local = step.origin;
+    if (step.kind == JointKind::revolute) local.rotate(Eigen::AngleAxisd(value, step.axis));
+    if (step.kind == JointKind::prismatic) local.translate(value * step.axis);
+    poses[static_cast<std::size_t>(step.child)] = poses[static_cast<std::size_t>(step.parent)] * local;
+  }
+  const Frame to_stock = poses[static_cast<std::size_t>(stock_link_)].inverse();
+  for (Frame& pose : poses) pose = to_stock * pose;
+}
+
+std::vector<int> LinkMotion::path(const Robot& robot, int from, int to) {
+  std::vector<int> up = joints_to_root(robot, from), down = joints_to_root(robot, to);
+  while (!up.empty() && !down.empty() && up.back() == down.back()) {
+    up.pop_back();
+    down.pop_back();
+  }
+  up.insert(up.end(), down.rbegin(), down.rend());
+  return up;
+}
+
+std::vector<MovingJoint> LinkMotion::joints_between(int from, int to) const {
+  std::vector<MovingJoint> moving;
+  for (int joint : path(*robot_, from, to)) {
+    const Step& step = steps_[static_cast<std::size_t>(joint)];
+    if (step.coordinate >= 0)
+      moving.push_back({step.coordinate, step.rate, step.kind == JointKind::revolute, step.child, step.axis});
+  }
+  return moving;
+}
+
+std::vector<double> lever_arms(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                               const Vec3& centre, double radius) {
+  std::vector<double> arms;
+  arms.reserve(joints.size());
+  for (const MovingJoint& joint : joints)
+    arms.push_back(joint.turns ? axis_distance(joint, poses, centre) + radius : 0);
+  return arms;
+}
+
+double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
+                    const Vec3& centre, double radius) {
+  return motion_limit(joints, lever_arms(joints, poses, centre, radius),
+                      [&](int coordinate) { return std::abs(steps[coordinate]); });
+}
+
+// The second derivative by two joints is the turn of the nearer one applied to the velocity that the farther one gives,
+// so it is at most (step of the nearer) * (speed by the farther); a shift nearer than the other joint does not bend
+// anything.
+double sagitta_bound(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
+                     const Configuration& steps, const Vec3& centre) {
+  double turning = 0;  // steps of all turning joints nearer than the current one
+  for (const MovingJoint& joint : joints)
+    if (joint.turns) turning += std::abs(joint.rate * steps[joint.coordinate]);
+  double moved = 0, second = 0;
+  for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+    const double step = std::abs(joint->rate * steps[joint->coordinate]);
+    if (step == 0) continue;
+    if (joint->turns) turning -= step;
+    const double speed = joint->turns ? step * (axis_distance(*joint, poses, centre) + moved) : step;
+    second += speed * (2 * std::max(turning, 0.0) + (joint->turns ? step : 0));
+    moved += speed;
+  }
+  return second / 2;
+}
+
+}  // namespace sculpt
