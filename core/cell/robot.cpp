@@ -1,3 +1,4 @@
+// A few lines above 300: the one file that knows the types of urdfdom.
 #include "core/cell/robot.hpp"
 
 #include <console_bridge/console.h>

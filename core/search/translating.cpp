@@ -1,3 +1,4 @@
+// A few lines above 300: candidates, ways and what is put aside are the state of one search.
 #include "core/search/translating.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Every field of a cell file and what is said of a wrong one; a few lines above 300, like what it tests.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// Above 300 lines: the machines and the check of plans for them, with kinematics and distances of its own.
 #include "tests/core/plan/tight_cells.hpp"
 
 #include <algorithm>
