@@ -17,7 +17,7 @@ set(CPACK_COMPONENT_SCULPT_DESCRIPTION "plans carving for robot arms, here or on
 Plans, checks and fetches joint trajectories that carve a mesh out of a block
 of material. Shell completions, cells and sample meshes are included.")
 set(CPACK_DEBIAN_SCULPTD_PACKAGE_NAME sculptd)
-set(CPACK_DEBIAN_SCULPTD_PACKAGE_DEPENDS "sculpt (= ${PROJECT_VERSION}-1)")
+set(CPACK_DEBIAN_SCULPTD_PACKAGE_DEPENDS "sculpt (= ${PROJECT_VERSION}-1), procps")  # the unit reloads by `kill`
 set(CPACK_DEBIAN_SCULPTD_PACKAGE_RECOMMENDS "init-system-helpers")
 set(CPACK_COMPONENT_SCULPTD_DESCRIPTION "plan server for robotic sculpting
 A daemon that accepts meshes and robot cells over TCP and streams back joint
