@@ -1,4 +1,3 @@
-// A few lines above 300: candidates, ways and what is put aside are the state of one search.
 #include "core/search/translating.hpp"
 
 #include <algorithm>
@@ -244,10 +243,7 @@ class Carving {
 
   /// One step inside the block; what is cut already is only passed.
   void step_to(Voxel voxel) {
-    if (space_.is_air(space_.index(voxel)))
-      writer_.travel(voxel);
-    else
-      cut(voxel);
+    space_.is_air(space_.index(voxel)) ? writer_.travel(voxel) : cut(voxel);
   }
 
   void carve(const Block& block) {

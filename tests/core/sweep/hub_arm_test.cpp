@@ -18,7 +18,7 @@ class HubArmTest : public testing::Test {
   const Configuration home = panda.cell.home(panda.scene.chain());
   const Watch watch;
   const Helpers helpers{2};
-  Directions directions{panda.scene, home, 0, helpers, watch};
+  Directions directions{panda.scene, home, {0, helpers, watch}};
 };
 
 TEST_F(HubArmTest, GoesFromHubToHubAndHomeByCertifiedEdges) {
