@@ -47,7 +47,8 @@ TEST_F(JobPageTest, PagesFollowEachOtherInBothOrders) {
 }
 
 TEST_F(JobPageTest, APositionIsThatInTheQueue) {
-  for (const Json& job : page({}).at("jobs")) {
+  const Json whole = page({});
+  for (const Json& job : whole.at("jobs")) {
     const int n = std::stoi(job.at("job").get<std::string>());
     const auto before = [n](int other) { return other - 1000 * (other % 7) < n - 1000 * (n % 7) ? 1 : 0; };
     int position = 0;
