@@ -11,7 +11,13 @@ namespace sculpt::server {
 class JobStoreTest : public testing::Test {
  protected:
   std::string add(const std::string& key = {}, int priority = 0, const std::string& spec = "{}") {
-    return store->submit({key, {priority, {}, {}, 0}, spec, "bundle", 1}).job.id;
+    NewJob job;
+    job.key = key;
+    job.schedule.priority = priority;
+    job.spec = spec;
+    job.cell_bundle = "bundle";
+    job.memory_bytes = 1;
+    return store->submit(job).job.id;
   }
   void reopen() {
     store.reset();
