@@ -37,9 +37,9 @@ class PostureField {
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none. Throws Cancelled.
   void refine(const Scene& scene, const Helpers& helpers, const Watch& watch);
 
-  /// Do all configurations stay within the limits if one joint turns by so much more?
+  /// Do all configurations stay within the limits if one joint turns by so much more? Not where there are none.
   bool can_turn(int coordinate, double by) const {
-    return cover_.bounds().low[coordinate] + by > chain().lower()[coordinate] &&
+    return cover_.bounds().low.size() > 0 && cover_.bounds().low[coordinate] + by > chain().lower()[coordinate] &&
            cover_.bounds().high[coordinate] + by < chain().upper()[coordinate];
   }
 

@@ -41,6 +41,18 @@ TEST(PostureField, HasTheBallWhereItSaysWithTheToolAlongTheDirection) {
   EXPECT_GT(found, 2000);
 }
 
+// What it turned by then was read from memory that nobody had written.
+TEST(PostureField, OfWhichNothingCanBeReachedTurnsNowhere) {
+  const Cell& cell = PandaField::get().cell;
+  Grid far = cell.grid(16);
+  far.origin_m += Vec3(100, 0, 0);
+  const Scene scene(cell, far, VoxelSet(16, true));
+  const PostureField field(scene, tool_views(16)[0], cell.home(scene.chain()), 1, {});
+  EXPECT_EQ(field.usable_cells(), 0u);
+  for (int coordinate = 0; coordinate < scene.chain().dof(); ++coordinate)
+    for (const double by : {-1e-3, 0.0, 1e-3}) EXPECT_FALSE(field.can_turn(coordinate, by));
+}
+
 TEST(PostureField, IsAsGoodForAGridThatNeedsMoreNodes) {
   const Cell& cell = PandaField::get().cell;
   const Grid grid = cell.grid(64);
