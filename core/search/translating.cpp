@@ -242,9 +242,7 @@ class Carving {
   }
 
   /// One step inside the block; what is cut already is only passed.
-  void step_to(Voxel voxel) {
-    space_.is_air(space_.index(voxel)) ? writer_.travel(voxel) : cut(voxel);
-  }
+  void step_to(Voxel voxel) { space_.is_air(space_.index(voxel)) ? writer_.travel(voxel) : cut(voxel); }
 
   void carve(const Block& block) {
     const bool whole = writer_.at() == nearest_corner(block, writer_.at());  // nothing but the corner is cut yet
