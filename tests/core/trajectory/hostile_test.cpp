@@ -6,7 +6,7 @@
 #include "core/base/sha256.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/reader.hpp"
-#include "random_trajectory.hpp"
+#include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {

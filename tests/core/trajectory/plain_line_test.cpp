@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/trajectory/trajectory_line.hpp"
-#include "random_trajectory.hpp"
+#include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {

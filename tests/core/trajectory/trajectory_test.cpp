@@ -11,7 +11,7 @@
 #include "core/trajectory/reader.hpp"
 #include "core/trajectory/trajectory_start.hpp"
 #include "core/trajectory/writer.hpp"
-#include "random_trajectory.hpp"
+#include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/trajectory/keyframe.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/writer.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/writer.hpp"
 #include "core/verify/findings.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

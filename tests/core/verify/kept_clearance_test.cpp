@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/verify/standing_voxels.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/trajectory/quantum.hpp"
 #include "core/verify/trajectory_pieces.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

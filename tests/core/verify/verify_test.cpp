@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/trajectory/header.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

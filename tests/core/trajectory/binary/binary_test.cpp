@@ -9,7 +9,7 @@
 #include "core/trajectory/binary/binary_frame.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/reader.hpp"
-#include "random_trajectory.hpp"
+#include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/trajectory/binary/binary_frame.hpp"
 #include "core/trajectory/binary/segment.hpp"
 #include "core/trajectory/reader.hpp"
-#include "random_trajectory.hpp"
+#include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/verify/robot/bearing.hpp"
 #include "core/verify/robot/joint_range.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

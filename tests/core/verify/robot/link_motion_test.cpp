@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "core/base/error.hpp"
-#include "small_cells.hpp"
+#include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {
 namespace {
