@@ -164,7 +164,7 @@ void bubble_around_a_configuration(benchmark::State& state) {
   const Configuration here = s.start();
   for (auto _ : state) {
     Scene::Pairs pairs = s.scene.pairs();
-    benchmark::DoNotOptimize(s.scene.bubble(here, box_around(here), pairs));
+    benchmark::DoNotOptimize(s.scene.bubble(here, box_around(here), {}, pairs));
   }
 }
 BENCHMARK(bubble_around_a_configuration)->Unit(benchmark::kMicrosecond);
@@ -174,7 +174,7 @@ void bubble_holds_a_configuration(benchmark::State& state) {
   const Configuration here = s.start();
   const JointBox box = box_around(here);
   Scene::Pairs pairs = s.scene.pairs();
-  const Bubble bubble = s.scene.bubble(here, box, pairs);
+  const Bubble bubble = s.scene.bubble(here, box, {}, pairs);
   const Configuration inside = here + 0.3 * (box.high - here);
   if (!bubble.holds(inside)) return state.SkipWithError("there is no bubble here");
   for (auto _ : state) benchmark::DoNotOptimize(bubble.holds(inside));

@@ -58,10 +58,12 @@ class Scene {
   /// Of these, those that may touch somewhere in `box`; of which the same part counts as for `bubble`.
   Pairs pairs_in(const JointBox& box) const;
 
-  /// Of the configurations in `box`, those at which surely none of `pairs` touch; beyond the limits of what shifts
-  /// none, other limits are not looked at. `q`: in the box. Pairs that touch nowhere in the box are taken out: its
-  /// parts need not ask for them. Stays true while material is removed.
-  Bubble bubble(const Configuration& q, const JointBox& box, Pairs& pairs) const;
+  /// Of the configurations in `box`, those at which surely none of `pairs` touch; it holds q and all of `wanted`, or
+  /// it is empty. Beyond the limits of what shifts it holds none, other limits are not looked at. `q`, `wanted`: in the
+  /// box. Pairs that touch nowhere in the box are taken out: its parts need not ask for them. Stays true while material
+  /// is removed.
+  Bubble bubble(const Configuration& q, const JointBox& box, const std::vector<Configuration>& wanted,
+                Pairs& pairs) const;
 
   /// Is the box [low_m, high_m] of the stock's frame clear of all links that stand still in that frame?
   bool room_is_clear(const Vec3& low_m, const Vec3& high_m) const;

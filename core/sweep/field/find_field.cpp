@@ -43,7 +43,7 @@ int count_free_probes(const Scene& scene, const ToolView& view, const Configurat
         if (!q) break;
         const Configuration half = Configuration::Constant(q->size(), probe_half);
         Scene::Pairs pairs = scene.pairs();
-        free += !scene.bubble(*q, {*q - half, *q + half}, pairs).empty();
+        free += !scene.bubble(*q, {*q - half, *q + half}, {}, pairs).empty();
       }
     }
   return free;
