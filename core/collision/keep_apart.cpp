@@ -47,9 +47,13 @@ class Search {
   bool keep(const Convex& placed, const Separation& plane) {
     const std::size_t before = kept_.size();
     const Convex::Corners corners = placed.corners();
+    const Configuration shift = motion_.velocity.transpose() * plane.normal;
+    const double room_m = -plane.second_to - margin_m_ - motion_.remainder_m - corners.radius;
     for (std::size_t at = 0; at < corners.count; ++at) {
-      HalfSpace half_space = half_space_of(corners.points[at], plane);
-      half_space.room_m -= corners.radius;
+      const Vec3& point = corners.points[at];
+      HalfSpace half_space{shift, plane.normal.dot(point) + room_m};
+      half_space.approach.noalias() += motion_.turn.transpose() * point.cross(plane.normal);
+      half_space.approach = -half_space.approach;
       if (half_space.holds_box(motion_.half)) continue;
       if (half_space.room_m > 0 && kept_.size() < max_half_spaces &&
           std::ranges::all_of(wanted_, [&](const Configuration& step) { return half_space.holds(step); })) {
@@ -60,15 +64,6 @@ class Search {
       return false;
     }
     return true;
-  }
-
-  HalfSpace half_space_of(const Vec3& point, const Separation& plane) const {
-    const Vec3 lever = point.cross(plane.normal);
-    HalfSpace half_space{Configuration(motion_.half.size()),
-                         plane.normal.dot(point) - plane.second_to - margin_m_ - motion_.remainder_m};
-    half_space.approach.noalias() = -(motion_.velocity.transpose() * plane.normal);
-    half_space.approach.noalias() -= motion_.turn.transpose() * lever;
-    return half_space;
   }
 
   const RelativeMotion& motion_;

@@ -31,6 +31,16 @@ void Scene::leave(const VoxelSet& left) {
   bodies_->material = Material(left);
 }
 
+const Body& Scene::full_stock() const {
+  return bodies_->stock;
+}
+
+Body Scene::stock_of(const VoxelSet& blocks) const {
+  const Grid& fine = bodies_->grid;
+  const Grid coarse{blocks.n(), fine.voxel_m * fine.n / blocks.n(), fine.origin_m};
+  return make_stock_body(Material(blocks), coarse, bodies_->chain.stock_link());
+}
+
 bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   const ToolLine line = bodies_->tool_line(pose);
   const double radius = std::max(bodies_->radii.ball, bodies_->radii.shank) + tool_margin_voxels;

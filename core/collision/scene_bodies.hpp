@@ -79,10 +79,6 @@ class SceneBodies {
   double tool_second_derivative(const Configuration& step) const;
 
   // For bubbles.
-  /// The second body of a pair; the stock as it stood first.
-  const Body& second_of(const Pair& pair) const {
-    return pair.second < 0 ? stock : bodies[static_cast<std::size_t>(pair.second)];
-  }
   /// Of `mover` of the pair, seen from the other body, in the box of +-half.
   RelativeMotion motion_of(const Mover& mover, int seen_from, const std::vector<Frame>& at,
                            const Configuration& half) const;

@@ -111,7 +111,7 @@ Scene::Pairs Scene::pairs_in(const JointBox& box) const {
 }
 
 Bubble Scene::bubble(const Configuration& q, const JointBox& asked, const std::vector<Configuration>& wanted,
-                     Pairs& pairs) const {
+                     const Body& stock, Pairs& pairs) const {
   const JointBox box = bodies_->bounded(asked);
   if (!box.holds(q) || !std::ranges::all_of(wanted, [&](const Configuration& other) { return box.holds(other); }))
     return {};
@@ -126,7 +126,7 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& asked, const std::v
     if (pair.is_free_between(box.low, box.high)) return Nearness::touch_nowhere;
     const double enough = pair.motion(half) + rounding_m;
     const Body& first = bodies_->bodies[static_cast<std::size_t>(pair.first)];
-    const Body& second = bodies_->second_of(pair);
+    const Body& second = pair.second < 0 ? stock : bodies_->bodies[static_cast<std::size_t>(pair.second)];
     const auto pose = [&](const Body& body) { return at[static_cast<std::size_t>(body.link)]; };
     if (hull_distance(first, pose(first), second, pose(second)) - pair.margin_m >= enough)
       return Nearness::touch_nowhere;

@@ -44,7 +44,12 @@ Wanted find_wanted(const PostureLattice& lattice, const LatticeCube& cube) {
 class BubbleCover::Search {
  public:
   Search(const BubbleCover& whole, const Making& making, int smallest)
-      : whole_(whole), scene_(making.scene), lattice_(making.lattice), watch_(making.watch), smallest_(smallest) {}
+      : whole_(whole),
+        scene_(making.scene),
+        stock_(making.stock),
+        lattice_(making.lattice),
+        watch_(making.watch),
+        smallest_(smallest) {}
 
   /// Covers a cube by one bubble if there is one, else by parts as small as `smallest_`. `room`: for the tool is known.
   void cover(LatticeCube cube, bool room) {
@@ -80,7 +85,7 @@ class BubbleCover::Search {
     }
     if (!cube.box.holds(wanted.box)) return {};
     cube.box = wanted.box;
-    return scene_.bubble(wanted.centre, wanted.box, wanted.corners, cube.pairs);
+    return scene_.bubble(wanted.centre, wanted.box, wanted.corners, stock_, cube.pairs);
   }
 
   /// Where there is room for the tool.
@@ -105,24 +110,24 @@ class BubbleCover::Search {
 
   const BubbleCover& whole_;
   const Scene& scene_;
+  const Body& stock_;
   const PostureLattice& lattice_;
   const Watch& watch_;
   int smallest_;
 };
 
-BubbleCover::BubbleCover(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers, const Watch& watch)
-    : bubble_(PostureLattice::all_parts(), -1), box_(lattice.bounds()) {
-  if (box_.low.size() > 0) pairs_ = scene.pairs_in(box_);
+BubbleCover::BubbleCover(const Making& making)
+    : bubble_(PostureLattice::all_parts(), -1), box_(making.lattice.bounds()) {
+  if (box_.low.size() > 0) pairs_ = making.scene.pairs_in(box_);
   std::vector<LatticeCube> cubes;
   for (int k = 0; k < PostureLattice::fine; k += largest)
     for (int j = 0; j < PostureLattice::fine; j += largest)
       for (int i = 0; i < PostureLattice::fine; i += largest) cubes.push_back({{i, j, k}, largest, box_, pairs_});
-  cover({scene, lattice, helpers, watch}, cubes, PostureLattice::parts);
+  cover(making, cubes, PostureLattice::parts);
 }
 
-void BubbleCover::refine(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers,
-                         const Watch& watch) {
-  cover({scene, lattice, helpers, watch}, std::exchange(holes_, {}), 1);
+void BubbleCover::refine(const Making& making) {
+  cover(making, std::exchange(holes_, {}), 1);
 }
 
 void BubbleCover::turn(const Configuration& turn) {

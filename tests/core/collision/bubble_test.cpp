@@ -39,7 +39,7 @@ void expect_held_is_free(const Cell& cell, std::uint64_t seeds, double widest) {
     const Configuration half = Configuration::Constant(q.size(), random.between(0.001, widest));
     const JointBox box{q - half, q + half};
     Scene::Pairs pairs = random.unit() < 0.5 ? scene.pairs() : scene.pairs_in(box);
-    const Bubble bubble = scene.bubble(q, box, {}, pairs);
+    const Bubble bubble = scene.bubble(q, box, {}, scene.full_stock(), pairs);
     if (bubble.empty()) continue;
     for (int place = 0; place < 40; ++place) {
       Configuration other = q;
@@ -142,7 +142,7 @@ TEST(Bubble, WhatTheBubblesOfMeshLinksHoldIsFreeAsFclSeesIt) {
       for (Eigen::Index c = 0; c < q.size(); ++c) wanted.back()[c] += random.between(-1, 1) * half[c];
     }
     Scene::Pairs open = scene.pairs();
-    const Bubble bubble = scene.bubble(q, {q - half, q + half}, wanted, open);
+    const Bubble bubble = scene.bubble(q, {q - half, q + half}, wanted, scene.full_stock(), open);
     if (bubble.empty()) continue;
     for (const Configuration& corner : wanted) EXPECT_TRUE(bubble.holds(corner));
     for (int place = 0; place < 20; ++place) {
@@ -188,7 +188,7 @@ TEST(Bubble, SaysNothingBeyondTheLimitsOfASlide) {
     return JointBox{Configuration{{-0.01, low}}, Configuration{{0.01, high}}};
   };
   Scene::Pairs pairs = scene.pairs();
-  const Bubble bubble = scene.bubble(Configuration{{0, 0.45}}, box(0.4, 0.6), {}, pairs);
+  const Bubble bubble = scene.bubble(Configuration{{0, 0.45}}, box(0.4, 0.6), {}, scene.full_stock(), pairs);
   EXPECT_TRUE(bubble.holds(Configuration{{0, 0.5}}));
   EXPECT_FALSE(bubble.holds(Configuration{{0, 0.51}}));
 }
