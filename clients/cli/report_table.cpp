@@ -70,6 +70,9 @@ void path_rows(std::string& table, const Json& report) {
   if (path.contains("travel_m")) row(table, "travel", fixed(path["travel_m"].get<double>(), 3, " m"));
   if (path.contains("joint_travel_rad"))
     row(table, "joint travel", fixed(path["joint_travel_rad"].get<double>(), 1, " rad"));
+  if (report.contains("sweep"))
+    rows(table, report["sweep"],
+         {{"cut", "cut by sweeps"}, {"left", "left to octree"}, {"uncovered", "  no field there"}});
   if (report.contains("quality"))
     rows(table, report["quality"],
          {{"moves_per_voxel", "moves a voxel"},

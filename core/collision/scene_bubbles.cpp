@@ -137,16 +137,19 @@ Bubble Scene::bubble(const Configuration& q, const JointBox& asked, const std::v
     motion.reach_m = enough;
     return keep_apart(moves, motion, other, pair.margin_m, steps, half_spaces);
   };
-  Pairs left, spoilt;
-  for (std::size_t pair : pairs) {
-    const Nearness nearness = look_at(bodies_->pairs[pair]);
-    if (nearness == Nearness::too_near) spoilt.push_back(pair);
-    if (nearness == Nearness::kept_apart) left.push_back(pair);
+  Pairs left;
+  for (std::size_t at_pair = 0; at_pair < pairs.size(); ++at_pair) {
+    const Nearness nearness = look_at(bodies_->pairs[pairs[at_pair]]);
+    if (nearness == Nearness::touch_nowhere) continue;
+    left.push_back(pairs[at_pair]);
+    if (nearness == Nearness::kept_apart) continue;
+    // What spoils this box spoils its parts as well, most likely: they shall begin with it.
+    std::swap(left.front(), left.back());
+    left.insert(left.end(), pairs.begin() + static_cast<std::ptrdiff_t>(at_pair) + 1, pairs.end());
+    pairs = std::move(left);
+    return {};
   }
-  // What spoils this box spoils its parts as well, most likely: they shall begin with it.
-  pairs = spoilt;
-  pairs.insert(pairs.end(), left.begin(), left.end());
-  if (!spoilt.empty()) return {};
+  pairs = std::move(left);
   return {q, box, std::move(half_spaces)};
 }
 

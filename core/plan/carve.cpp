@@ -30,7 +30,7 @@ VoxelGrid left_to_cut(const SweepRest& left, const VoxelSet& keep) {
 
 SweepRest sweep(const Scene& scene, const CarveTask& task, const Carved& before, RunLog& log, const RunContext& run) {
   const Checkpoint& now = log.now();
-  if (now.swept) return {before.standing, now.swept->out_of_tool_reach};
+  if (now.swept) return {before.standing, now.swept->out_of_tool_reach, {}};
   std::optional<SweepStart> start;
   if (now.sweeping) start = {*now.sweeping, before.standing, before.q};
   SweepRest left = carve_by_sweeps(scene, {task.voxels, task.may_fall, task.header.home}, start, log.hear_sweep(), run);

@@ -91,15 +91,15 @@ Json to_json(const SweepMemory& sweeping) {
   Json json{{"used_up", sweeping.used_up},
             {"spared", sweeping.spared},
             {"tilted_fields", sweeping.tilted_fields},
-            {"opened", Json::array()},
+            {"openings", Json::array()},
             {"asked_with", sweeping.asked_with},
             {"tilted", sweeping.tilted},
             {"cut_tilted", sweeping.cut_tilted},
             {"transits", sweeping.arm.transits},
             {"at", {at.x(), at.y(), at.z()}},
             {"way_home", to_json(sweeping.arm.way_home)}};
-  for (const VoxelSet& standing : sweeping.opened)
-    json["opened"].push_back({{"n", standing.n()}, {"words", standing.words()}});
+  for (const auto& [standing, grain] : sweeping.openings)
+    json["openings"].push_back({{"n", standing.n()}, {"words", standing.words()}, {"grain", grain}});
   if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
   if (sweeping.direction) json["direction"] = *sweeping.direction;
   if (sweeping.pass) json["pass"] = to_json(*sweeping.pass);
@@ -111,9 +111,9 @@ SweepMemory sweeping_of(const Json& json) {
   sweeping.used_up = json.at("used_up").get<std::vector<char>>();
   sweeping.spared = json.at("spared").get<std::vector<char>>();
   sweeping.tilted_fields = json.at("tilted_fields").get<std::vector<std::size_t>>();
-  for (const Json& standing : json.at("opened")) {
-    sweeping.opened.emplace_back(standing.at("n").get<int>());
-    sweeping.opened.back().words() = standing.at("words").get<std::vector<std::uint64_t>>();
+  for (const Json& opening : json.at("openings")) {
+    sweeping.openings.push_back({VoxelSet(opening.at("n").get<int>()), opening.at("grain").get<Directions::Grain>()});
+    sweeping.openings.back().standing.words() = opening.at("words").get<std::vector<std::uint64_t>>();
   }
   sweeping.asked_with = json.at("asked_with").get<std::uint64_t>();
   sweeping.tilted = json.at("tilted").get<bool>();
@@ -235,9 +235,15 @@ Checkpoint checkpoint_of(const Json& json) {
                         arm_of(json.at("arm")),
                         refusals_of(json.at("refusals")),
                         {},
-                        replayed_of(json.at("replayed"))};
+                        replayed_of(json.at("replayed")),
+                        {}};
   if (json.contains("sweeping")) checkpoint.sweeping = sweeping_of(json.at("sweeping"));
   if (json.contains("swept")) checkpoint.swept = swept_of(json.at("swept"));
+  if (json.contains("sweep_figures")) {
+    const Json& figures = json.at("sweep_figures");
+    checkpoint.sweep_figures = {figures.at(0).get<std::uint64_t>(), figures.at(1).get<std::uint64_t>(),
+                                figures.at(2).get<std::uint64_t>()};
+  }
   if (json.contains("residue")) checkpoint.residue = residue_of(json.at("residue"));
   return checkpoint;
 }
@@ -255,6 +261,8 @@ std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key
             {"replayed", to_json(checkpoint.replayed)}};
   if (checkpoint.sweeping) json["sweeping"] = to_json(*checkpoint.sweeping);
   if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);
+  if (const auto& figures = checkpoint.sweep_figures)
+    json["sweep_figures"] = {figures->cut, figures->left, figures->uncovered};
   if (checkpoint.residue) json["residue"] = to_json(*checkpoint.residue);
   const std::string body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
   return sha256_hex(body) + '\n' + body;

@@ -10,7 +10,7 @@
 #include "core/motion/gantry/gantry.hpp"
 #include "core/motion/residue.hpp"
 #include "core/search/block_order.hpp"
-#include "core/sweep/sweep_memory.hpp"
+#include "core/sweep/sweep.hpp"
 #include "core/trajectory/trajectory_start.hpp"
 #include "core/verify/verify.hpp"
 
@@ -33,6 +33,7 @@ struct Checkpoint {
   std::vector<Refusal> refusals;                ///< of a translating robot, in order: what it had to go around
   std::optional<std::vector<Residue>> residue;  ///< once the plan is finished
   ReplayedPieces replayed;                      ///< how far the replay of a finished plan is
+  std::optional<SweepFigures> sweep_figures;    ///< once the sweep is over
 };
 
 /// `key` says which job by which program the checkpoint is of; `number` counts up from checkpoint to checkpoint.

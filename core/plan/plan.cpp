@@ -130,6 +130,7 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
   RunLog log(kept, now, output, scene);
   try {
     if (!now.residue) carve(scene, {result.voxels, octree, may_fall, header, search}, carved, log, run);
+    report.sweep = now.sweep_figures;
     report.quality.ompl_calls = now.arm.ompl_calls;
     report.quality.ompl_solved = now.arm.ompl_solved;
     report.plan_sha256 = output.finish().sha256;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/motion/residue.hpp"
+#include "core/sweep/sweep.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
 
 namespace sculpt {
@@ -31,6 +33,7 @@ struct Report {
     std::uint64_t keyframes = 0, rows = 0, transits = 0;
     double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
   } path;
+  std::optional<SweepFigures> sweep;  ///< where the job was planned so
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.
   struct {

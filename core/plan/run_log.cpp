@@ -47,6 +47,7 @@ std::function<void(const ReplayedPieces&)> RunLog::hear_replay() {
 }
 
 void RunLog::end_sweep(const SweepRest& left) {
+  now_.sweep_figures = left.figures;
   if (!kept_.keeps()) return;
   now_.sweeping.reset();
   now_.swept = {output_.keyframes(), left.out_of_tool_reach};

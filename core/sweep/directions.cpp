@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t top = 0, first_side = 1, sides = 4;  // of tool_views
 constexpr int max_blocks = 32;                             // along an edge of the grid
-constexpr std::size_t worth_percent = 3;                   // of all parts of a field, that opening it must add
+constexpr std::size_t worth[]{32, 512};                    // of all parts opening a field must add one in so many
 
 }  // namespace
 
@@ -40,13 +40,15 @@ void Directions::find_straight_fields() {
   for (const ToolView& view : tilted_views(scene_.grid().n)) ways_.push_back({view});
 }
 
-bool Directions::open(const VoxelSet& standing_blocks) {
+bool Directions::open(const VoxelSet& standing_blocks, Grain grain) {
   const Body standing = scene_.stock_of(standing_blocks);
   std::vector<std::unique_ptr<PostureField>> opened(straight_);
   run_.helpers.for_each_index(straight_, [&](std::size_t way) {
     const PostureField& field = *ways_[way].field;
-    if (field.may_open(scene_, standing))
-      opened[way] = std::make_unique<PostureField>(field, scene_, standing, run_.helpers, run_.watch);
+    if (!field.may_open(scene_, standing)) return;
+    opened[way] = std::make_unique<PostureField>(field, scene_, standing, run_.helpers, run_.watch);
+    if (grain == Grain::fine && 2 * opened[way]->usable_cells() > PostureField::all_cells())
+      opened[way]->refine(scene_, standing, run_.helpers, run_.watch);
   });
   const std::size_t before = ways_.size();
   for (std::size_t way = 0; way < straight_; ++way) {
@@ -54,7 +56,7 @@ bool Directions::open(const VoxelSet& standing_blocks) {
     std::size_t covered = ways_[way].field->usable_cells();
     for (std::size_t other = straight_; other < before; ++other)
       if (ways_[other].opens == way) covered = std::max(covered, ways_[other].field->usable_cells());
-    if (100 * opened[way]->usable_cells() < 100 * covered + worth_percent * PostureField::all_cells()) continue;
+    if (opened[way]->usable_cells() < covered + PostureField::all_cells() / worth[grain == Grain::fine]) continue;
     ways_.push_back({ways_[way].view, std::move(opened[way]), {}, way});
     find_reach(ways_.back());
   }

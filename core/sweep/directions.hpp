@@ -26,7 +26,8 @@ class Directions {
 
   /// Looks again at straight directions where the full stock was in the way of links, now that only this stands (as
   /// `blocks_of` has it). Says whether it found new ones. Throws Cancelled.
-  bool open(const VoxelSet& standing_blocks);
+  enum class Grain { coarse, fine };
+  bool open(const VoxelSet& standing_blocks, Grain grain);
   /// What stands as a coarser grid, of blocks in which anything does.
   static VoxelSet blocks_of(const VoxelSet& standing);
 
@@ -38,6 +39,7 @@ class Directions {
   const ToolView& view(std::size_t direction) const { return ways_[direction].view; }
   /// Throws Cancelled.
   const PostureField& field(std::size_t direction);
+  bool is_found(std::size_t direction) const { return ways_[direction].field != nullptr; }
   /// The tilted directions whose fields were found.
   std::vector<std::size_t> tilted_found() const;
   /// Which of them has this field, one that was found.

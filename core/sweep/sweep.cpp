@@ -16,6 +16,8 @@ namespace {
 
 /// Voxels that make a field of a tilted direction, and the way there and back, worth their while.
 constexpr std::uint64_t fewest_tilted = 4;
+/// Voxels that no field covers, that make opening fields worth their while.
+constexpr std::uint64_t fewest_uncovered = 64;
 
 /// Chooses the direction of the next pass, until none cuts anything.
 class Sweep {
@@ -28,7 +30,7 @@ class Sweep {
   }
 
   void resume(const SweepStart& start) {
-    for (const VoxelSet& standing : start.memory.opened) open(standing);
+    for (const Opening& opening : start.memory.openings) open(opening);
     now_ = start.memory;
     for (const std::size_t direction : now_.tilted_fields) directions_.field(direction);
     carving_.arm.resume(now_.arm, start.q, now_.direction ? &directions_.field(*now_.direction) : nullptr);
@@ -39,11 +41,25 @@ class Sweep {
     while (cut_next()) {
     }
     carving_.arm.go_home();
-    return {carving_.support.standing(), std::move(*now_.out_of_reach)};
+    const SweepFigures figures = count();
+    return {carving_.support.standing(), std::move(*now_.out_of_reach), figures};
   }
 
  private:
   const VoxelSet& standing() const { return carving_.support.standing(); }
+
+  SweepFigures count() const {
+    SweepFigures figures{carving_.scene.material().solid().size() - standing().size(), 0, 0};
+    for (const Voxel v : find_wanted()) {
+      ++figures.left;
+      bool is_covered = false;
+      for (std::size_t direction = 0; direction < directions_.size() && !is_covered; ++direction)
+        is_covered = directions_.is_found(direction) &&
+                     directions_.may_reach(direction, ToolView::place(directions_.view(direction).cell(v)));
+      figures.uncovered += !is_covered;
+    }
+    return figures;
+  }
 
   /// Straight directions as long as they cut something, then tilted ones for what no straight one came to, and so on.
   /// False if nothing was cut along any since that was last begun.
@@ -99,14 +115,19 @@ class Sweep {
   bool open_more() {
     const std::uint64_t standing_voxels = standing().size();
     if (std::exchange(now_.asked_with, standing_voxels) == standing_voxels) return false;
-    VoxelSet blocks = Directions::blocks_of(standing());
-    if (!open(blocks)) return false;
-    now_.opened.push_back(std::move(blocks));
-    return true;
+    if (!now_.out_of_reach) find_out_of_reach();
+    if (count().uncovered < fewest_uncovered) return false;
+    for (const auto grain : {Directions::Grain::coarse, Directions::Grain::fine}) {
+      Opening opening{Directions::blocks_of(standing()), grain};
+      if (!open(opening)) continue;
+      now_.openings.push_back(std::move(opening));
+      return true;
+    }
+    return false;
   }
 
-  bool open(const VoxelSet& blocks) {
-    if (!directions_.open(blocks)) return false;
+  bool open(const Opening& opening) {
+    if (!directions_.open(opening.standing, opening.grain)) return false;
     now_.used_up.resize(directions_.size());
     now_.spared.resize(directions_.size());
     counts_.resize(directions_.size());
@@ -147,10 +168,7 @@ class Sweep {
 
   std::uint64_t count_tilted(std::size_t direction, std::vector<Voxel> wanted) const {
     const ToolView& view = directions_.view(direction);
-    std::erase_if(wanted, [&](Voxel v) {
-      const Voxel cell = view.cell(v);
-      return !directions_.may_reach(direction, Vec3(cell.i, cell.j, cell.k));
-    });
+    std::erase_if(wanted, [&](Voxel v) { return !directions_.may_reach(direction, ToolView::place(view.cell(v))); });
     const double all_through = 2.0 * view.n;
     return wanted.size() -
            find_out_of_tool_reach(standing(), wanted, {view.along(view.lean)}, all_through, carving_.run.watch).size();

@@ -21,10 +21,17 @@ struct SweepTask {
   const Configuration& home;
 };
 
+/// Voxels, by what sweeps did of them.
+struct SweepFigures {
+  std::uint64_t cut = 0, left = 0;  ///< left: of what some tool could come to
+  std::uint64_t uncovered = 0;      ///< of these: no field that was found is usable there
+};
+
 /// What sweeps leave standing.
 struct SweepRest {
   VoxelSet standing;
   std::vector<Voxel> out_of_tool_reach;  ///< to be removed, but never can be, as find_out_of_tool_reach has it
+  SweepFigures figures;
 };
 
 /// Where a sweep goes on.

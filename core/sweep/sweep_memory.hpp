@@ -5,10 +5,17 @@
 #include <optional>
 #include <vector>
 
+#include "core/sweep/directions.hpp"
 #include "core/sweep/hub_arm.hpp"
 #include "core/sweep/straight_pass.hpp"
 
 namespace sculpt {
+
+/// Straight directions were looked at again for what stood, as blocks.
+struct Opening {
+  VoxelSet standing;
+  Directions::Grain grain;
+};
 
 /// As of the end of a pass or, where `pass` is set, of a batch of layers. Together with the keyframes until then it is
 /// all that what comes next depends on. What can be had from them is not in it: what stands and what holds it, where
@@ -17,7 +24,7 @@ struct SweepMemory {
   std::vector<char> used_up;               ///< per direction: the last pass along it cut nothing
   std::vector<char> spared;                ///< in the last pass along it something was left lest a piece come free
   std::vector<std::size_t> tilted_fields;  ///< of which tilted directions the fields are known
-  std::vector<VoxelSet> opened;            ///< what stood, as blocks, each time that straight directions were opened
+  std::vector<Opening> openings;           ///< in order
   std::uint64_t asked_with = 0;            ///< how many voxels stood when that was last asked for
   bool tilted = false;                     ///< tilted directions are being tried
   bool cut_tilted = false;                 ///< and something was cut along one

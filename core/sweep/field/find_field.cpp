@@ -74,7 +74,8 @@ class FieldSearch {
       grow_promising();
     }
     for (const auto& field : fields_)
-      if (2 * field->usable_cells() > PostureField::all_cells()) field->refine(scene_, run_.helpers, run_.watch);
+      if (2 * field->usable_cells() > PostureField::all_cells())
+        field->refine(scene_, scene_.full_stock(), run_.helpers, run_.watch);
     return std::move(fields_);
   }
 

@@ -49,8 +49,8 @@ PostureField::PostureField(const PostureField& other, const ToolView& view, cons
   cover_.turn(turn);
 }
 
-void PostureField::refine(const Scene& scene, const Helpers& helpers, const Watch& watch) {
-  cover_.refine({scene, scene.full_stock(), lattice_, helpers, watch});
+void PostureField::refine(const Scene& scene, const Body& stock, const Helpers& helpers, const Watch& watch) {
+  cover_.refine({scene, stock, lattice_, helpers, watch});
 }
 
 /// The largest box of ball positions, as far as insets on all four sides go.

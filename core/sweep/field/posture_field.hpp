@@ -40,7 +40,7 @@ class PostureField {
   PostureField(const PostureField& other, const ToolView& view, const Configuration& turn);
 
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none. Throws Cancelled.
-  void refine(const Scene& scene, const Helpers& helpers, const Watch& watch);
+  void refine(const Scene& scene, const Body& stock, const Helpers& helpers, const Watch& watch);
 
   /// Do all configurations stay within the limits if one joint turns by so much more? Not where there are none.
   bool can_turn(int coordinate, double by) const {

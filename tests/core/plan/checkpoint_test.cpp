@@ -17,7 +17,10 @@ Configuration configuration(double first, double second) {
 
 /// No field as it is by default.
 SweepMemory full_sweep_memory() {
-  SweepMemory sweeping{{0, 1, 0}, {1, 1, 0}, {2, 5}, true, true, {{{7, 8, 9}}}, {}, 2, {}};
+  SweepMemory sweeping{{0, 1, 0}, {1, 1, 0}, {2, 5}, {}, 77, true, true, {{{7, 8, 9}}}, {}, 2, {}};
+  VoxelSet blocks(8);
+  blocks.insert({7, 1, 3});
+  sweeping.openings = {{blocks, Directions::Grain::coarse}, {VoxelSet(32, true), Directions::Grain::fine}};
   sweeping.arm = {11, {0.1, 1.0 / 3, 65}, {configuration(0.3, -1e-7)}};
   sweeping.pass = StraightMark{5, 8, {{1, 2, 3, 4}}, {{5, 6, 7, 8}, {0, 0, 1, 1}}, true, {true, true}};
   return sweeping;
@@ -33,6 +36,7 @@ Checkpoint full_checkpoint() {
   checkpoint.trials = {{5, 3, {0, 1, 2}}, {0, 8, {0, 1, 2}}};
   checkpoint.arm = {4, false, 2, {configuration(0.1, -2.1234567)}, {{3, {configuration(1, 2)}}}, 9, 8, 7};
   checkpoint.residue = {{{1, 1, 1}, Reason::no_transit}, {{2, 1, 1}, Reason::loose_piece}};
+  checkpoint.sweep_figures = {900, 20, 3};
   checkpoint.replayed = {2, {1, 30, {{12, "'link5' touches \"stock\""}}}};
   return checkpoint;
 }

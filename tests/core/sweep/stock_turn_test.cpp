@@ -36,7 +36,8 @@ TEST(StockTurn, TurnsAFieldIntoOneOfAnotherSide) {
   const auto turn = find_stock_turn(chain, grid);
   ASSERT_TRUE(turn);
   const auto views = tool_views(16);
-  const auto side = find_field(scene, views[1], cell.home(chain), {}, {1, 1, {}});
+  const auto fields = find_fields(scene, views[1], cell.home(chain), {}, {1, 1, {}});
+  const PostureField* side = fields.front().get();
   for (int quarters : {1, 2, 3}) {
     double by = turn->direction * quarters * std::numbers::pi / 2;
     if (!side->can_turn(turn->coordinate, by)) by -= turn->direction * 2 * std::numbers::pi;

@@ -47,7 +47,7 @@ TEST(PostureField, OfWhichNothingCanBeReachedTurnsNowhere) {
   Grid far = cell.grid(16);
   far.origin_m += Vec3(100, 0, 0);
   const Scene scene(cell, far, VoxelSet(16, true));
-  const PostureField field(scene, tool_views(16)[0], cell.home(scene.chain()), 1, {});
+  const PostureField field(scene, tool_views(16)[0], PostureLattice::Start{cell.home(scene.chain())}, 1, {});
   EXPECT_EQ(field.usable_cells(), 0u);
   for (int coordinate = 0; coordinate < scene.chain().dof(); ++coordinate)
     for (const double by : {-1e-3, 0.0, 1e-3}) EXPECT_FALSE(field.can_turn(coordinate, by));
@@ -99,7 +99,8 @@ TEST(PostureField, OfATiltedDirectionReachesPastTheSidesThatItLeansTo) {
   for (std::size_t which : {0u, 4u}) {
     const ToolView view = tilted_views(16)[which];
     SCOPED_TRACE(::testing::Message() << "axis " << view.axis().transpose());
-    const auto field = find_field(panda.scene, view, home, {panda.field.start()}, {which, 1, {}});
+    const auto fields = find_fields(panda.scene, view, home, {panda.field.start()}, {which, 1, {}});
+    const PostureField* field = fields.front().get();
     EXPECT_GT(field->usable_cells(), PostureField::all_cells() * 3 / 4);
     const Vec3 lean(view.lean.i, view.lean.j, view.lean.k), last = Vec3::Constant(15) + 2 * lean;
     Random random(which);
@@ -195,7 +196,7 @@ TEST(PostureField, LinksAreNotFreeAlongAnEdgeThatLeavesEveryBubble) {
 TEST(PostureField, RefiningTakesNothingAway) {
   const PandaField& panda = PandaField::get();
   PostureField refined = panda.field;
-  refined.refine(panda.scene, 1, {});
+  refined.refine(panda.scene, panda.scene.full_stock(), 1, {});
   EXPECT_GE(refined.usable_cells(), panda.field.usable_cells());
   Random random(4);
   for (int trial = 0; trial < 2000; ++trial) {
