@@ -30,9 +30,14 @@ class Failure(Exception):
         self.exit_code = exit_code
 
 
+def shared_data():
+    """The folder of what is not part of the repository, which need not be there."""
+    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared/data")
+
+
 def shared_mesh(name):
     """Where a mesh that is not part of the repository is if it is there."""
-    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared/data") / "meshes" / name
+    return shared_data() / "meshes" / name
 
 
 def is_program(path):
