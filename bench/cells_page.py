@@ -47,6 +47,10 @@ def busy_note(rows):
             "--again on an idle machine.\n") if busy else ""
 
 
+def say_late(result):
+    return f"{'replay ' if result['stage'] == 'replay' else ''}not in {result['not_in_s']:g} s"
+
+
 def seconds_or_why(row, threads):
     """Planning seconds, or why there are none."""
     key = f"sweep {threads}"
@@ -54,7 +58,7 @@ def seconds_or_why(row, threads):
         return figure(plan_seconds(row["runs"][key]))
     if key in row["without_plan"]:
         result = row["without_plan"][key]
-        return f"not in {result['not_in_s']:g} s" if "not_in_s" in result else "refused"
+        return say_late(result) if "not_in_s" in result else "refused"
     return "-"
 
 

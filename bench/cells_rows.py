@@ -47,6 +47,7 @@ CELLS = by_name((
     own("crx-10", "FANUC CRX-10iA/L (offset wrist), turntable"),
     own("iiwa-ceiling", "KUKA iiwa 14 (seven axes) at the ceiling, turntable"),
     own("ur5e-wall", "UR5e on a wall, turntable"),
+    own("irb6640", "ABB IRB 6640 with balancing cylinder, turntable, stock of 0.6 m"),
     shared("kr16", "KUKA KR 16, all links as meshes, turntable"),
     shared("kr120", "KUKA KR 120, all links as meshes, turntable"),
     Cell(PANDA_MESHES, "Franka Panda, all links as meshes, turntable", shared_data() / "ros/moveit_resources_panda_description", meshes=True),

@@ -14,7 +14,7 @@ from harness import PATIENCE_S, SCULPT, SOURCE, environment, shared_data
 PROGRAM = SOURCE / "bench/cells"
 
 # Stands in for `sculpt plan`: a report by its arguments, with the changes of the file CHANGES by "cell size threads" or
-# "cell threads". The change "sleep" never ends, "refuse" prints its words and makes no plan.
+# "cell threads". The changes "sleep" and "replay" take that many seconds, "refuse" prints its words and makes no plan.
 PLANNER = """#!{python}
 import json, pathlib, sys, time
 option = lambda name: sys.argv[sys.argv.index(name) + 1]
@@ -31,7 +31,9 @@ report = {{"voxels": {{"remove": 1000, "removed": 990, "residue": 10}}, "residue
 changes = json.loads(pathlib.Path({changes!r}).read_text())
 for key in (f"{{cell}} {{threads}}", f"{{cell}} {{size}} {{threads}}", f"{{cell}} {{size}} {{threads}} {{run}}"):
     for name, value in changes.get(key, {{}}).items():
-        if name == "sleep":
+        if name == "replay":
+            print("plan 9/9\\nverify 0/9", file=sys.stderr, flush=True)
+        if name in ("sleep", "replay"):
             time.sleep(value)
         if name == "refuse":
             sys.exit(f"sculpt: {{value}}")
@@ -191,6 +193,11 @@ class Limit(CellsTest):
         self.assertIn("not in 0.5 s", self.page())
         self.fine("--rows", "scara:16", "--limit", "100")
         self.assertIn("| scara:16 | 0.25 | 0.25 |", self.page())
+
+    def test_a_replay_has_a_limit_of_its_own(self):
+        self.change({"scara 16 2": {"replay": PATIENCE_S}})
+        self.fine("--rows", "scara:16", "--limit", "0.5")
+        self.assertIn("| scara:16 | replay not in 0.5 s |", self.page())
 
     def test_no_time_is_refused(self):
         result = self.run_program("--rows", "scara:16", "--limit", "0")
