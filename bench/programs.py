@@ -30,9 +30,14 @@ class Failure(Exception):
         self.exit_code = exit_code
 
 
+def shared_data():
+    """The folder of what is not part of the repository, which need not be there."""
+    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared/data")
+
+
 def shared_mesh(name):
     """Where a mesh that is not part of the repository is if it is there."""
-    return pathlib.Path(os.environ.get("SCULPT_SHARED_DATA") or SOURCE.parent / "shared/data") / "meshes" / name
+    return shared_data() / "meshes" / name
 
 
 def is_program(path):
@@ -46,10 +51,10 @@ def check_sculpt(path):
 
 
 class Program:
-    """Runs `program`, which the user names by `option`."""
+    """Runs `program`, which the user names by `option`. While one runs, `said` is what it has printed on stderr."""
 
     def __init__(self, program, option, show):
-        self.program, self.option, self.show = program.resolve(), option, show
+        self.program, self.option, self.show, self.said = program.resolve(), option, show, ""
         self.environment = {"SCULPT_CELLS": str(SOURCE / "config/cells"), **os.environ}
 
     def run(self, *arguments, look=None, every_s=0.2):
@@ -62,8 +67,9 @@ class Program:
                     stdout, stderr = process.communicate(timeout=every_s)
                     seconds = time.monotonic() - started
                     return Ended(stdout, stderr, process.returncode, seconds, before and max(0.0, (busy_seconds() - before) / seconds))
-                except subprocess.TimeoutExpired:
+                except subprocess.TimeoutExpired as waiting:
                     elapsed = time.monotonic() - started
+                    self.said = (waiting.stderr or b"").decode(errors="replace")
                     self.show.running(look(elapsed) if look else f"{elapsed:.0f} s")
         finally:
             stop(process)
