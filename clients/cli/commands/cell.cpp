@@ -1,0 +1,73 @@
+// sculpt cell: what a cell is made of, what is wrong with it, and the cure.
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "clients/cli/cell_table.hpp"
+#include "clients/cli/commands/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/job_options.hpp"
+#include "core/doctor/examine.hpp"
+#include "core/doctor/findings_json.hpp"
+
+namespace sculpt::cli {
+
+namespace {
+
+struct CellOptions {
+  std::string cell, picture;
+  int resolution = 64;
+  bool json = false;
+};
+
+/// A cell that cannot be read has one fault.
+CellFindings unreadable(const std::string& name, const InputError& error) {
+  CellFindings found;
+  found.name = name;
+  found.faults.push_back({Fault::Weight::error, error.code(), error.what(), "mend that place and look again"});
+  return found;
+}
+
+CellFindings examine(const CellOptions& options) {
+  std::stop_source stop;
+  const Interrupt interrupt([&stop] { stop.request_stop(); });
+  const Watch watch{stop.get_token(), {}};
+  const Helpers helpers(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  try {
+    const CellDraft draft = draft_cell(read_cell(options.cell));
+    return examine_cell(draft, {options.resolution}, {0, helpers, watch});
+  } catch (const InputError& error) {
+    if (error.code() == "cell_unknown") throw;
+    return unreadable(options.cell, error);
+  }
+}
+
+int run_cell(const CellOptions& options) {
+  check_resolution(options.resolution);
+  const CellFindings found = examine(options);
+  std::cout << (options.json ? findings_json(found) + "\n" : cell_table(found));
+  return found.plannable() ? exit_fine : exit_failed;
+}
+
+}  // namespace
+
+void add_cell(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<CellOptions>();
+  CLI::App& command =
+      add_command(app, invocation, "cell", "Say what a cell is made of, what is wrong with it, and the cure",
+                  [options] { return run_cell(*options); });
+  command.add_option("cell", options->cell, "The cell: a name under config/cells, or the path of a cell file")
+      ->type_name("CELL")
+      ->required();
+  command.add_option("--resolution", options->resolution, "Voxels along each edge, for a tool that follows them")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "Print the findings as one JSON document");
+}
+
+}  // namespace sculpt::cli

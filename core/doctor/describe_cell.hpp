@@ -1,0 +1,19 @@
+// What a cell consists of: its chain, the joints beside it, its bodies.
+#pragma once
+
+#include "core/doctor/findings.hpp"
+
+namespace sculpt {
+
+std::vector<JointFinding> describe_chain(const Cell& cell, const Chain& chain);
+
+/// Joints that can move but are neither of the chain nor mimic one that is.
+std::vector<IdleJoint> find_idle_joints(const Cell& cell, const Chain& chain);
+
+/// Links with collision shapes, in the order of the robot's.
+std::vector<BodyFinding> describe_bodies(const Cell& cell);
+
+/// A box around the shape, along the axes of its link's frame (m).
+Eigen::AlignedBox3d box_around(const Shape& shape);
+
+}  // namespace sculpt
