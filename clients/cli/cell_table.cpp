@@ -138,14 +138,17 @@ std::string fault_lines(const CellFindings& found) {
   return text;
 }
 
-std::string cell_table(const CellFindings& found) {
+std::string cell_line(const CellFindings& found) {
   const auto errors = std::count_if(found.faults.begin(), found.faults.end(),
                                     [](const Fault& fault) { return fault.weight == Fault::Weight::error; });
-  std::string text =
-      "cell " + found.name + ": " +
-      (found.plannable() ? "ready to plan with"
-                         : format("cannot be planned with, %zd error%s", errors, errors == 1 ? "" : "s")) +
-      "\n";
+  return "cell " + found.name + ": " +
+         (found.plannable() ? "ready to plan with"
+                            : format("cannot be planned with, %zd error%s", errors, errors == 1 ? "" : "s")) +
+         "\n";
+}
+
+std::string cell_table(const CellFindings& found) {
+  std::string text = cell_line(found);
   if (found.chain.empty()) return text + fault_lines(found);
   text += chain_lines(found) + body_lines(found) + pair_lines(found) + home_lines(found) + reach_lines(found);
   text += format(

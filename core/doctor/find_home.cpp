@@ -113,8 +113,16 @@ class HomeSearch {
     return least;
   }
 
-  static double worth(const Home& home) {
-    return home.reach + 0.1 * home.clearance_m / wide_m + 0.1 * std::min(home.limit_margin, wide_margin) / wide_margin;
+  /// How near the joints are to the middle of their ranges, on average: 1 in it.
+  double centredness(const Configuration& q) const {
+    const Configuration middle = (chain().lower() + chain().upper()) / 2,
+                        half = (chain().upper() - chain().lower()) / 2;
+    return 1 - ((q - middle).array() / half.array()).abs().mean();
+  }
+
+  double worth(const Home& home) const {
+    return home.reach + 0.1 * home.clearance_m / wide_m + 0.1 * std::min(home.limit_margin, wide_margin) / wide_margin +
+           0.2 * centredness(home.q);
   }
 
   std::optional<Home> best() {
@@ -122,7 +130,7 @@ class HomeSearch {
     run_.helpers.for_each_index(
         found_.size(), [&](std::size_t at) { found_[at].reach = probe_reach(scene_, found_[at].q, run_.watch); });
     return *std::max_element(found_.begin(), found_.end(),
-                             [](const Home& a, const Home& b) { return worth(a) < worth(b); });
+                             [this](const Home& a, const Home& b) { return worth(a) < worth(b); });
   }
 
   const Scene& scene_;

@@ -48,6 +48,8 @@ CellFindings examine(const CellOptions& options) {
 }
 
 int run_cell(const CellOptions& options) {
+  if (options.cell.empty())
+    throw Failure(exit_usage, "usage", "name a cell, or `new` and a URDF (see sculpt cell --help)");
   check_resolution(options.resolution);
   const CellFindings found = examine(options);
   std::cout << (options.json ? findings_json(found) + "\n" : cell_table(found));
@@ -59,15 +61,18 @@ int run_cell(const CellOptions& options) {
 void add_cell(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<CellOptions>();
   CLI::App& command =
-      add_command(app, invocation, "cell", "Say what a cell is made of, what is wrong with it, and the cure",
-                  [options] { return run_cell(*options); });
+      add_command(app, invocation, "cell", "Say what a cell is made of, what is wrong with it, and the cure", {});
+  command.final_callback([&command, &invocation, options] {
+    if (command.get_subcommands().empty()) invocation.run = [options] { return run_cell(*options); };
+  });
+  command.require_subcommand(0, 1);
   command.add_option("cell", options->cell, "The cell: a name under config/cells, or the path of a cell file")
-      ->type_name("CELL")
-      ->required();
+      ->type_name("CELL");
   command.add_option("--resolution", options->resolution, "Voxels along each edge, for a tool that follows them")
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", options->json, "Print the findings as one JSON document");
+  add_cell_new(command, invocation);
 }
 
 }  // namespace sculpt::cli
