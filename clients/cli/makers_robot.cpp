@@ -4,7 +4,7 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/xacro.hpp"
 #include "core/cell/mesh_reference.hpp"
-#include "core/doctor/urdf_text.hpp"
+#include "core/doctor/make/urdf_text.hpp"
 
 namespace sculpt::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/doctor/new_cell.hpp"
+#include "core/doctor/make/new_cell.hpp"
 
 namespace sculpt::cli {
 

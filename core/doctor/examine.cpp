@@ -43,6 +43,7 @@ HomeFinding describe_home(const Scene& scene, const Configuration& home) {
     pair.gap_m = near.gap_m;
     if (near.too_near) {
       found.blocking.push_back(std::move(pair));
+      found.bodies.push_back(near);
     } else if (!found.nearest || pair.gap_m < found.nearest->gap_m) {
       found.nearest = std::move(pair);
     }

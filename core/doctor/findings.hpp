@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/cell/cell.hpp"
+#include "core/collision/near_bodies.hpp"
 
 namespace sculpt {
 
@@ -47,6 +48,7 @@ struct HomeFinding {
   Vec3 ball_m = Vec3::Zero(),
        axis = Vec3::UnitZ();           ///< in the frame of the stock's cube: (0, 0, 0) is its lowest corner
   std::vector<PairFinding> blocking;   ///< nearer than planning allows
+  std::vector<NearBodies> bodies;      ///< the same, by number
   std::optional<PairFinding> nearest;  ///< of the others, within 20 mm
 };
 

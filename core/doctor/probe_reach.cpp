@@ -118,6 +118,7 @@ std::vector<Vec3> lattice_places(const Grid& grid, int per_edge) {
 
 double probe_reach(const Scene& scene, const Configuration& from, const Watch& watch) {
   constexpr std::array shares{0.5, 0.0, 1.0};
+  const Vec3 axis = scene.chain().translating() ? scene.chain().tool_pose(from).axis : Vec3::UnitZ();
   int free = 0, probes = 0;
   for (const double x : shares)
     for (const double y : shares) {
@@ -125,7 +126,7 @@ double probe_reach(const Scene& scene, const Configuration& from, const Watch& w
       for (const double z : {1.0, 0.5, 0.0}) {
         watch.step(Stage::plan, 0, 0);
         ++probes;
-        if (q) q = solve_ik(scene.chain(), {place_m(scene.grid(), {x, y, z}), scene.chain().tool_pose(from).axis}, *q);
+        if (q) q = solve_ik(scene.chain(), {place_m(scene.grid(), {x, y, z}), axis}, *q);
         free += q && !scene.blocking_links(*q);
       }
     }

@@ -12,8 +12,10 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
+#include "clients/cli/png_file.hpp"
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
+#include "core/doctor/picture/draw_cell.hpp"
 
 namespace sculpt::cli {
 
@@ -40,7 +42,10 @@ CellFindings examine(const CellOptions& options) {
   const Helpers helpers(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   try {
     const CellDraft draft = draft_cell(read_cell(options.cell));
-    return examine_cell(draft, {options.resolution}, {0, helpers, watch});
+    CellFindings found = examine_cell(draft, {options.resolution}, {0, helpers, watch});
+    if (!options.picture.empty())
+      write_png(options.picture, draw_cell(draft.cell, draft.cell.home(draft.cell.chain()), found.home.bodies));
+    return found;
   } catch (const InputError& error) {
     if (error.code() == "cell_unknown") throw;
     return unreadable(options.cell, error);
@@ -72,6 +77,8 @@ void add_cell(CLI::App& app, Invocation& invocation) {
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", options->json, "Print the findings as one JSON document");
+  command.add_option("--picture", options->picture, "Draw the cell at home, what is in the way in red")
+      ->type_name("FILE.png");
   add_cell_new(command, invocation);
 }
 

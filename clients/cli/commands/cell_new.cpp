@@ -76,7 +76,9 @@ int run_new(const NewCellOptions& options) {
   write_text(cell_file, cell_text(made.cell, urdf_file.filename().string(), source.packages(folder)));
 
   // Read back as everybody will.
-  const CellFindings found = examine_cell(draft_cell(read_cell_files(cell_file)), {}, {0, helpers, watch});
+  ExamineSettings quick;
+  quick.fields = false;
+  const CellFindings found = examine_cell(draft_cell(read_cell_files(cell_file)), quick, {0, helpers, watch});
   std::cout << cell_file.string() << " and " << urdf_file.string() << " written\n";
   for (const std::string& remark : made.remarks) std::cout << "  " << remark << "\n";
   std::cout << cell_line(found) << fault_lines(found);

@@ -1,4 +1,4 @@
-#include "core/doctor/furnish.hpp"
+#include "core/doctor/make/furnish.hpp"
 
 #include <cstdio>
 #include <numbers>

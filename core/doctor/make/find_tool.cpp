@@ -1,4 +1,4 @@
-#include "core/doctor/find_tool.hpp"
+#include "core/doctor/make/find_tool.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/doctor/new_cell.hpp"
+#include "core/doctor/make/new_cell.hpp"
 
 namespace sculpt {
 namespace {

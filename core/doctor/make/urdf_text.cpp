@@ -1,4 +1,4 @@
-#include "core/doctor/urdf_text.hpp"
+#include "core/doctor/make/urdf_text.hpp"
 
 #include <set>
 

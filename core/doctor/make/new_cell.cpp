@@ -1,4 +1,4 @@
-#include "core/doctor/new_cell.hpp"
+#include "core/doctor/make/new_cell.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 #include "core/collision/link_pairs.hpp"
 #include "core/doctor/describe_cell.hpp"
 #include "core/doctor/find_home.hpp"
-#include "core/doctor/find_tool.hpp"
-#include "core/doctor/furnish.hpp"
+#include "core/doctor/make/find_tool.hpp"
+#include "core/doctor/make/furnish.hpp"
 #include "core/doctor/probe_reach.hpp"
-#include "core/doctor/urdf_text.hpp"
+#include "core/doctor/make/urdf_text.hpp"
 
 namespace sculpt {
 namespace {
@@ -199,7 +199,7 @@ double worth_of(const Cell& cell, const RunContext& run) {
   const auto home = find_home(scene, cell.home(scene.chain()), run);
   if (!home) return -1;
   const Reach reach = find_reach(scene, home->q, coarse_places, run);
-  double worth = reach.reached + 0.1 * home->limit_margin;
+  double worth = reach.reached + home->reach + 0.1 * home->limit_margin;
   for (const DirectionFinding& direction : reach.directions)
     worth += static_cast<double>(direction.free) / direction.places / static_cast<double>(reach.directions.size());
   return worth;
