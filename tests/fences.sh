@@ -58,7 +58,7 @@ forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/shape/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_/]+\.[ch]pp')" -- core server clients
 forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/field/posture_lanes\.cpp')" -- core server proto clients
-forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/png_file\.cpp$' -- core server proto clients
+forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
   "$(door '(cell/cell_(file\.cpp|field\.hpp)|doctor/(make/cell_text|findings_json)\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core

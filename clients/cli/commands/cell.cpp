@@ -6,13 +6,13 @@
 #include <memory>
 #include <thread>
 
-#include "clients/cli/cell_table.hpp"
+#include "clients/cli/cell/cell_table.hpp"
+#include "clients/cli/cell/png_file.hpp"
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
-#include "clients/cli/png_file.hpp"
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
 #include "core/doctor/picture/draw_cell.hpp"

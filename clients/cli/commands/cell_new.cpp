@@ -5,12 +5,12 @@
 #include <memory>
 #include <thread>
 
-#include "clients/cli/cell_table.hpp"
+#include "clients/cli/cell/cell_table.hpp"
+#include "clients/cli/cell/makers_robot.hpp"
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
-#include "clients/cli/makers_robot.hpp"
 #include "core/doctor/examine.hpp"
 
 namespace sculpt::cli {

@@ -1,4 +1,4 @@
-#include "clients/cli/cell_table.hpp"
+#include "clients/cli/cell/cell_table.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "clients/cli/png_file.hpp"
+#include "clients/cli/cell/png_file.hpp"
 
 #include <png.h>
 

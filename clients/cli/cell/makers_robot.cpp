@@ -1,8 +1,8 @@
-#include "clients/cli/makers_robot.hpp"
+#include "clients/cli/cell/makers_robot.hpp"
 
+#include "clients/cli/cell/xacro.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
-#include "clients/cli/xacro.hpp"
 #include "core/cell/mesh_reference.hpp"
 #include "core/doctor/make/urdf_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "clients/cli/xacro.hpp"
+#include "clients/cli/cell/xacro.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
