@@ -11,7 +11,7 @@ constexpr double post_share = 0.4;                                    // of the 
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value + 0.0);
+  std::snprintf(text, sizeof text, "%.12g", value + 0.0);
   return text;
 }
 
