@@ -14,7 +14,7 @@ namespace {
 using Weight = Fault::Weight;
 
 constexpr double largest_body_m = 20, smallest_body_m = 2e-4;
-constexpr std::size_t many_facets = 200'000;
+constexpr std::size_t many_facets = 200'000, told_pairs = 2;
 constexpr double least_reach = 0.999, little_reach = 0.5;
 
 std::string quoted(const std::string& name) {
@@ -103,9 +103,12 @@ void check_tool(const Cell& cell, const CellFindings& found, std::vector<Fault>&
 
 std::string blocking_text(const HomeFinding& home) {
   std::string text;
-  for (const PairFinding& pair : home.blocking)
-    text += (text.empty() ? "" : ", ") + pair.first + " and " + pair.second +
+  for (std::size_t at = 0; at < std::min(told_pairs, home.blocking.size()); ++at) {
+    const PairFinding& pair = home.blocking[at];
+    text += (at == 0 ? "" : ", ") + pair.first + " and " + pair.second +
             (pair.gap_m > 0 ? " are only " + in_mm(pair.gap_m) + " apart" : std::string(" touch"));
+  }
+  if (home.blocking.size() > told_pairs) text += ", and " + std::to_string(home.blocking.size() - told_pairs) + " more";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "clients/cli/cell/cell_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -19,8 +20,14 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+/// Without what rounds to -0.
+double settled(double value) {
+  return std::abs(value) < 5e-4 ? 0 : value;
+}
+
 std::string joint_value(JointKind kind, double value) {
-  return kind == JointKind::prismatic ? format("%.3f m", value) : format("%.1f deg", value * 180 / std::numbers::pi);
+  return kind == JointKind::prismatic ? format("%.3f m", settled(value))
+                                      : format("%.1f deg", settled(value) * 180 / std::numbers::pi);
 }
 
 std::string size_text(const Vec3& size_m) {
@@ -80,13 +87,12 @@ std::string pair_lines(const CellFindings& found) {
 std::string home_lines(const CellFindings& found) {
   const HomeFinding& home = found.home;
   const double above = home.ball_m.z() - found.stock_size_m;
-  std::string text =
-      std::string("home: ") + (home.blocking.empty() ? "free" : "not free") +
-      format(
-          "; the ball is at %.3f, %.3f, %.3f m from the stock's corner, %.3f m %s its top, tool axis "
-          "%.2f, %.2f, %.2f%s\n",
-          home.ball_m.x(), home.ball_m.y(), home.ball_m.z(), std::abs(above), above < 0 ? "below" : "above",
-          home.axis.x(), home.axis.y(), home.axis.z(), home.axis.z() > 0.999 ? " (straight down)" : "");
+  std::string text = std::string("home: ") + (home.blocking.empty() ? "free" : "not free") +
+                     format("; tool axis %.2f, %.2f, %.2f%s\n", settled(home.axis.x()), settled(home.axis.y()),
+                            settled(home.axis.z()), home.axis.z() > 0.999 ? " (straight down)" : "") +
+                     format("  the ball is at %.3f, %.3f, %.3f m from the stock's corner, %.3f m %s its top\n",
+                            settled(home.ball_m.x()), settled(home.ball_m.y()), settled(home.ball_m.z()),
+                            std::abs(above), above < 0 ? "below" : "above");
   for (const PairFinding& pair : home.blocking)
     text += "  in the way: " + pair.first + " and " + pair.second + format(", %.1f mm apart\n", 1000 * pair.gap_m);
   if (home.nearest)
@@ -108,20 +114,25 @@ std::string reach_lines(const CellFindings& found) {
   for (const DirectionFinding& direction : found.directions) {
     text += "  " + padded(direction.name, 6) + share_of(direction.free, direction) + "   " +
             share_of(direction.blocked, direction) + "  " + share_of(direction.beyond_limits, direction) + "   " +
-            share_of(direction.out_of_reach, direction) + format("     %4.0f %%  ", 100 * direction.field);
+            share_of(direction.out_of_reach, direction) + format("     %4.0f %%", 100 * direction.field);
     if (!direction.blockers.empty())
-      text += "  " + direction.blockers.front().first.first + " and " + direction.blockers.front().first.second;
+      text += "    " + direction.blockers.front().first.first + " and " + direction.blockers.front().first.second;
     text += "\n";
   }
   return text + format("  any  %5.1f %%\n", 100 * found.reached);
 }
 
-/// As a cell file writes it.
+/// As a cell file writes it, four joints a line.
 std::string home_text(const JointValues& home) {
-  std::string text = "\"home\": {";
-  for (const auto& [joint, value] : home)
-    text += (text.back() == '{' ? "\"" : ", \"") + joint + "\": " + format("%.4f", value);
-  return text + "}";
+  constexpr int joints_a_line = 4;
+  std::string text = "  \"home\": {";
+  int joints = 0;
+  for (const auto& [joint, value] : home) {
+    if (joints > 0) text += joints % joints_a_line == 0 ? ",\n           " : ", ";
+    text += "\"" + joint + "\": " + format("%.4f", value);
+    ++joints;
+  }
+  return text + "}\n";
 }
 
 const char* word(Fault::Weight weight) {
@@ -134,7 +145,7 @@ std::string fault_lines(const CellFindings& found) {
   std::string text;
   for (const Fault& fault : found.faults)
     text += std::string(word(fault.weight)) + ": " + fault.sentence + "\n  cure: " + fault.cure + "\n";
-  if (found.better_home) text += "a home that is free: " + home_text(*found.better_home) + "\n";
+  if (found.better_home) text += "a home that is free:\n" + home_text(*found.better_home);
   return text;
 }
 
@@ -151,11 +162,9 @@ std::string cell_table(const CellFindings& found) {
   std::string text = cell_line(found);
   if (found.chain.empty()) return text + fault_lines(found);
   text += chain_lines(found) + body_lines(found) + pair_lines(found) + home_lines(found) + reach_lines(found);
-  text += format(
-      "tool: %.3f m from '%s' to the ball, %.3f m of it free; the stock's edge is %.3f m; ball radius %.2f mm at "
-      "%d^3\n",
-      found.stickout_m, found.tool_link.c_str(), found.free_length_m, found.stock_size_m, 1000 * found.ball_radius_m,
-      found.resolution);
+  text += format("tool: %.3f m from '%s' to the ball, %.3f m of it free; stock %.3f m; ball radius %.2f mm at %d^3\n",
+                 found.stickout_m, found.tool_link.c_str(), found.free_length_m, found.stock_size_m,
+                 1000 * found.ball_radius_m, found.resolution);
   text +=
       format("time before a plan begins: %.2f s for the scene, %.2f s for the fields\n", found.scene_s, found.fields_s);
   return text + fault_lines(found);
