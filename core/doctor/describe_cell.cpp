@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "core/cell/link_poses.hpp"
+#include "core/collision/link_pairs.hpp"
 #include "core/collision/shape/motion_bound.hpp"
+#include "core/doctor/picture/facets.hpp"
 
 namespace sculpt {
 namespace {
@@ -31,6 +34,16 @@ std::string moving_joint_above(const Robot& robot, int link) {
     joint = robot.links[static_cast<std::size_t>(at.parent_link)].parent_joint;
   }
   return {};
+}
+
+/// Does it cut the z axis between the two heights?
+bool cuts_z_axis(const Facet& facet, double low, double high) {
+  const auto& [a, b, c] = facet.corners;
+  const auto cross = [](const Vec3& u, const Vec3& v) { return u.x() * v.y() - u.y() * v.x(); };
+  const double of_c = cross(a, b), of_a = cross(b, c), of_b = cross(c, a), all = of_a + of_b + of_c;
+  if (all == 0 || of_a * all < 0 || of_b * all < 0 || of_c * all < 0) return false;
+  const double height = (of_a * a.z() + of_b * b.z() + of_c * c.z()) / all;
+  return height > low && height < high;
 }
 
 bool is_of(const Chain& chain, int joint) {
@@ -103,6 +116,23 @@ std::vector<BodyFinding> describe_bodies(const Cell& cell) {
     bodies.push_back(std::move(body));
   }
   return bodies;
+}
+
+std::string find_link_in_tool(const Cell& cell) {
+  if (cell.tool.stickout_m == 0) return {};
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const std::vector<Frame> at = link_poses(cell.robot, cell.rest);
+  const Frame& nose = at[static_cast<std::size_t>(cell.tool_link)];
+  for (std::size_t link = 0; link < group.size(); ++link) {
+    if (group[link] != group[static_cast<std::size_t>(cell.tool_link)]) continue;
+    std::vector<Facet> facets;
+    const bool holds_tool = static_cast<int>(link) == cell.tool_link && !cell.tool.holder.empty();
+    for (const Shape& shape : cell.robot.links[link].shapes)
+      if (!holds_tool) add_facets(shape, nose.inverse() * at[link], {}, facets);
+    for (const Facet& facet : facets)
+      if (cuts_z_axis(facet, 0.1 * cell.tool.stickout_m, cell.tool.stickout_m)) return cell.robot.links[link].name;
+  }
+  return {};
 }
 
 }  // namespace sculpt

@@ -130,11 +130,26 @@ CellFindings examine_cell(const CellDraft& draft, const ExamineSettings& setting
   found.directions = std::move(reach.directions);
   found.reached = reach.reached;
   if (settings.fields && !chain.translating()) find_fields(scene, start, run, found);
-  find_faults_of_reach(cell, chain, found);
+  find_faults_of_reach(chain, found);
   if (reach_is_poor(found))
     if (const auto move = suggest_move(cell, start, found, run)) found.faults.push_back(*move);
   std::stable_sort(found.faults.begin(), found.faults.end(),
                    [](const Fault& a, const Fault& b) { return a.weight > b.weight; });
+  return found;
+}
+
+CellFindings examine_files(const CellFiles& files, const ExamineSettings& settings, const RunContext& run) {
+  try {
+    return examine_cell(draft_cell(files), settings, run);
+  } catch (const InputError& error) {
+    return unreadable_cell(files.name, error);
+  }
+}
+
+CellFindings unreadable_cell(const std::string& name, const InputError& error) {
+  CellFindings found;
+  found.name = name;
+  found.faults.push_back({Fault::Weight::error, error.code(), error.what(), "mend that place and look again"});
   return found;
 }
 

@@ -17,4 +17,10 @@ struct ExamineSettings {
 /// but for the times. Throws Cancelled.
 CellFindings examine_cell(const CellDraft& draft, const ExamineSettings& settings, const RunContext& run);
 
+/// The same of a cell as files. What cannot be read is an error among the faults, and nothing else is found.
+CellFindings examine_files(const CellFiles& files, const ExamineSettings& settings, const RunContext& run);
+
+/// The findings of a cell that cannot be read.
+CellFindings unreadable_cell(const std::string& name, const InputError& error);
+
 }  // namespace sculpt

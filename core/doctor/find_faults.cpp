@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/collision/link_pairs.hpp"
-#include "core/collision/shape/motion_bound.hpp"
+#include "core/doctor/describe_cell.hpp"
 
 namespace sculpt {
 namespace {
@@ -37,6 +37,17 @@ std::string in_percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, share > 0.99 && share < 1 ? "%.1f %%" : "%.0f %%", 100 * share);
   return text;
+}
+
+/// Of what is in the way at home, what a joint moves that nothing drives.
+std::string idle_in_the_way(const CellFindings& found) {
+  for (const PairFinding& pair : found.home.blocking)
+    for (const IdleJoint& idle : found.idle_joints)
+      for (const BodyFinding& body : found.bodies)
+        if (body.moved_by == idle.name && (body.link == pair.first || body.link == pair.second))
+          return "; nothing drives joint " + quoted(idle.name) + " that moves " + quoted(body.link) +
+                 ": give it a <mimic> of the joint that it goes along with, or take it out of the URDF";
+  return {};
 }
 
 std::string another_home(const CellFindings& found) {
@@ -92,6 +103,10 @@ void check_idle_joints(const CellFindings& found, std::vector<Fault>& faults) {
 }
 
 void check_tool(const Cell& cell, const CellFindings& found, std::vector<Fault>& faults) {
+  if (const std::string link = find_link_in_tool(cell); !link.empty())
+    faults.push_back({Weight::warning, "tool_in_link",
+                      "the tool goes through " + quoted(link) + ", which carries it: it points into the arm",
+                      "turn the frame of " + quoted(found.tool_link) + " so that its +z points out of the spindle"});
   if (cell.chain().translating() || cell.tool.stickout_m == 0) return;
   if (found.free_length_m >= found.stock_size_m) return;
   faults.push_back({Weight::note, "short_tool",
@@ -195,8 +210,8 @@ void find_faults_of_home(const CellDraft& draft, CellFindings& found) {
   for (const InputError& error : draft.home_faults)
     found.faults.push_back({Weight::error, "home_invalid", error.what(), another_home(found)});
   if (!found.home.blocking.empty())
-    found.faults.push_back(
-        {Weight::error, "home_blocked", "at home " + blocking_text(found.home), another_home(found)});
+    found.faults.push_back({Weight::error, "home_blocked", "at home " + blocking_text(found.home),
+                            another_home(found) + idle_in_the_way(found)});
   if (!found.home.blocking.empty() || !is_below_top(found)) return;
   const bool inside = is_in_the_cube(found);
   found.faults.push_back({Weight::warning, "home_low",
@@ -212,7 +227,7 @@ bool reach_is_poor(const CellFindings& found) {
                      [](const DirectionFinding& d) { return d.free < little_reach * d.places; });
 }
 
-void find_faults_of_reach(const Cell& cell, const Chain& chain, CellFindings& found) {
+void find_faults_of_reach(const Chain& chain, CellFindings& found) {
   const Causes causes = add_up(found, found.directions);
   if (causes.free == 0) {
     found.faults.push_back({Weight::error, "nothing_reached",
@@ -236,7 +251,6 @@ void find_faults_of_reach(const Cell& cell, const Chain& chain, CellFindings& fo
                                   std::to_string(direction.blocked) + " blocked" +
                                   (direction.blockers.empty() ? "" : ": " + blockers_text(direction)) + ")",
                               cure_of(add_up(found, {direction}))});
-  static_cast<void>(cell);
 }
 
 }  // namespace sculpt

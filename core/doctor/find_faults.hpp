@@ -15,6 +15,6 @@ void find_faults_of_home(const CellDraft& draft, CellFindings& found);
 
 /// Would another place of the table be worth looking for?
 bool reach_is_poor(const CellFindings& found);
-void find_faults_of_reach(const Cell& cell, const Chain& chain, CellFindings& found);
+void find_faults_of_reach(const Chain& chain, CellFindings& found);
 
 }  // namespace sculpt

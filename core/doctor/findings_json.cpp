@@ -108,7 +108,7 @@ std::string findings_json(const CellFindings& found) {
   json["directions"] = list(found.directions);
   json["seconds"] = {{"scene", found.scene_s}, {"fields", found.fields_s}};
   json["faults"] = list(found.faults);
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
 }
 
 }  // namespace sculpt

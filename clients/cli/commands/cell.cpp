@@ -27,14 +27,6 @@ struct CellOptions {
   bool json = false;
 };
 
-/// A cell that cannot be read has one fault.
-CellFindings unreadable(const std::string& name, const InputError& error) {
-  CellFindings found;
-  found.name = name;
-  found.faults.push_back({Fault::Weight::error, error.code(), error.what(), "mend that place and look again"});
-  return found;
-}
-
 CellFindings examine(const CellOptions& options) {
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
@@ -48,7 +40,7 @@ CellFindings examine(const CellOptions& options) {
     return found;
   } catch (const InputError& error) {
     if (error.code() == "cell_unknown") throw;
-    return unreadable(options.cell, error);
+    return unreadable_cell(options.cell, error);
   }
 }
 

@@ -12,8 +12,8 @@
 #include "core/doctor/find_home.hpp"
 #include "core/doctor/make/find_tool.hpp"
 #include "core/doctor/make/furnish.hpp"
-#include "core/doctor/probe_reach.hpp"
 #include "core/doctor/make/urdf_text.hpp"
+#include "core/doctor/probe_reach.hpp"
 
 namespace sculpt {
 namespace {
@@ -130,6 +130,11 @@ class CellMaker {
     if (wishes_.table != Table::none && !wishes_.table_at_m)
       said.push_back("the middle of the table's top is put at " + in_m(table_m) + " of '" +
                      robot_.links[static_cast<std::size_t>(robot_.root)].name + "'");
+    for (const Joint& joint : robot_.joints)
+      if (is_beside(joint))
+        said.push_back("nothing drives joint '" + joint.name + "' that moves '" +
+                       robot_.links[static_cast<std::size_t>(joint.child_link)].name +
+                       "' beside the arm: it stays where it is, take it out with --without if it is in the way");
     for (const int link : find_occupants(robot_, flange_))
       said.push_back("'" + robot_.links[static_cast<std::size_t>(link)].name + "' hangs on '" + flange +
                      "' too: take it out with --without if it goes when the spindle comes");
@@ -137,6 +142,19 @@ class CellMaker {
   }
 
  private:
+  /// Can it move, though neither the flange nor the stock hangs on it?
+  bool is_beside(const Joint& joint) const {
+    const auto carries = [&](int link) {
+      while (link >= 0 && link != joint.child_link) {
+        const int above = robot_.links[static_cast<std::size_t>(link)].parent_joint;
+        link = above < 0 ? -1 : robot_.joints[static_cast<std::size_t>(above)].parent_link;
+      }
+      return link >= 0;
+    };
+    if (joint.kind == JointKind::fixed || joint.mimic >= 0 || carries(flange_)) return false;
+    return wishes_.stock_link.empty() || !carries(robot_.find_link(wishes_.stock_link));
+  }
+
   bool needs_nose() const { return spindle_length_m_ > 0 || std::abs(out_.z() - 1) > 1e-6; }
 
   /// The lowest point of what stands still with the root.

@@ -137,6 +137,38 @@ TEST(Examine, JointsBesideTheChainAreNamed) {
   ASSERT_NE(fault_of(found, "idle_joint"), nullptr);
 }
 
+TEST(Examine, AToolThatPointsIntoTheArmIsTold) {
+  Cell cell = shipped_cell("panda-turntable");
+  EXPECT_EQ(fault_of(examine(cell), "tool_in_link"), nullptr);
+  const int nose = cell.robot.links[static_cast<std::size_t>(cell.tool_link)].parent_joint;
+  cell.robot.joints[static_cast<std::size_t>(nose)].origin.rotate(Eigen::AngleAxisd(3.14159265, Vec3::UnitX()));
+  const CellFindings found = examine(cell);
+  ASSERT_NE(fault_of(found, "tool_in_link"), nullptr);
+  EXPECT_EQ(fault_of(found, "tool_in_link")->weight, Fault::Weight::warning);
+}
+
+TEST(Examine, APistonThatNothingDrivesIsNamedWhereItIsInTheWay) {
+  Cell cell = shipped_cell("panda-turntable");
+  std::string urdf = cell.urdf;
+  urdf.insert(urdf.rfind("</robot>"),
+              R"(<link name="piston"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+    <joint name="rod" type="prismatic"><parent link="link1"/><child link="piston"/><origin xyz="-0.08 0 0.3"/>
+      <limit lower="0" upper="0.1" effort="1" velocity="1"/></joint>)");
+  const Robot before = cell.robot;
+  cell.robot = parse_plain(urdf);
+  std::vector<double> rest(cell.robot.joints.size(), 0);
+  for (std::size_t joint = 0; joint < before.joints.size(); ++joint)
+    rest[static_cast<std::size_t>(cell.robot.find_joint(before.joints[joint].name))] = cell.rest[joint];
+  cell.rest = rest;
+  cell.stock_link = cell.robot.find_link("stock");
+  cell.tool_link = cell.robot.find_link("spindle_nose");
+  cell.ignore_pairs.clear();
+  const CellFindings found = examine(cell);
+  const Fault* fault = fault_of(found, "home_blocked");
+  ASSERT_NE(fault, nullptr);
+  EXPECT_NE(fault->cure.find("joint 'rod' that moves 'piston'"), std::string::npos) << fault->cure;
+}
+
 TEST(Examine, LinksWithoutAShapeAreTold) {
   Cell cell = make_test_cell();
   cell.robot.links[static_cast<std::size_t>(cell.robot.find_link("fore"))].shapes.clear();
