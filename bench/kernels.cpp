@@ -150,7 +150,7 @@ BENCHMARK(posture_of_the_field);
 void posture_field_from_above(benchmark::State& state) {
   const Sweeping s(64);
   const Configuration start = s.start();
-  for (auto _ : state) benchmark::DoNotOptimize(PostureField(s.scene, s.view, start, 1, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(PostureField(s.scene, s.view, {start}, 1, {}));
 }
 BENCHMARK(posture_field_from_above)->Unit(benchmark::kMillisecond);
 
@@ -164,7 +164,7 @@ void bubble_around_a_configuration(benchmark::State& state) {
   const Configuration here = s.start();
   for (auto _ : state) {
     Scene::Pairs pairs = s.scene.pairs();
-    benchmark::DoNotOptimize(s.scene.bubble(here, box_around(here), pairs));
+    benchmark::DoNotOptimize(s.scene.bubble(here, box_around(here), {}, s.scene.full_stock(), pairs));
   }
 }
 BENCHMARK(bubble_around_a_configuration)->Unit(benchmark::kMicrosecond);
@@ -174,7 +174,7 @@ void bubble_holds_a_configuration(benchmark::State& state) {
   const Configuration here = s.start();
   const JointBox box = box_around(here);
   Scene::Pairs pairs = s.scene.pairs();
-  const Bubble bubble = s.scene.bubble(here, box, pairs);
+  const Bubble bubble = s.scene.bubble(here, box, {}, s.scene.full_stock(), pairs);
   const Configuration inside = here + 0.3 * (box.high - here);
   if (!bubble.holds(inside)) return state.SkipWithError("there is no bubble here");
   for (auto _ : state) benchmark::DoNotOptimize(bubble.holds(inside));

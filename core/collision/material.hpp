@@ -2,6 +2,7 @@
 // voxel (0,0,0).
 #pragma once
 
+#include <bit>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,10 @@ class Material {
     return v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i < n() && v.j < n() && v.k < n() && solid_.contains(v);
   }
   void remove(Voxel v);
+
+  /// Of the aligned cube of `size` (a power of two) voxels along each edge, does all stand, does any?
+  bool is_full(Voxel corner, int size) const { return count_in(corner, size) == volume(level_of(size)); }
+  bool any_in(Voxel corner, int size) const { return count_in(corner, size) > 0; }
 
   /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
   bool meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
@@ -49,6 +54,10 @@ class Material {
       if (any_cube_below(level - 1, below, meets)) return true;
     }
     return false;
+  }
+  static int level_of(int size) { return std::countr_zero(static_cast<unsigned>(size)); }
+  std::uint32_t count_in(Voxel corner, int size) const {
+    return count(level_of(size), {corner.i / size, corner.j / size, corner.k / size});
   }
   static std::uint32_t volume(int level) { return std::uint32_t{1} << (3 * level); }
   /// Standing voxels in the cube of edge 2^level at position `at` among cubes of that size.

@@ -31,6 +31,16 @@ void Scene::leave(const VoxelSet& left) {
   bodies_->material = Material(left);
 }
 
+const Body& Scene::full_stock() const {
+  return bodies_->stock;
+}
+
+Body Scene::stock_of(const VoxelSet& blocks) const {
+  const Grid& fine = bodies_->grid;
+  const Grid coarse{blocks.n(), fine.voxel_m * fine.n / blocks.n(), fine.origin_m};
+  return make_stock_body(Material(blocks), coarse, bodies_->chain.stock_link());
+}
+
 bool Scene::tool_fits(const ToolPose& pose, std::optional<Voxel> exempt) const {
   const ToolLine line = bodies_->tool_line(pose);
   const double radius = std::max(bodies_->radii.ball, bodies_->radii.shank) + tool_margin_voxels;
@@ -78,9 +88,7 @@ bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {
   Shape box;
   box.sides_m = high_m - low_m;
   box.pose.translation() = (low_m + high_m) / 2;
-  const Vec3& middle = box.pose.translation();
-  const Capsule hull{{middle, middle}, box.sides_m.norm() / 2};
-  const Body region{bodies_->chain.stock_link(), false, {{box, hull}}, hull};
+  const Body region(bodies_->chain.stock_link(), false, {{std::make_shared<const ShapeTree>(make_tree(box)), 0}});
   return std::none_of(bodies_->fixed.begin(), bodies_->fixed.end(), [&](const Body* body) {
     return near_body(region, Frame::Identity(), *body, at[static_cast<std::size_t>(body->link)], 0);
   });

@@ -12,6 +12,7 @@
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
 #include "core/collision/near_bodies.hpp"
+#include "core/collision/shape/body.hpp"
 
 namespace sculpt {
 
@@ -65,10 +66,17 @@ class Scene {
   /// Of these, those that may touch somewhere in `box`; of which the same part counts as for `bubble`.
   Pairs pairs_in(const JointBox& box) const;
 
-  /// Of the configurations in `box`, those at which surely none of `pairs` touch; beyond the limits of what shifts
-  /// none, other limits are not looked at. `q`: in the box. Pairs that touch nowhere in the box are taken out: its
-  /// parts need not ask for them. Stays true while material is removed.
-  Bubble bubble(const Configuration& q, const JointBox& box, Pairs& pairs) const;
+  /// The stock as it stood when the scene was made, as what links are kept clear of.
+  const Body& full_stock() const;
+  /// The same of what stands of it: `blocks` are those of a coarser grid in which anything does.
+  Body stock_of(const VoxelSet& blocks) const;
+
+  /// Of the configurations in `box`, those at which surely none of `pairs` touch, `stock` standing; it holds q and all
+  /// of `wanted`, or it is empty. Beyond the limits of what shifts it holds none, other limits are not looked at. `q`,
+  /// `wanted`: in the box. Pairs that touch nowhere in the box are taken out: its parts need not ask for them. Stays
+  /// true while material is removed.
+  Bubble bubble(const Configuration& q, const JointBox& box, const std::vector<Configuration>& wanted,
+                const Body& stock, Pairs& pairs) const;
 
   /// Is the box [low_m, high_m] of the stock's frame clear of all links that stand still in that frame?
   bool room_is_clear(const Vec3& low_m, const Vec3& high_m) const;

@@ -13,7 +13,8 @@ SceneBodies::SceneBodies(const Cell& cell, const Grid& where, const VoxelSet& st
       grid(where),
       tool(make_tool(cell.tool, where.voxel_m)),
       material(standing),
-      bodies(make_bodies(cell, tool)) {
+      bodies(make_bodies(cell, tool)),
+      stock(make_stock_body(material, where, cell.stock_link)) {
   add_pairs(cell);
   const double h = grid.voxel_m;
   tool_speed = motion_bound(chain, cell.stock_link, cell.tool_link, tool.stickout_m) / h;

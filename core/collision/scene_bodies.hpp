@@ -11,6 +11,7 @@
 #include "core/collision/bubble.hpp"
 #include "core/collision/clearance.hpp"
 #include "core/collision/contact.hpp"
+#include "core/collision/keep_apart.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
 #include "core/collision/shape/body.hpp"
@@ -78,15 +79,9 @@ class SceneBodies {
   double tool_second_derivative(const Configuration& step) const;
 
   // For bubbles.
-  double plain_gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
-  double gap(const Pair& pair, const std::vector<Frame>& at, double enough) const;
-  Bubble::Approach approach(const Pair& pair, const std::vector<Frame>& at, const Configuration& half) const;
-  void sharpen(Bubble::Approach& approach, const Pair& pair, const Configuration& half) const;
-  std::optional<std::vector<Separation>> planes(const Pair& pair, const std::vector<Frame>& at,
-                                                const Configuration& half, double enough) const;
-  std::optional<std::vector<Bubble::Advance>> advances(const std::vector<Separation>& planes,
-                                                       const Bubble::Approach& approach, const Pair& pair,
-                                                       const std::vector<Frame>& at, const Configuration& half) const;
+  /// Of `mover` of the pair, seen from the other body, in the box of +-half.
+  RelativeMotion motion_of(const Mover& mover, int seen_from, const std::vector<Frame>& at,
+                           const Configuration& half) const;
   bool is_free_in(const Pair& pair, const JointBox& box, int& checks_left) const;
 
   Chain chain;
@@ -94,6 +89,7 @@ class SceneBodies {
   Tool tool;
   Material material;
   std::vector<Body> bodies;
+  Body stock;                      ///< as it stood first
   std::vector<const Body*> fixed;  ///< those that stand still in the stock's frame
   std::vector<Pair> pairs;
   std::vector<UncheckedLinks> unchecked;

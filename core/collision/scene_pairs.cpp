@@ -29,8 +29,8 @@ std::vector<std::pair<Shapes, Shapes>> group_shapes(const CheckedLinks& checked)
 
 SceneBodies::Mover SceneBodies::make_mover(int body, int from_link) const {
   const Body& mover = bodies[static_cast<std::size_t>(body)];
-  return {body, motion_bound(chain, from_link, mover.link, mover.hull.extent()),
-          turn_bound(chain, from_link, mover.link), find_drives(chain, from_link, mover.link)};
+  return {body, motion_bound(chain, from_link, mover.link, mover.extent_m), turn_bound(chain, from_link, mover.link),
+          find_drives(chain, from_link, mover.link)};
 }
 
 Configuration SceneBodies::grid_speed_from(int link) const {

@@ -16,6 +16,7 @@
 namespace sculpt {
 namespace {
 
+constexpr int sampled_per_edge = 32;
 constexpr double look_around_m = 0.02;  // what is nearer to something at home is told
 
 class Stopwatch {
@@ -90,16 +91,30 @@ int usable_resolution(const Cell& cell, int resolution, std::vector<Fault>& faul
   return 0;
 }
 
+/// Share of the stock in which some field along the axis may be used.
+double certified_share(const Directions& directions, const Vec3& axis, int n) {
+  std::vector<std::size_t> along;
+  for (std::size_t d = 0; d < directions.size(); ++d)
+    if (directions.is_straight(d) && directions.view(d).axis().isApprox(axis)) along.push_back(d);
+  const int step = std::max(1, n / sampled_per_edge);
+  int usable = 0, all = 0;
+  for (int k = 0; k < n; k += step)
+    for (int j = 0; j < n; j += step)
+      for (int i = 0; i < n; i += step, ++all)
+        usable += std::any_of(along.begin(), along.end(), [&](std::size_t d) {
+          const Voxel cell = directions.view(d).cell({i, j, k});
+          return directions.may_reach(d, Vec3(cell.i, cell.j, cell.k));
+        });
+  return static_cast<double>(usable) / all;
+}
+
 void find_fields(const Scene& scene, const Configuration& home, const RunContext& run, CellFindings& found) {
   const Stopwatch watch;
   Directions directions(scene, home, run);
   directions.find_straight_fields();
   found.fields_s = watch.seconds();
   for (DirectionFinding& direction : found.directions)
-    for (std::size_t d = 0; d < directions.straight(); ++d)
-      if (directions.view(d).axis().isApprox(direction.axis))
-        direction.field =
-            static_cast<double>(directions.field(d).usable_cells()) / static_cast<double>(PostureField::all_cells());
+    direction.field = certified_share(directions, direction.axis, scene.grid().n);
 }
 
 }  // namespace

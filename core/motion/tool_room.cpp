@@ -15,9 +15,7 @@ std::vector<Body> find_holder(const Chain& chain) {
     if (shape.kind != ShapeKind::cylinder || !shape.pose.linear().isIdentity() ||
         !shape.pose.translation().head<2>().isZero())
       continue;
-    const Vec3 half(0, 0, shape.length_m / 2);
-    const Capsule hull{{shape.pose * Vec3(-half), shape.pose * half}, shape.radius_m};
-    holder.push_back({chain.tool_link(), true, {{shape, hull}}, hull});
+    holder.push_back({chain.tool_link(), true, {{std::make_shared<const ShapeTree>(make_tree(shape)), 0}}});
   }
   return holder;
 }

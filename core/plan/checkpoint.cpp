@@ -91,11 +91,15 @@ Json to_json(const SweepMemory& sweeping) {
   Json json{{"used_up", sweeping.used_up},
             {"spared", sweeping.spared},
             {"tilted_fields", sweeping.tilted_fields},
+            {"opened", Json::array()},
+            {"asked_with", sweeping.asked_with},
             {"tilted", sweeping.tilted},
             {"cut_tilted", sweeping.cut_tilted},
             {"transits", sweeping.arm.transits},
             {"at", {at.x(), at.y(), at.z()}},
             {"way_home", to_json(sweeping.arm.way_home)}};
+  for (const VoxelSet& standing : sweeping.opened)
+    json["opened"].push_back({{"n", standing.n()}, {"words", standing.words()}});
   if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
   if (sweeping.direction) json["direction"] = *sweeping.direction;
   if (sweeping.pass) json["pass"] = to_json(*sweeping.pass);
@@ -107,6 +111,11 @@ SweepMemory sweeping_of(const Json& json) {
   sweeping.used_up = json.at("used_up").get<std::vector<char>>();
   sweeping.spared = json.at("spared").get<std::vector<char>>();
   sweeping.tilted_fields = json.at("tilted_fields").get<std::vector<std::size_t>>();
+  for (const Json& standing : json.at("opened")) {
+    sweeping.opened.emplace_back(standing.at("n").get<int>());
+    sweeping.opened.back().words() = standing.at("words").get<std::vector<std::uint64_t>>();
+  }
+  sweeping.asked_with = json.at("asked_with").get<std::uint64_t>();
   sweeping.tilted = json.at("tilted").get<bool>();
   sweeping.cut_tilted = json.at("cut_tilted").get<bool>();
   sweeping.arm.transits = json.at("transits").get<std::uint64_t>();

@@ -6,81 +6,120 @@
 #include "core/base/helpers.hpp"
 #include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
+#include "core/collision/clearance.hpp"
 #include "core/sweep/field/find_field.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr std::size_t first_side = 1;  // of the views; four each of a kind follow
+constexpr std::size_t top = 0, first_side = 1, sides = 4;  // of tool_views
+constexpr int max_blocks = 32;                             // along an edge of the grid
+constexpr std::size_t worth_percent = 3;                   // of all parts of a field, that opening it must add
 
 }  // namespace
 
 Directions::Directions(const Scene& scene, const Configuration& home, const RunContext& run)
-    : scene_(scene), home_(home), run_(run), turn_(find_stock_turn(scene.chain(), scene.grid())) {
-  const int n = scene.grid().n;
-  for (const ToolView& view : tool_views(n)) views_.push_back(view);
-  straight_ = views_.size();
-  for (const ToolView& view : tilted_views(n)) views_.push_back(view);
-  fields_.resize(views_.size());
-  reach_.resize(straight_);
+    : scene_(scene), home_(home), run_(run), turn_(find_stock_turn(scene.chain(), scene.grid())) {}
+
+/// The top and the first side are searched for; the other sides too, where the stock cannot be turned.
+void Directions::find_straight_fields() {
+  const auto views = tool_views(scene_.grid().n);
+  const std::size_t apart = turn_ ? first_side + 1 : views.size();
+  std::vector<Fields> found(views.size());
+  run_.helpers.for_each_index(apart, [&](std::size_t number) { found[number] = search(views[number], number); });
+  for (std::size_t number = apart; number < views.size(); ++number) {
+    for (const auto& field : found[first_side])
+      if (auto other = turned(*field, views[number], static_cast<double>(number - first_side)))
+        found[number].push_back(std::move(other));
+    if (found[number].empty()) found[number] = search(views[number], number);
+  }
+  for (std::size_t number = 0; number < views.size(); ++number)
+    for (auto& field : found[number]) ways_.push_back({views[number], std::move(field)});
+  straight_ = ways_.size();
+  run_.helpers.for_each_index(straight_, [&](std::size_t way) { find_reach(ways_[way]); });
+  for (const ToolView& view : tilted_views(scene_.grid().n)) ways_.push_back({view});
 }
 
-void Directions::find_straight_fields() {
-  const std::size_t apart = turn_ ? first_side + 1 : straight_;
-  run_.helpers.for_each_index(apart, [&](std::size_t direction) { find(direction); });
-  for (std::size_t direction = apart; direction < straight_; ++direction) find(direction);
-  run_.helpers.for_each_index(straight_, [&](std::size_t direction) {
-    const PostureField& field = *fields_[direction];
-    reach_[direction].emplace(
-        scene_.grid().n, [&](const Vec3& cell) { return field.part(cell); },
-        [&](Voxel part) { return field.usable_part(part); });
+bool Directions::open(const VoxelSet& standing_blocks) {
+  const Body standing = scene_.stock_of(standing_blocks);
+  std::vector<std::unique_ptr<PostureField>> opened(straight_);
+  run_.helpers.for_each_index(straight_, [&](std::size_t way) {
+    const PostureField& field = *ways_[way].field;
+    if (field.may_open(scene_, standing))
+      opened[way] = std::make_unique<PostureField>(field, scene_, standing, run_.helpers, run_.watch);
   });
+  const std::size_t before = ways_.size();
+  for (std::size_t way = 0; way < straight_; ++way) {
+    if (!opened[way]) continue;
+    std::size_t covered = ways_[way].field->usable_cells();
+    for (std::size_t other = straight_; other < before; ++other)
+      if (ways_[other].opens == way) covered = std::max(covered, ways_[other].field->usable_cells());
+    if (100 * opened[way]->usable_cells() < 100 * covered + worth_percent * PostureField::all_cells()) continue;
+    ways_.push_back({ways_[way].view, std::move(opened[way]), {}, way});
+    find_reach(ways_.back());
+  }
+  return ways_.size() > before;
+}
+
+VoxelSet Directions::blocks_of(const VoxelSet& standing) {
+  const int blocks = std::min(standing.n(), max_blocks), size = standing.n() / blocks;
+  VoxelSet all(blocks);
+  for_each_voxel(standing, [&](Voxel v) { all.insert({v.i / size, v.j / size, v.k / size}); });
+  return all;
+}
+
+void Directions::find_reach(Way& way) const {
+  const PostureField& field = *way.field;
+  way.reach.emplace(
+      scene_.grid().n, [&](const Vec3& cell) { return field.part(cell); },
+      [&](Voxel part) { return field.usable_part(part); });
 }
 
 const PostureField& Directions::field(std::size_t direction) {
-  find(direction);
-  return *fields_[direction];
+  if (!ways_[direction].field) ways_[direction].field = find_tilted(direction);
+  return *ways_[direction].field;
 }
 
 std::vector<std::size_t> Directions::tilted_found() const {
   std::vector<std::size_t> found;
-  for (std::size_t direction = straight_; direction < fields_.size(); ++direction)
-    if (fields_[direction]) found.push_back(direction);
+  for (std::size_t way = 0; way < ways_.size(); ++way)
+    if (!is_straight(way) && ways_[way].field) found.push_back(way);
   return found;
 }
 
 std::size_t Directions::number_of(const PostureField& field) const {
-  const auto is_it = [&](const std::unique_ptr<PostureField>& other) { return other.get() == &field; };
-  return static_cast<std::size_t>(std::ranges::find_if(fields_, is_it) - fields_.begin());
+  const auto is_it = [&](const Way& way) { return way.field.get() == &field; };
+  return static_cast<std::size_t>(std::ranges::find_if(ways_, is_it) - ways_.begin());
 }
 
-/// The first of each four sides that are quarter turns of each other is searched for. It is turned into the others', if
-/// the stock can be.
-void Directions::find(std::size_t direction) {
-  if (fields_[direction]) return;
-  const std::size_t quarters = direction < first_side ? 0 : (direction - first_side) % 4;
-  if (turn_ && quarters > 0) {
-    find(direction - quarters);
-    fields_[direction] = turned(*fields_[direction - quarters], direction, static_cast<double>(quarters));
-  }
-  if (!fields_[direction]) fields_[direction] = search(direction);
+/// The first of each four that are quarter turns of each other is searched for. It is turned into the others', if the
+/// stock can be.
+std::unique_ptr<PostureField> Directions::find_tilted(std::size_t direction) {
+  const std::size_t quarters = (direction - straight_) % sides;
+  if (turn_ && quarters > 0)
+    if (auto other = turned(field(direction - quarters), ways_[direction].view, static_cast<double>(quarters)))
+      return other;
+  Fields found = search(ways_[direction].view, tool_views(scene_.grid().n).size() + direction - straight_);
+  return std::move(*std::ranges::max_element(found, {}, [](const auto& field) { return field->usable_cells(); }));
 }
 
-std::unique_ptr<PostureField> Directions::search(std::size_t direction) const {
+Directions::Fields Directions::search(const ToolView& view, std::uint64_t number) const {
   // Held as from home above the stock, with some joint turned, the arm may well come from another side.
   std::vector<Configuration> known;
-  const IkGoal hub{views_[0].ball_m(scene_.grid(), hub_cell(scene_.grid().n)), views_[0].axis()};
-  if (const auto above = solve_ik(scene_.chain(), hub, home_); above && direction > 0) known.push_back(*above);
-  return find_field(scene_, views_[direction], home_, known, {mix(run_.seed, direction), run_.helpers, run_.watch});
+  const ToolView down = tool_views(scene_.grid().n)[top];
+  const Vec3 above = ToolView::place(PostureLattice::hub_of(down.n, {}));
+  const auto from_top = solve_ik(scene_.chain(), {down.ball_m(scene_.grid(), above), down.axis()}, home_);
+  if (from_top && number != top) known.push_back(*from_top);
+  return find_fields(scene_, view, home_, known, {mix(run_.seed, number), run_.helpers, run_.watch});
 }
 
 /// Nothing if the joint does not turn so far.
-std::unique_ptr<PostureField> Directions::turned(const PostureField& field, std::size_t direction,
+std::unique_ptr<PostureField> Directions::turned(const PostureField& field, const ToolView& view,
                                                  double quarters) const {
   for (double rounds : {0, -1, 1}) {
     const double by = turn_->direction * (quarters / 4 + rounds) * 2 * std::numbers::pi;
     if (field.can_turn(turn_->coordinate, by))
-      return std::make_unique<PostureField>(field, views_[direction],
+      return std::make_unique<PostureField>(field, view,
                                             by * Configuration::Unit(scene_.chain().dof(), turn_->coordinate));
   }
   return nullptr;

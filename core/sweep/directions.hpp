@@ -1,4 +1,4 @@
-// The tool directions of a sweep, and the field of configurations of each.
+// The ways in which a sweep holds the tool: directions of its axis, each with a field of configurations.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,29 @@
 
 namespace sculpt {
 
-/// By number: the straight ones (tool_views), then the tilted ones. Fields are found when they are first asked for; not
-/// shared between threads.
+/// By number: the straight ones (tool_views), some of them more than once, with fields that cover different parts;
+/// then the tilted ones, whose fields are found when they are first asked for; then straight ones again, with fields
+/// for what stood when they were opened. Not shared between threads.
 class Directions {
  public:
   /// `scene` must outlive the object.
   Directions(const Scene& scene, const Configuration& home, const RunContext& run);
 
-  /// The fields of all straight directions. To be called first. Throws Cancelled.
+  /// The fields of all straight directions, and with them their numbers. To be called first. Throws Cancelled.
   void find_straight_fields();
+
+  /// Looks again at straight directions where the full stock was in the way of links, now that only this stands (as
+  /// `blocks_of` has it). Says whether it found new ones. Throws Cancelled.
+  bool open(const VoxelSet& standing_blocks);
+  /// What stands as a coarser grid, of blocks in which anything does.
+  static VoxelSet blocks_of(const VoxelSet& standing);
 
   /// The coordinate that turns the stock under the arm, if there is one.
   std::optional<int> stock_turn() const { return turn_ ? std::optional(turn_->coordinate) : std::nullopt; }
 
-  std::size_t straight() const { return straight_; }
-  std::size_t size() const { return views_.size(); }
-  const ToolView& view(std::size_t direction) const { return views_[direction]; }
+  std::size_t size() const { return ways_.size(); }
+  bool is_straight(std::size_t direction) const { return ways_[direction].view.lean == Voxel{0, 0, 1}; }
+  const ToolView& view(std::size_t direction) const { return ways_[direction].view; }
   /// Throws Cancelled.
   const PostureField& field(std::size_t direction);
   /// The tilted directions whose fields were found.
@@ -36,25 +43,34 @@ class Directions {
   /// Which of them has this field, one that was found.
   std::size_t number_of(const PostureField& field) const;
   /// Where the field of a straight direction is usable.
-  const ReachRows& reach(std::size_t direction) const { return *reach_[direction]; }
+  const ReachRows& reach(std::size_t direction) const { return *ways_[direction].reach; }
   /// May the ball's centre be at this cell, for links and limits? True where the field is not known.
   bool may_reach(std::size_t direction, const Vec3& cell) const {
-    return !fields_[direction] || fields_[direction]->usable(cell);
+    const Way& way = ways_[direction];
+    return !way.field || way.field->usable(cell);
   }
 
  private:
-  void find(std::size_t direction);
-  std::unique_ptr<PostureField> search(std::size_t direction) const;
-  std::unique_ptr<PostureField> turned(const PostureField& field, std::size_t direction, double quarters) const;
+  using Fields = std::vector<std::unique_ptr<PostureField>>;
+
+  struct Way {
+    ToolView view;
+    std::unique_ptr<PostureField> field = {};
+    std::optional<ReachRows> reach = {};
+    std::optional<std::size_t> opens = {};  ///< which one, with less in its way
+  };
+
+  Fields search(const ToolView& view, std::uint64_t number) const;
+  std::unique_ptr<PostureField> find_tilted(std::size_t direction);
+  std::unique_ptr<PostureField> turned(const PostureField& field, const ToolView& view, double quarters) const;
+  void find_reach(Way& way) const;
 
   const Scene& scene_;
   Configuration home_;
   RunContext run_;
   std::optional<StockTurn> turn_;
-  std::vector<ToolView> views_;
-  std::size_t straight_ = 0;
-  std::vector<std::unique_ptr<PostureField>> fields_;
-  std::vector<std::optional<ReachRows>> reach_;
+  std::vector<Way> ways_;
+  std::size_t straight_ = 0;  ///< that many come before the tilted ones
 };
 
 }  // namespace sculpt

@@ -22,7 +22,7 @@ bool HubArm::enter(const PostureField& field) {
 }
 
 std::optional<HubArm::Entry> HubArm::find_entry(const PostureField& field) const {
-  const auto hub = field.at(hub_cell(scene_.grid().n));
+  const auto hub = field.at(ToolView::place(field.hub()));
   if (!hub) return std::nullopt;
   auto back = way_home();
   if (!back) return std::nullopt;
@@ -37,7 +37,7 @@ void HubArm::enter(Entry entry) {
   memory_.way_home.insert(memory_.way_home.end(), entry.back.begin(), entry.back.end());
   ++memory_.transits;
   field_ = entry.field;
-  memory_.at = hub_cell(scene_.grid().n);
+  memory_.at = ToolView::place(field_->hub());
 }
 
 /// From where it stands; empty if none was found. Where no edge leads there it draws back to a place on its way home,
@@ -89,7 +89,7 @@ std::vector<Configuration> HubArm::find_transit(const Configuration& to) const {
 /// if something stands between it and the hub.
 std::optional<std::vector<Configuration>> HubArm::way_home() const {
   if (field_ == nullptr) return std::vector<Configuration>{};
-  const Vec3 hub = hub_cell(scene_.grid().n);
+  const Vec3 hub = ToolView::place(field_->hub());
   const FollowedStrokes over = try_strokes(*field_, memory_.at, {{hub, 0, 0, {}, {}}});
   if (memory_.at != hub && over.strokes == 0) return std::nullopt;
   std::vector<Configuration> way;

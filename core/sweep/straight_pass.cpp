@@ -46,7 +46,7 @@ class StraightPass {
   PassEnd run(bool entered, const NoteStraight& note) {
     const std::uint64_t before = arm_.removed();
     const bool cut_before = now_.so_far.cut;
-    Batch batch = plan(entered ? arm_.at() : hub_cell(field_.view().n));
+    Batch batch = plan(entered ? arm_.at() : ToolView::place(field_.hub()));
     while (!batch.layers.empty()) {
       // As if nothing failed, what comes next is planned beside.
       now_.layers_at_once = std::min(2 * now_.layers_at_once, max_layers_at_once);

@@ -22,11 +22,13 @@ class Sweep {
  public:
   Sweep(Carving& carving, Directions& directions, const std::function<void(const SweepMemory&)>& note)
       : carving_(carving), directions_(directions), note_(note), counts_(directions.size()) {
+    now_.asked_with = standing().size();
     now_.used_up.resize(directions.size());
     now_.spared.resize(directions.size());
   }
 
   void resume(const SweepStart& start) {
+    for (const VoxelSet& standing : start.memory.opened) open(standing);
     now_ = start.memory;
     for (const std::size_t direction : now_.tilted_fields) directions_.field(direction);
     carving_.arm.resume(now_.arm, start.q, now_.direction ? &directions_.field(*now_.direction) : nullptr);
@@ -51,6 +53,7 @@ class Sweep {
         cut_along(*direction, {});
         return true;
       }
+      if (open_more()) return true;
       now_.tilted = true;
       now_.cut_tilted = false;
       if (!now_.out_of_reach) find_out_of_reach();
@@ -63,7 +66,8 @@ class Sweep {
       return true;
     }
     now_.tilted = false;
-    std::fill_n(now_.used_up.begin(), directions_.straight(), 0);
+    for (std::size_t direction = 0; direction < directions_.size(); ++direction)
+      if (directions_.is_straight(direction)) now_.used_up[direction] = false;
     return now_.cut_tilted;
   }
 
@@ -91,8 +95,26 @@ class Sweep {
     now_.pass.reset();
   }
 
+  /// With what was cut out of the way of links, if that is anything since it was last asked.
+  bool open_more() {
+    const std::uint64_t standing_voxels = standing().size();
+    if (std::exchange(now_.asked_with, standing_voxels) == standing_voxels) return false;
+    VoxelSet blocks = Directions::blocks_of(standing());
+    if (!open(blocks)) return false;
+    now_.opened.push_back(std::move(blocks));
+    return true;
+  }
+
+  bool open(const VoxelSet& blocks) {
+    if (!directions_.open(blocks)) return false;
+    now_.used_up.resize(directions_.size());
+    now_.spared.resize(directions_.size());
+    counts_.resize(directions_.size());
+    return true;
+  }
+
   std::optional<std::size_t> best_straight() {
-    return best(0, directions_.straight(), 1, [this](std::size_t direction) {
+    return best(true, 1, [this](std::size_t direction) {
       return Columns(directions_.view(direction), standing(), carving_.keep, directions_.reach(direction))
           .count_cuttable();
     });
@@ -120,8 +142,7 @@ class Sweep {
 
   std::optional<std::size_t> best_tilted(const std::vector<Voxel>& wanted) {
     if (wanted.size() < fewest_tilted) return std::nullopt;
-    return best(directions_.straight(), directions_.size(), fewest_tilted,
-                [&](std::size_t direction) { return count_tilted(direction, wanted); });
+    return best(false, fewest_tilted, [&](std::size_t direction) { return count_tilted(direction, wanted); });
   }
 
   std::uint64_t count_tilted(std::size_t direction, std::vector<Voxel> wanted) const {
@@ -135,14 +156,14 @@ class Sweep {
            find_out_of_tool_reach(standing(), wanted, {view.along(view.lean)}, all_through, carving_.run.watch).size();
   }
 
-  /// The direction, of those from `first` to before `end` that are not used up, along which most can be cut now, if
-  /// that is `fewest` voxels or more.
+  /// The direction, of the straight or the tilted ones that are not used up, along which most can be cut now, if that
+  /// is `fewest` voxels or more.
   template <typename Count>
-  std::optional<std::size_t> best(std::size_t first, std::size_t end, std::uint64_t fewest, const Count& count) {
-    carving_.run.helpers.for_each_index(
-        end - first, [&](std::size_t at) { counts_[first + at] = now_.used_up[first + at] ? 0 : count(first + at); });
-    const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto most = std::max_element(begin, counts_.begin() + static_cast<std::ptrdiff_t>(end));
+  std::optional<std::size_t> best(bool straight, std::uint64_t fewest, const Count& count) {
+    carving_.run.helpers.for_each_index(counts_.size(), [&](std::size_t at) {
+      counts_[at] = directions_.is_straight(at) != straight || now_.used_up[at] ? 0 : count(at);
+    });
+    const auto most = std::ranges::max_element(counts_);
     if (*most < fewest) return std::nullopt;
     return static_cast<std::size_t>(most - counts_.begin());
   }

@@ -17,6 +17,8 @@ struct SweepMemory {
   std::vector<char> used_up;               ///< per direction: the last pass along it cut nothing
   std::vector<char> spared;                ///< in the last pass along it something was left lest a piece come free
   std::vector<std::size_t> tilted_fields;  ///< of which tilted directions the fields are known
+  std::vector<VoxelSet> opened;            ///< what stood, as blocks, each time that straight directions were opened
+  std::uint64_t asked_with = 0;            ///< how many voxels stood when that was last asked for
   bool tilted = false;                     ///< tilted directions are being tried
   bool cut_tilted = false;                 ///< and something was cut along one
   std::optional<std::vector<Voxel>> out_of_reach;  ///< what no direction can cut, once that was asked

@@ -19,8 +19,8 @@ class TiltedPass {
         arm_(carving.arm),
         helpers_(carving.run.helpers),
         field_(field),
-        hub_(hub_cell(field.view().n)),
-        cuts_(field.view(), carving.support.standing(), wanted, gate(field.view().n),
+        hub_(ToolView::place(field.hub())),
+        cuts_(field.view(), carving.support.standing(), wanted, field.hub(),
               [&field](const Vec3& cell) { return field.usable(cell); }) {}
 
   PassEnd run() {

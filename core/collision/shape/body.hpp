@@ -1,12 +1,13 @@
-// Robot + tool -> bodies: what is rigidly fixed to one link, as convex pieces inside bounding capsules. Metres, in the
-// link's frame.
+// Robot + tool -> bodies: what is rigidly fixed to one link, as trees of convex shapes. Metres, in the link's frame.
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "core/cell/cell.hpp"
 #include "core/collision/shape/distance.hpp"
+#include "core/collision/shape/shape_tree.hpp"
 
 namespace sculpt {
 
@@ -14,30 +15,27 @@ namespace sculpt {
 struct Capsule {
   Segment core;
   double radius_m = 0;
-
-  /// Farthest point from the origin of the frame.
-  double extent() const { return std::max(core.a.norm(), core.b.norm()) + radius_m; }
-};
-
-/// A sphere, box or cylinder, and a capsule that holds all of it.
-struct Piece {
-  Shape shape;
-  Capsule hull;
-  std::size_t covers = 0;  ///< which of its link's shapes it is, or covers a part of
 };
 
 struct Body {
   int link = -1;
   bool tool = false;  ///< ball and shank
-  std::vector<Piece> pieces;
-  Capsule hull;  ///< holds all pieces
+  struct Part {
+    std::shared_ptr<const ShapeTree> tree;
+    std::size_t shape = 0;  ///< which of its link's shapes it is
+  };
+  std::vector<Part> parts;
+  Capsule hull;         ///< holds all parts
+  double extent_m = 0;  ///< no point is farther from the origin of the link's frame
+
+  /// Of one shape each: hull and extent follow.
+  Body(int link, bool tool, std::vector<Part> parts);
 };
 
-/// A body for each link with shapes, meshes replaced by boxes that cover their triangles, then the tool on the tool
-/// link.
+/// A body for each link with shapes, then the tool on the tool link.
 std::vector<Body> make_bodies(const Cell& cell, const Tool& tool);
 
-/// Of the body, what covers these shapes of its link: some of those that it has.
+/// Of the body, these shapes of its link: some of those that it has.
 Body part_of(const Body& body, const std::vector<std::size_t>& shapes);
 
 }  // namespace sculpt

@@ -1,7 +1,6 @@
 #include "core/sweep/field/bubble_cover.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "core/collision/margins.hpp"
@@ -20,10 +19,6 @@ struct Wanted {
   Configuration centre;
   std::vector<Configuration> corners;  ///< none if one is missing or near a limit
   JointBox box;                        ///< around them
-
-  bool held_by(const Bubble& bubble) const {
-    return std::ranges::all_of(corners, [&](const Configuration& q) { return bubble.holds(q); });
-  }
 };
 
 Wanted find_wanted(const PostureLattice& lattice, const LatticeCube& cube) {
@@ -49,32 +44,22 @@ Wanted find_wanted(const PostureLattice& lattice, const LatticeCube& cube) {
 class BubbleCover::Search {
  public:
   Search(const BubbleCover& whole, const Making& making, int smallest)
-      : whole_(whole), scene_(making.scene), lattice_(making.lattice), watch_(making.watch), smallest_(smallest) {}
+      : whole_(whole),
+        scene_(making.scene),
+        stock_(making.stock),
+        lattice_(making.lattice),
+        watch_(making.watch),
+        smallest_(smallest) {}
 
-  /// Covers a cube by one bubble if there is one, else by parts as small as `smallest_`. `tried`: the last of the
-  /// bubbles found that did not hold all of a cube around it. `room`: for the tool is known.
-  void cover(LatticeCube cube, std::optional<std::size_t> tried, bool room) {
+  /// Covers a cube by one bubble if there is one, else by parts as small as `smallest_`. `room`: for the tool is known.
+  void cover(LatticeCube cube, bool room) {
     if (watch_.stop.stop_requested()) throw Cancelled{};
     const bool has_all = lattice_.has_nodes(cube.corner, cube.size);
     if (cube.size <= PostureLattice::parts && !has_all) return;
     room = room || has_room(cube.corner, cube.size);
     if (const Wanted wanted = has_all ? find_wanted(lattice_, cube) : Wanted{}; !wanted.corners.empty()) {
-      bool held = tried && wanted.held_by(bubbles[*tried].first);
-      if (!held) {
-        if (Bubble bubble = find_bubble(wanted, cube); !bubble.empty()) {
-          held = wanted.held_by(bubble);
-          tried = bubbles.size();
-          bubbles.emplace_back(std::move(bubble), std::vector<Voxel>{});
-        }
-      }
-      if (held) {
-        std::vector<Voxel>& places = bubbles[*tried].second;
-        for (int k = 0; k < cube.size; ++k)
-          for (int j = 0; j < cube.size; ++j)
-            for (int i = 0; i < cube.size; ++i) {
-              const Voxel place = cube.corner + Voxel{i, j, k};
-              if (room || has_room(place, 1)) places.push_back(place);
-            }
+      if (Bubble bubble = find_bubble(wanted, cube); !bubble.empty()) {
+        bubbles.emplace_back(std::move(bubble), find_places(cube, room));
         return;
       }
     }
@@ -84,8 +69,7 @@ class BubbleCover::Search {
     }
     const int half = cube.size / 2;
     for (int child = 0; child < 8; ++child)
-      cover({cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.box, cube.pairs}, tried,
-            room);
+      cover({cube.corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * half, half, cube.box, cube.pairs}, room);
   }
 
   /// Bubbles and the usable parts that each of them is for.
@@ -101,7 +85,19 @@ class BubbleCover::Search {
     }
     if (!cube.box.holds(wanted.box)) return {};
     cube.box = wanted.box;
-    return scene_.bubble(wanted.centre, wanted.box, cube.pairs);
+    return scene_.bubble(wanted.centre, wanted.box, wanted.corners, stock_, cube.pairs);
+  }
+
+  /// Where there is room for the tool.
+  std::vector<Voxel> find_places(const LatticeCube& cube, bool room) const {
+    std::vector<Voxel> places;
+    for (int k = 0; k < cube.size; ++k)
+      for (int j = 0; j < cube.size; ++j)
+        for (int i = 0; i < cube.size; ++i) {
+          const Voxel place = cube.corner + Voxel{i, j, k};
+          if (room || has_room(place, 1)) places.push_back(place);
+        }
+    return places;
   }
 
   /// For all ball positions in the cube that can occur: they are centres of voxels, or above, so that none is nearer to
@@ -114,24 +110,24 @@ class BubbleCover::Search {
 
   const BubbleCover& whole_;
   const Scene& scene_;
+  const Body& stock_;
   const PostureLattice& lattice_;
   const Watch& watch_;
   int smallest_;
 };
 
-BubbleCover::BubbleCover(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers, const Watch& watch)
-    : bubble_(PostureLattice::all_parts(), -1), box_(lattice.bounds()) {
-  if (box_.low.size() > 0) pairs_ = scene.pairs_in(box_);
+BubbleCover::BubbleCover(const Making& making)
+    : bubble_(PostureLattice::all_parts(), -1), box_(making.lattice.bounds()) {
+  if (box_.low.size() > 0) pairs_ = making.scene.pairs_in(box_);
   std::vector<LatticeCube> cubes;
   for (int k = 0; k < PostureLattice::fine; k += largest)
     for (int j = 0; j < PostureLattice::fine; j += largest)
       for (int i = 0; i < PostureLattice::fine; i += largest) cubes.push_back({{i, j, k}, largest, box_, pairs_});
-  cover({scene, lattice, helpers, watch}, cubes, PostureLattice::parts);
+  cover(making, cubes, PostureLattice::parts);
 }
 
-void BubbleCover::refine(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers,
-                         const Watch& watch) {
-  cover({scene, lattice, helpers, watch}, std::exchange(holes_, {}), 1);
+void BubbleCover::refine(const Making& making) {
+  cover(making, std::exchange(holes_, {}), 1);
 }
 
 void BubbleCover::turn(const Configuration& turn) {
@@ -142,7 +138,7 @@ void BubbleCover::turn(const Configuration& turn) {
 
 void BubbleCover::cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest) {
   std::vector<Search> found(cubes.size(), Search(*this, making, smallest));
-  making.helpers.for_each_index(cubes.size(), [&](std::size_t at) { found[at].cover(cubes[at], {}, false); });
+  making.helpers.for_each_index(cubes.size(), [&](std::size_t at) { found[at].cover(cubes[at], false); });
   for (Search& one : found) {
     for (auto& [bubble, places] : one.bubbles) {
       if (places.empty()) continue;

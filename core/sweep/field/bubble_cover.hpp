@@ -30,15 +30,24 @@ struct LatticeCube {
   Scene::Pairs pairs;
 };
 
-/// Every part that may be used lies in a bubble: there no link touches anything, whatever is carved. Made for one
-/// lattice. Reads are safe from several threads.
+/// Every part that may be used lies in a bubble: there no link touches anything, whatever is carved from then on. Made
+/// for one lattice. Reads are safe from several threads.
 class BubbleCover {
  public:
-  /// `scene` only has to live during the call. Throws Cancelled.
-  BubbleCover(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers, const Watch& watch);
+  /// What it is made from, and by. It only has to live during the calls.
+  struct Making {
+    const Scene& scene;
+    const Body& stock;  ///< of the scene: what stands
+    const PostureLattice& lattice;
+    const Helpers& helpers;
+    const Watch& watch;
+  };
+
+  /// Throws Cancelled.
+  explicit BubbleCover(const Making& making);
 
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none. Throws Cancelled.
-  void refine(const Scene& scene, const PostureLattice& lattice, const Helpers& helpers, const Watch& watch);
+  void refine(const Making& making);
   /// For a lattice that was turned.
   void turn(const Configuration& turn);
 
@@ -52,13 +61,6 @@ class BubbleCover {
   const JointBox& bounds() const { return box_; }
 
  private:
-  /// What it is made from, and by.
-  struct Making {
-    const Scene& scene;
-    const PostureLattice& lattice;
-    const Helpers& helpers;
-    const Watch& watch;
-  };
   class Search;
   void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest);
   void close_upwards(Voxel lean);

@@ -1,6 +1,7 @@
 #include "core/sweep/field/find_field.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <numbers>
 #include <optional>
 
@@ -11,8 +12,15 @@ namespace sculpt {
 namespace {
 
 constexpr int random_guesses = 24;
-constexpr int max_fields = 3;
-constexpr double probe_half = 0.03;  // rad or m: what the joints do within a cell of a field
+constexpr int max_tries = 4;
+constexpr std::size_t enough_percent = 97, worth_percent = 1;  // of all parts of the lattice
+constexpr double probe_half = 0.03;                            // rad or m: what the joints do within a cell of a field
+constexpr int quarter = PostureLattice::cells / 4;
+
+/// Some ball positions all over the grid.
+using Probes = std::bitset<27>;
+/// Parts of a lattice.
+using Parts = std::vector<bool>;
 
 std::vector<Configuration> find_guesses(const Chain& chain, const Configuration& home,
                                         const std::vector<Configuration>& known, std::uint64_t seed) {
@@ -29,86 +37,121 @@ std::vector<Configuration> find_guesses(const Chain& chain, const Configuration&
   return guesses;
 }
 
-constexpr int probes = 27;
-
-/// At how many of some ball positions all over the grid the arm has room, if it comes there from `start`.
-int count_free_probes(const Scene& scene, const ToolView& view, const Configuration& start) {
+/// Where the arm has room, if it comes there from `start`.
+Probes find_free_probes(const Scene& scene, const ToolView& view, const Configuration& start) {
   const double last = view.n - 1;
-  int free = 0;
+  Probes free;
+  std::size_t probe = 0;
   for (double a : {0.5, 0.0, 1.0})
     for (double b : {0.5, 0.0, 1.0}) {
       std::optional<Configuration> q = start;
       for (double c : {1.0, 0.5, 0.0}) {
-        q = solve_ik(scene.chain(), {view.ball_m(scene.grid(), Vec3(a, b, c) * last), view.axis()}, *q);
-        if (!q) break;
-        const Configuration half = Configuration::Constant(q->size(), probe_half);
-        Scene::Pairs pairs = scene.pairs();
-        free += !scene.bubble(*q, {*q - half, *q + half}, pairs).empty();
+        if (q) q = solve_ik(scene.chain(), {view.ball_m(scene.grid(), Vec3(a, b, c) * last), view.axis()}, *q);
+        if (q) {
+          const Configuration half = Configuration::Constant(q->size(), probe_half);
+          Scene::Pairs pairs = scene.pairs();
+          free[probe] = !scene.bubble(*q, {*q - half, *q + half}, {}, scene.full_stock(), pairs).empty();
+        }
+        ++probe;
       }
     }
   return free;
 }
 
-/// Grows fields from one start after the other and keeps the best.
+/// Grows fields from one start after the other and keeps those that cover what none before does.
 class FieldSearch {
  public:
   FieldSearch(const Scene& scene, const ToolView& view, const RunContext& run)
-      : scene_(scene), view_(view), run_(run) {}
+      : scene_(scene), view_(view), run_(run), covered_(PostureField::all_cells()) {}
 
-  std::unique_ptr<PostureField> run(const std::vector<Configuration>& guesses) {
-    const double middle = (view_.n - 1) / 2.0;
-    const IkGoal above{view_.ball_m(scene_.grid(), {middle, middle, view_.n + 1.0}), view_.axis()};
-    for (const Configuration& guess : guesses) {
+  std::vector<std::unique_ptr<PostureField>> run(const std::vector<Configuration>& guesses) {
+    const int middle = PostureLattice::cells / 2;
+    look_from(middle, middle, guesses);
+    grow_promising();
+    for (const auto& [i, j] : {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}}) {
       if (is_done()) break;
-      const auto q = solve_ik(scene_.chain(), above, guess);
-      if (!q || is_known(*q) || scene_.contact_at(*q) != Contact::none) continue;
-      starts_.push_back({*q, count_free_probes(scene_, view_, *q)});
-      if (starts_.back().free == probes) grow(*q);
+      look_from(middle + i * quarter, middle + j * quarter, guesses);
+      grow_promising();
     }
-    // None has room everywhere, or those that do lead nowhere: the most promising of the others.
-    std::stable_sort(starts_.begin(), starts_.end(), [](const Start& a, const Start& b) { return a.free > b.free; });
-    for (const Start& start : starts_)
-      if (start.free < probes && !is_done()) grow(start.q);
-    return std::move(best_);
+    for (const auto& field : fields_)
+      if (2 * field->usable_cells() > PostureField::all_cells()) field->refine(scene_, run_.helpers, run_.watch);
+    return std::move(fields_);
   }
 
  private:
   struct Start {
-    Configuration q;
-    int free;
+    PostureLattice::Start from;
+    Probes free;
   };
 
-  bool is_known(const Configuration& q) const {
-    return std::any_of(starts_.begin(), starts_.end(),
-                       [&](const Start& other) { return (q - other.q).cwiseAbs().maxCoeff() < 0.3; });
+  /// Starts with the ball above a node of the top; grows from those with room everywhere at once.
+  void look_from(int i, int j, const std::vector<Configuration>& guesses) {
+    const Vec3 above = ToolView::place(PostureLattice::hub_of(view_.n, {{}, i, j})) - Vec3(0.5, 0.5, 0);
+    const IkGoal goal{view_.ball_m(scene_.grid(), above), view_.axis()};
+    std::vector<Configuration> here;
+    for (const Configuration& guess : guesses) {
+      if (is_done()) return;
+      if (run_.watch.stop.stop_requested()) throw Cancelled{};
+      const auto q = solve_ik(scene_.chain(), goal, guess);
+      const auto is_it = [&](const Configuration& other) { return (*q - other).cwiseAbs().maxCoeff() < 0.3; };
+      if (!q || std::ranges::any_of(here, is_it)) continue;
+      here.push_back(*q);
+      if (scene_.contact_at(*q) != Contact::none) continue;
+      starts_.push_back({{*q, i, j}, find_free_probes(scene_, view_, *q)});
+      if (starts_.back().free.all()) grow(starts_.back());
+    }
   }
 
-  void grow(const Configuration& start) {
-    auto field = std::make_unique<PostureField>(scene_, view_, start, run_.helpers, run_.watch);
-    if (!best_ || field->usable_cells() > best_->usable_cells()) best_ = std::move(field);
-    ++grown_;
+  /// From the starts that have room where none before had, the most promising first.
+  void grow_promising() {
+    while (!is_done()) {
+      const auto gain = [&](const Start& start) { return (start.free & ~probed_).count(); };
+      const auto best = std::ranges::max_element(starts_, {}, gain);
+      if (best == starts_.end() || gain(*best) == 0) return;
+      grow(*best);
+    }
   }
+
+  /// Keeps the field if it adds to those before, and it alone if it covers enough alone.
+  void grow(const Start& start) {
+    ++tried_;
+    probed_ |= start.free;
+    auto field = std::make_unique<PostureField>(scene_, view_, start.from, run_.helpers, run_.watch);
+    if (100 * field->usable_cells() >= enough_percent * PostureField::all_cells()) fields_.clear();
+    Parts all = covered_;
+    for (std::size_t part = 0; part < all.size(); ++part)
+      if (field->usable_part(PostureLattice::part_of(part))) all[part] = true;
+    const std::size_t added = count(all) - count(covered_);
+    if (!fields_.empty() && 100 * added < worth_percent * PostureField::all_cells()) return;
+    covered_ = std::move(all);
+    fields_.push_back(std::move(field));
+  }
+
+  static std::size_t count(const Parts& parts) { return static_cast<std::size_t>(std::ranges::count(parts, true)); }
 
   bool is_done() const {
-    return grown_ == max_fields || (best_ && 100 * best_->usable_cells() >= 97 * PostureField::all_cells());
+    return tried_ == max_tries || 100 * count(covered_) >= enough_percent * PostureField::all_cells();
   }
 
   const Scene& scene_;
   const ToolView& view_;
   const RunContext& run_;
   std::vector<Start> starts_;
-  std::unique_ptr<PostureField> best_;
-  int grown_ = 0;
+  std::vector<std::unique_ptr<PostureField>> fields_;
+  Parts covered_;  ///< by the fields
+  Probes probed_;  ///< where starts had room that fields were grown from
+  int tried_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<PostureField> find_field(const Scene& scene, const ToolView& view, const Configuration& home,
-                                         const std::vector<Configuration>& known, const RunContext& run) {
-  auto best = FieldSearch(scene, view, run).run(find_guesses(scene.chain(), home, known, run.seed));
-  if (!best) best = std::make_unique<PostureField>(scene, view, home, run.helpers, run.watch);
-  if (2 * best->usable_cells() > PostureField::all_cells()) best->refine(scene, run.helpers, run.watch);
-  return best;
+std::vector<std::unique_ptr<PostureField>> find_fields(const Scene& scene, const ToolView& view,
+                                                       const Configuration& home,
+                                                       const std::vector<Configuration>& known, const RunContext& run) {
+  auto fields = FieldSearch(scene, view, run).run(find_guesses(scene.chain(), home, known, run.seed));
+  if (fields.empty())
+    fields.push_back(std::make_unique<PostureField>(scene, view, PostureLattice::Start{home}, run.helpers, run.watch));
+  return fields;
 }
 
 }  // namespace sculpt

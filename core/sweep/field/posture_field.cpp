@@ -11,12 +11,36 @@ namespace {
 /// How far the tool may be off a wide path, and beside that the room that it takes itself.
 constexpr double wide_room_voxels = 0.5 + (0.5 - tool_margin_voxels);
 
+/// Where it is asked whether a field could be opened: every so many parts, and joints must be free by so much (rad or
+/// m).
+constexpr int places_apart = 4;
+constexpr double probe_half = 1e-3;
+
 }  // namespace
 
-PostureField::PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Helpers& helpers,
-                           const Watch& watch)
-    : lattice_(scene.chain(), scene.grid(), view, start, watch), cover_(scene, lattice_, helpers, watch) {
+PostureField::PostureField(const Scene& scene, const ToolView& view, const PostureLattice::Start& start,
+                           const Helpers& helpers, const Watch& watch)
+    : lattice_(scene.chain(), scene.grid(), view, start, watch),
+      cover_({scene, scene.full_stock(), lattice_, helpers, watch}) {
   find_roomy(scene);
+}
+
+PostureField::PostureField(const PostureField& other, const Scene& scene, const Body& stock, const Helpers& helpers,
+                           const Watch& watch)
+    : lattice_(other.lattice_), cover_({scene, stock, lattice_, helpers, watch}), roomy_(other.roomy_) {}
+
+bool PostureField::may_open(const Scene& scene, const Body& stock) const {
+  for (int part = 0; part < PostureLattice::fine; part += places_apart)
+    for (int beside = 0; beside < PostureLattice::fine; beside += places_apart)
+      for (int above = 0; above < PostureLattice::fine; above += places_apart) {
+        const Voxel corner{part, beside, above};
+        if (usable_part(corner) || !lattice_.has_nodes(corner, 1)) continue;
+        const Configuration q = lattice_.guess(lattice_.middle_cell(corner, 1));
+        const Configuration half = Configuration::Constant(q.size(), probe_half);
+        Scene::Pairs pairs = scene.pairs();
+        if (chain().within_limits(q) && !scene.bubble(q, {q - half, q + half}, {}, stock, pairs).empty()) return true;
+      }
+  return false;
 }
 
 PostureField::PostureField(const PostureField& other, const ToolView& view, const Configuration& turn)
@@ -26,7 +50,7 @@ PostureField::PostureField(const PostureField& other, const ToolView& view, cons
 }
 
 void PostureField::refine(const Scene& scene, const Helpers& helpers, const Watch& watch) {
-  cover_.refine(scene, lattice_, helpers, watch);
+  cover_.refine({scene, scene.full_stock(), lattice_, helpers, watch});
 }
 
 /// The largest box of ball positions, as far as insets on all four sides go.

@@ -25,10 +25,15 @@ namespace sculpt {
 /// A lattice of configurations, and the bubbles that say where it may be used. Reads are safe from several threads.
 class PostureField {
  public:
-  /// `start`: a configuration to begin with, at about the middle of the top. `scene` only has to live during the call.
-  /// Throws Cancelled.
-  PostureField(const Scene& scene, const ToolView& view, const Configuration& start, const Helpers& helpers,
+  /// `scene` only has to live during the call. Throws Cancelled.
+  PostureField(const Scene& scene, const ToolView& view, const PostureLattice::Start& start, const Helpers& helpers,
                const Watch& watch);
+
+  /// `other`, as far as it is usable where only `stock` of the scene's stands any longer. Throws Cancelled.
+  PostureField(const PostureField& other, const Scene& scene, const Body& stock, const Helpers& helpers,
+               const Watch& watch);
+  /// Could that be more than it is now? Looks at a few places only.
+  bool may_open(const Scene& scene, const Body& stock) const;
 
   /// `other`, for a direction that it is turned to by adding `turn` to the joints. Only where that changes nothing but
   /// the direction (find_stock_turn).
@@ -45,6 +50,8 @@ class PostureField {
 
   /// The configuration that it grew from.
   const Configuration& start() const { return lattice_.start(); }
+  /// Where the tool comes in: a cell of the view, above the grid.
+  Voxel hub() const { return lattice_.hub(); }
   /// Parts of the lattice that may be used, of all.
   std::size_t usable_cells() const { return cover_.usable_parts(); }
   static std::size_t all_cells() { return PostureLattice::all_parts(); }

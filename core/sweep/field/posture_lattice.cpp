@@ -21,7 +21,7 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-PostureLattice::PostureLattice(const Chain& chain, const Grid& grid, const ToolView& view, const Configuration& start,
+PostureLattice::PostureLattice(const Chain& chain, const Grid& grid, const ToolView& view, const Start& start,
                                const Watch& watch)
     : chain_(chain),
       grid_(grid),
@@ -38,7 +38,7 @@ PostureLattice::PostureLattice(const Chain& chain, const Grid& grid, const ToolV
 void PostureLattice::turn(const ToolView& view, const Configuration& turn) {
   view_ = view;
   lanes_ = PostureLanes(chain_, view.axis());
-  start_ += turn;
+  start_.q += turn;
   nodes_.colwise() += turn;
 }
 
@@ -60,10 +60,10 @@ Voxel PostureLattice::part(const Vec3& cell) const {
   return {whole(at.x()), whole(at.y()), whole(at.z())};
 }
 
-/// Every other node from the one before, from the middle of the top outwards; those between them by interpolation,
+/// Every other node from the one before, from the first outwards; those between them by interpolation,
 /// which is as good as exact; what is missing then from neighbours.
 void PostureLattice::grow(const Watch& watch) {
-  spread({{first_node, start_}}, 2, watch);
+  spread({{first_node(), start_.q}}, 2, watch);
   fill_between();
   std::deque<Visit> beside;
   for_each_node([&](Voxel node) {
@@ -103,7 +103,7 @@ void PostureLattice::spread(std::deque<Visit> queue, int stride, const Watch& wa
       } else {  // it keeps off joint limits
         q = solve_ik(chain_, {ball_m(corner_cell(node * parts)), view_.axis()}, guess);
       }
-      if (!q || (node != first_node && (*q - guess).cwiseAbs().maxCoeff() > stride * max_joint_step)) continue;
+      if (!q || (node != first_node() && (*q - guess).cwiseAbs().maxCoeff() > stride * max_joint_step)) continue;
       node_at(node) = *q;
       for (const Voxel step : face_steps)
         if (is_node(node + step * stride)) queue.push_back({node + step * stride, *q});

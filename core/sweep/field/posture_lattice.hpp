@@ -37,14 +37,27 @@ class PostureLattice {
   static constexpr std::size_t all_parts() { return static_cast<std::size_t>(fine) * fine * fine; }
   static std::size_t index_of(Voxel part) { return static_cast<std::size_t>((part.k * fine + part.j) * fine + part.i); }
 
-  /// Grows from `start`, a configuration at about the middle of the top. Throws Cancelled.
-  PostureLattice(const Chain& chain, const Grid& grid, const ToolView& view, const Configuration& start,
-                 const Watch& watch);
+  /// Where a lattice begins to grow.
+  struct Start {
+    Configuration q;                   ///< with the ball at about the hub
+    int i = cells / 2, j = cells / 2;  ///< a node of the top
+  };
+
+  static Voxel part_of(std::size_t index) {
+    const int at = static_cast<int>(index);
+    return {at % fine, at / fine % fine, at / fine / fine};
+  }
+
+  /// Grows from `start`. Throws Cancelled.
+  PostureLattice(const Chain& chain, const Grid& grid, const ToolView& view, const Start& start, const Watch& watch);
 
   /// For a direction that it is turned to by adding `turn` to the joints.
   void turn(const ToolView& view, const Configuration& turn);
 
-  const Configuration& start() const { return start_; }
+  const Configuration& start() const { return start_.q; }
+  /// Where the tool comes in: a cell of the view, above the grid, at the node that it grew from.
+  Voxel hub() const { return hub_of(view_.n, start_); }
+  static Voxel hub_of(int n, const Start& start) { return {n * start.i / cells, n * start.j / cells, n + 1}; }
   const Chain& chain() const { return chain_; }
   const Grid& grid() const { return grid_; }
   const PostureLanes& lanes() const { return lanes_; }
@@ -70,7 +83,7 @@ class PostureLattice {
 
  private:
   static constexpr int nodes = cells + 1;
-  static constexpr Voxel first_node{cells / 2, cells / 2, cells};
+  Voxel first_node() const { return {start_.i, start_.j, cells}; }
   static bool is_node(Voxel v) { return Grid{nodes, 1, Vec3::Zero()}.contains(v); }
   template <typename Do>
   static void for_each_node(const Do& visit) {
@@ -96,7 +109,7 @@ class PostureLattice {
   Grid grid_;
   ToolView view_;
   PostureLanes lanes_;
-  Configuration start_;
+  Start start_;
   Vec3 low_, span_;        ///< of the lattice, in cells of the view
   Vec3 parts_per_cell_;    ///< of the lattice, to a cell of the view
   Eigen::MatrixXd nodes_;  ///< a configuration in each column; not numbers where there is none

@@ -24,6 +24,9 @@ struct ToolView {
     const auto part = [off](Voxel unit) { return off.i * unit.i + off.j * unit.j + off.k * unit.k; };
     return {part(step[0]), part(step[1]), part(step[2])};
   }
+  static Vec3 place(Voxel cell) {
+    return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
+  }
   Vec3 axis() const {
     const Voxel way = along(lean);
     return Vec3(way.i, way.j, way.k).normalized();
@@ -35,14 +38,6 @@ struct ToolView {
     return grid.origin_m + grid.voxel_m * (at + Vec3::Constant(0.5));
   }
 };
-
-/// Where the tool comes in, in cells of any view: above the middle of the grid.
-inline Voxel gate(int n) {
-  return {n / 2, n / 2, n + 1};
-}
-inline Vec3 hub_cell(int n) {
-  return Vec3(gate(n).i, gate(n).j, gate(n).k);
-}
 
 /// Tool axis +z, then the four sides +x, +y, -x, -y, each the one before it turned by a quarter about z.
 inline std::array<ToolView, 5> tool_views(int n) {

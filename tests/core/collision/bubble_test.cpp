@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/base/random.hpp"
 #include "core/collision/scene.hpp"
 #include "core/collision/shape/motion_bound.hpp"
+#include "core/collision/shape/shape_contact.hpp"
 #include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/collision/shape/random_shapes.hpp"
 #include "tests/core/collision/small_arm.hpp"
 
 namespace sculpt {
@@ -35,7 +39,7 @@ void expect_held_is_free(const Cell& cell, std::uint64_t seeds, double widest) {
     const Configuration half = Configuration::Constant(q.size(), random.between(0.001, widest));
     const JointBox box{q - half, q + half};
     Scene::Pairs pairs = random.unit() < 0.5 ? scene.pairs() : scene.pairs_in(box);
-    const Bubble bubble = scene.bubble(q, box, pairs);
+    const Bubble bubble = scene.bubble(q, box, {}, scene.full_stock(), pairs);
     if (bubble.empty()) continue;
     for (int place = 0; place < 40; ++place) {
       Configuration other = q;
@@ -67,6 +71,95 @@ TEST(Bubble, WhatThePandasBubblesHoldIsFree) {
   expect_held_is_free(shipped_cell("panda-turntable"), 300, 0.15);
 }
 
+/// The small arm with links of triangles: a fore arm that is bent like a bow, a nose with a rough skin.
+Cell make_mesh_cell() {
+  Cell cell = make_test_cell();
+  Random random(7);
+  const auto set = [&](const char* link, std::shared_ptr<const Mesh> mesh, const Vec3& at) {
+    Shape shape;
+    shape.kind = ShapeKind::mesh;
+    shape.mesh = std::move(mesh);
+    shape.pose.translation() = at;
+    cell.robot.links[static_cast<std::size_t>(cell.robot.find_link(link))].shapes = {shape};
+  };
+  auto bow = std::make_shared<Mesh>();
+  constexpr int steps = 24;
+  for (int step = 0; step <= steps; ++step) {
+    const double part = static_cast<double>(step) / steps, out = 0.12 * std::sin(std::numbers::pi * part);
+    for (const Vec3& corner : {Vec3(0.02, 0.02, 0), Vec3(-0.02, 0.02, 0), Vec3(0, -0.02, 0)})
+      bow->vertices.push_back(corner + Vec3(-out, 0, 0.32 * part));
+  }
+  for (std::uint32_t step = 0; step < steps; ++step)
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const std::uint32_t a = 3 * step + side, b = 3 * step + (side + 1) % 3;
+      bow->triangles.push_back({a, b, a + 3});
+      bow->triangles.push_back({b, b + 3, a + 3});
+    }
+  set("fore", bow, Vec3::Zero());
+  auto skin = std::make_shared<Mesh>();
+  for (int t = 0; t < 60; ++t) {
+    const Vec3 at = 0.03 * random_direction(random);
+    for (int corner = 0; corner < 3; ++corner) skin->vertices.push_back(at + random_vector(random, 0.008));
+    const auto first = static_cast<std::uint32_t>(3 * t);
+    skin->triangles.push_back({first, first + 1, first + 2});
+  }
+  set("nose", skin, Vec3::Zero());
+  return cell;
+}
+
+// FCL, which has no part in bubbles, looks at the shapes themselves.
+TEST(Bubble, WhatTheBubblesOfMeshLinksHoldIsFreeAsFclSeesIt) {
+  const Cell cell = make_mesh_cell();
+  const Chain chain = cell.chain();
+  const Grid grid = cell.grid(8);
+  const Scene scene(cell, grid, VoxelSet(8, true));
+  Shape stock;
+  stock.sides_m = Vec3::Constant(grid.n * grid.voxel_m);
+  stock.pose.translation() = grid.origin_m + stock.sides_m / 2;
+  std::vector<LinkShape> shapes;
+  for (std::size_t link = 0; link < cell.robot.links.size(); ++link)
+    for (const Shape& shape : cell.robot.links[link].shapes) shapes.emplace_back(static_cast<int>(link), shape);
+  const LinkShape block(cell.stock_link, stock);
+  const LinkPairs pairs = find_link_pairs(cell);
+  std::vector<ShapeContact> contacts;
+  for (const LinkShape& first : shapes) {
+    if (first.link != cell.stock_link && first.link != 0) contacts.emplace_back(chain, first, block);
+    for (const LinkShape& second : shapes)
+      if (std::ranges::any_of(pairs.checked, [&](const CheckedLinks& checked) {
+            return checked.links == LinkPair(first.link, second.link);
+          }))
+        contacts.emplace_back(chain, first, second);
+  }
+  int held = 0, touching = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Configuration q = any_configuration(chain, random);
+    const Configuration half = Configuration::Constant(q.size(), random.between(0.001, 0.3));
+    std::vector<Configuration> wanted;
+    for (int corner = 0; corner < 4; ++corner) {
+      wanted.push_back(q);
+      for (Eigen::Index c = 0; c < q.size(); ++c) wanted.back()[c] += random.between(-1, 1) * half[c];
+    }
+    Scene::Pairs open = scene.pairs();
+    const Bubble bubble = scene.bubble(q, {q - half, q + half}, wanted, scene.full_stock(), open);
+    if (bubble.empty()) continue;
+    for (const Configuration& corner : wanted) EXPECT_TRUE(bubble.holds(corner));
+    for (int place = 0; place < 20; ++place) {
+      const double a = random.unit(), b = random.unit();
+      Configuration other = a * wanted[0] + (1 - a) * (b * wanted[1] + (1 - b) * wanted[2]);
+      if (place % 2 == 0)
+        for (Eigen::Index c = 0; c < q.size(); ++c) other[c] = q[c] + random.between(-1, 1) * half[c];
+      if (!bubble.holds(other) || !chain.within_limits(other)) continue;
+      ++held;
+      for (const ShapeContact& contact : contacts) EXPECT_FALSE(contact.touch(other, 0));
+    }
+    touching += std::ranges::any_of(contacts, [&](const ShapeContact& contact) { return contact.touch(q, 0); });
+  }
+  EXPECT_GT(held, 1000);
+  EXPECT_EQ(touching, 0) << "at the centre of a bubble";
+}
+
 /// A boom that swings, and on it a slide that ends short of a post.
 Cell make_slide_cell() {
   CellFiles files;
@@ -95,7 +188,7 @@ TEST(Bubble, SaysNothingBeyondTheLimitsOfASlide) {
     return JointBox{Configuration{{-0.01, low}}, Configuration{{0.01, high}}};
   };
   Scene::Pairs pairs = scene.pairs();
-  const Bubble bubble = scene.bubble(Configuration{{0, 0.45}}, box(0.4, 0.6), pairs);
+  const Bubble bubble = scene.bubble(Configuration{{0, 0.45}}, box(0.4, 0.6), {}, scene.full_stock(), pairs);
   EXPECT_TRUE(bubble.holds(Configuration{{0, 0.5}}));
   EXPECT_FALSE(bubble.holds(Configuration{{0, 0.51}}));
 }

@@ -2,60 +2,93 @@
 
 #include <gtest/gtest.h>
 
+#include "core/collision/shape/fcl_shape.hpp"
 #include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/collision/shape/random_shapes.hpp"
 
 namespace sculpt {
 namespace {
 
-/// The farthest that the piece reaches along a direction (m, frame of `pose`); cylinders and boxes by their corners.
-double reach_along(const Piece& piece, const Frame& pose, const Vec3& direction) {
-  const Frame at = pose * piece.shape.pose;
-  if (piece.shape.kind == ShapeKind::sphere) return direction.dot(at.translation()) + piece.shape.radius_m;
-  const Vec3 local = at.linear().transpose() * direction;
-  if (piece.shape.kind == ShapeKind::box)
-    return direction.dot(at.translation()) + local.cwiseAbs().dot(piece.shape.sides_m) / 2;
-  return direction.dot(at.translation()) + std::abs(local.z()) * piece.shape.length_m / 2 +
-         local.head<2>().norm() * piece.shape.radius_m;
+Body body_of(const Shape& shape) {
+  return {0, false, {{std::make_shared<const ShapeTree>(make_tree(shape)), 0}}};
 }
 
-TEST(Clearance, APlaneOfEverySeparationLiesBetweenTheTwo) {
-  const Cell cell = shipped_cell("panda-turntable");
-  const Chain chain = cell.chain();
-  const std::vector<Body> bodies = make_bodies(cell, make_tool(cell.tool, 0.01));
-  int planes = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+Shape random_shape(Random& random) {
+  Shape shape;
+  const auto kind = static_cast<int>(random.between(0, 5));
+  shape.kind = kind == 0   ? ShapeKind::sphere
+               : kind == 1 ? ShapeKind::box
+               : kind == 2 ? ShapeKind::cylinder
+                           : ShapeKind::mesh;
+  shape.pose = random_pose(random, 0.1);
+  shape.sides_m = {random.between(0.01, 0.4), random.between(0.01, 0.4), random.between(0.01, 0.4)};
+  shape.radius_m = random.between(0.01, 0.2);
+  shape.length_m = random.between(0.01, 0.4);
+  if (shape.kind == ShapeKind::mesh) shape.mesh = random_mesh(random, 1 + static_cast<int>(random.between(0, 80)));
+  return shape;
+}
+
+// FCL shares nothing with the trees and planes that bodies are asked by.
+TEST(Clearance, OfBodiesIsThatOfTheirShapesAsFclMeasuresIt) {
+  int near = 0, far = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    std::vector<Frame> at;
-    chain.link_poses(random_configuration(chain, random), at);
-    for (const Body& a : bodies)
-      for (const Body& b : bodies) {
-        if (a.link == b.link) continue;
-        SCOPED_TRACE(::testing::Message() << "seed " << seed << ", links " << a.link << " and " << b.link);
-        const Frame &pose_a = at[static_cast<std::size_t>(a.link)], &pose_b = at[static_cast<std::size_t>(b.link)];
-        const auto found = separations(a, pose_a, b, pose_b, 0.2);
-        if (!found) continue;
-        for (const Separation& one : *found) {
-          ++planes;
-          const double capsule =
-              std::min(one.normal.dot(one.capsule.core.a), one.normal.dot(one.capsule.core.b)) - one.capsule.radius_m;
-          const bool behind = std::any_of(b.pieces.begin(), b.pieces.end(), [&](const Piece& piece) {
-            return reach_along(piece, pose_b, one.normal) <= capsule - one.gap_m + 1e-9;
-          });
-          ASSERT_TRUE(behind);
-        }
-        // What is not among them is farther off.
-        if (found->empty()) {
-          ASSERT_FALSE(near_body(a, pose_a, b, pose_b, 0.199));
-        }
-      }
+    const Shape first = random_shape(random), second = random_shape(random);
+    const Frame pose = random_pose(random, 0.3), other = random_pose(random, 0.2);
+    const auto a = make_fcl_geometry(first, 0), b = make_fcl_geometry(second, 0);
+    const Frame at = to_fcl(pose * first.pose), other_at = to_fcl(other * second.pose);
+    const double distance_m = fcl_touch(*a, at, *b, other_at) ? 0 : fcl_distance_mm(*a, at, *b, other_at) / fcl_mm;
+    const Body one = body_of(first), two = body_of(second);
+    const double reach = random.between(0, 0.2);
+    const bool is_near = near_body(one, pose, two, other, reach);
+    EXPECT_EQ(is_near, near_body(two, other, one, pose, reach));
+    if (distance_m < reach - 1e-4) {
+      ++near;
+      EXPECT_TRUE(is_near) << distance_m << " " << reach;
+    }
+    // A home is not refused where two links are 2 mm apart, or 2 % of the distance.
+    if (distance_m > 1.02 * reach + 0.002) {
+      ++far;
+      EXPECT_FALSE(is_near) << distance_m << " " << reach;
+    }
+    EXPECT_LE(hull_distance(one, pose, two, other), distance_m + 1e-4);
   }
-  EXPECT_GT(planes, 1000);
+  EXPECT_GT(near, 300);
+  EXPECT_GT(far, 300);
 }
 
-TEST(Clearance, NothingIsSaidOfWhatTouches) {
+TEST(Clearance, ABodyTouchesItself) {
   const Cell cell = shipped_cell("panda-turntable");
   const std::vector<Body> bodies = make_bodies(cell, make_tool(cell.tool, 0.01));
-  EXPECT_FALSE(separations(bodies[0], Frame::Identity(), bodies[0], Frame::Identity(), 0.1));
+  EXPECT_TRUE(near_body(bodies[0], Frame::Identity(), bodies[0], Frame::Identity(), 0));
+}
+
+TEST(Clearance, OfMaterialAndOfTheStockAsABodyIsTheSameForWholeBlocks) {
+  int near = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Grid grid{16, 0.02, Vec3(-0.16, -0.16, 0)};
+    VoxelSet standing(16);
+    const int blocks = static_cast<int>(random.between(0, 12));
+    for (int block = 0; block < blocks; ++block) {
+      const int size = random.unit() < 0.5 ? 2 : 4;
+      const Voxel at{static_cast<int>(random.between(0, 16.0 / size)), static_cast<int>(random.between(0, 16.0 / size)),
+                     static_cast<int>(random.between(0, 16.0 / size))};
+      for (int i = 0; i < size * size * size; ++i)
+        standing.insert(at * size + Voxel{i % size, i / size % size, i / size / size});
+    }
+    const Material material(standing);
+    const Body body = body_of(random_shape(random)), stock = make_stock_body(material, grid, 1);
+    const Frame pose = random_pose(random, 0.4);
+    const double reach = random.between(0, 0.05);
+    const bool is_near = near_material(body, pose, material, grid, reach);
+    near += is_near;
+    EXPECT_EQ(is_near, near_body(body, pose, stock, Frame::Identity(), reach));
+  }
+  EXPECT_GT(near, 50);
+  EXPECT_LT(near, 350);
 }
 
 }  // namespace

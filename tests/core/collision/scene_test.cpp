@@ -118,53 +118,19 @@ TEST(MotionBound, HoldsForRandomMotionsOfEveryLinkSeenFromEveryOther) {
   }
 }
 
-TEST(Body, EveryShapeLiesInItsBoundingCapsules) {
+TEST(Body, EveryShapeLiesInTheHullAndTheExtent) {
   const Cell cell = make_test_cell();
   for (const Body& body : make_bodies(cell, make_tool(cell.tool, 0.01)))
-    for (const Piece& piece : body.pieces) {
-      const Shape& shape = piece.shape;
-      Vec3 half = shape.sides_m / 2;
-      if (shape.kind == ShapeKind::sphere) half = Vec3::Constant(shape.radius_m / std::sqrt(3.0));
-      if (shape.kind == ShapeKind::cylinder)
-        half = Vec3(shape.radius_m / std::sqrt(2.0), shape.radius_m / std::sqrt(2.0), shape.length_m / 2);
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const Vec3 point = shape.pose * half.cwiseProduct(signs);
-        EXPECT_LE(distance(piece.hull.core, {point, point}), piece.hull.radius_m + 1e-12);
-        EXPECT_LE(distance(body.hull.core, {point, point}), body.hull.radius_m + 1e-12);
+    for (const Body::Part& part : body.parts) {
+      const Convex::Corners corners = part.tree->root().shape.corners();
+      for (std::size_t at = 0; at < corners.count; ++at) {
+        const Vec3& point = corners.points[at];
+        EXPECT_LE(distance(body.hull.core, {point, point}) + corners.radius, body.hull.radius_m + 1e-12);
       }
-    }
-}
-
-TEST(Body, BoxesCoverEveryPointOfAMeshLink) {
-  auto mesh = std::make_shared<Mesh>();
-  Random random(5);
-  for (int t = 0; t < 200; ++t) {
-    const Vec3 at(random.between(-0.1, 0.1), random.between(-0.1, 0.1), random.between(0, 0.5));
-    for (int v = 0; v < 3; ++v)
-      mesh->vertices.push_back(at + 0.02 * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
-    const auto first = static_cast<std::uint32_t>(3 * t);
-    mesh->triangles.push_back({first, first + 1, first + 2});
-  }
-  Cell cell = make_test_cell();
-  Shape shape;
-  shape.kind = ShapeKind::mesh;
-  shape.mesh = mesh;
-  shape.pose = Eigen::Translation3d(0.1, 0, 0) * Eigen::AngleAxisd(0.5, Vec3::UnitX());
-  cell.robot.links[0].shapes = {shape};
-  const std::vector<Piece> boxes = make_bodies(cell, make_tool(cell.tool, 0.01)).front().pieces;
-  EXPECT_GE(boxes.size(), 8u);
-  for (const auto& triangle : mesh->triangles)
-    for (int sample = 0; sample < 10; ++sample) {
-      double a = random.unit(), b = random.unit();
-      if (a + b > 1) a = 1 - a, b = 1 - b;
-      const Vec3 point =
-          shape.pose * (mesh->vertices[triangle[0]] + a * (mesh->vertices[triangle[1]] - mesh->vertices[triangle[0]]) +
-                        b * (mesh->vertices[triangle[2]] - mesh->vertices[triangle[0]]));
-      EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const Piece& body) {
-        const Vec3 local = body.shape.pose.inverse() * point;
-        return (local.cwiseAbs().array() <= body.shape.sides_m.array() / 2 + 1e-9).all();
-      }));
+      for (const ShapeTree::Node& node : part.tree->nodes)
+        if (node.is_leaf()) {
+          EXPECT_LE(node.shape.middle.norm(), body.extent_m);
+        }
     }
 }
 

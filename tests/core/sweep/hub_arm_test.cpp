@@ -23,7 +23,6 @@ class HubArmTest : public testing::Test {
 
 TEST_F(HubArmTest, GoesFromHubToHubAndHomeByCertifiedEdges) {
   ASSERT_TRUE(directions.stock_turn());
-  const Vec3 hub = hub_cell(panda.grid.n);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Random random(seed);
     Configuration at = home;
@@ -37,11 +36,12 @@ TEST_F(HubArmTest, GoesFromHubToHubAndHomeByCertifiedEdges) {
     };
     HubArm arm(panda.scene, home, directions.stock_turn(), seed, follow, watch);
     for (int entry = 0; entry < 8; ++entry) {
-      const PostureField& field = directions.field(random.next() % directions.straight());
+      const PostureField& field = directions.field(random.next() % 5);
       SCOPED_TRACE("seed " + std::to_string(seed) + ", entry " + std::to_string(entry) + " of direction " +
                    std::to_string(directions.number_of(field)));
       if (arm.field() == &field) continue;
       ASSERT_TRUE(arm.enter(field));
+      const Vec3 hub = ToolView::place(field.hub());
       EXPECT_EQ(arm.field(), &field);
       EXPECT_EQ(arm.at(), hub);
       EXPECT_EQ(at, field.at(hub));

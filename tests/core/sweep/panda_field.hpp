@@ -13,7 +13,7 @@ inline PostureField make_field(const Scene& scene, const Configuration& home, co
   const auto start = solve_ik(
       scene.chain(), {view.ball_m(scene.grid(), {view.n / 2.0, view.n / 2.0, view.n + 1.0}), view.axis()}, home);
   if (!start) throw std::logic_error("the arm does not come to where the field should begin");
-  return {scene, view, *start, 1, {}};
+  return {scene, view, PostureLattice::Start{*start}, 1, {}};
 }
 
 /// Of tool direction +z, made once a process.
