@@ -75,14 +75,17 @@ void read_stock(Fields fields, JobSpec& spec) {
 
 }  // namespace
 
+CellRef read_robot(Fields& fields) {
+  if (fields.value("robot").is_object()) return {{}, read_cell_ref(fields.object("robot"))};
+  return {read_cell_name(fields), {}};
+}
+
 JobSpec read_job_spec(Fields fields) {
   JobSpec spec;
   spec.mesh = read_blob_ref(fields.object("mesh"));
-  if (fields.value("robot").is_object()) {
-    spec.cell_bundle = read_cell_ref(fields.object("robot"));
-  } else {
-    spec.robot = read_cell_name(fields);
-  }
+  CellRef cell = read_robot(fields);
+  spec.robot = std::move(cell.name);
+  spec.cell_bundle = std::move(cell.bundle);
   // Whether the number makes sense is the planner's to say (`resolution_invalid`).
   spec.resolution = fields.integer("resolution", std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
   if (fields.has("search")) spec.search = fields.text("search", max_name_bytes);

@@ -41,6 +41,13 @@ struct JobSpec {
   std::optional<BlobRef> stock_mesh;
 };
 
+/// A cell on the server, or one that was sent: the other is empty.
+struct CellRef {
+  std::string name, bundle;
+};
+/// The field "robot".
+CellRef read_robot(Fields& fields);
+
 /// Throws ProtocolError `params_invalid` with the pointer of the field to blame.
 JobSpec read_job_spec(Fields fields);
 

@@ -10,6 +10,7 @@ constexpr std::size_t max_text_bytes = 200;
 constexpr int max_priority = 100;
 constexpr int max_list = 1000;
 constexpr double max_wait_s = 86400;
+constexpr int min_check_resolution = 8, max_check_resolution = 1024;
 constexpr std::int64_t max_runtime_s = 366 * 86400;
 
 Fields params_of(const Json& params) {
@@ -63,6 +64,16 @@ std::string read_blob_name(const Json& params) {
   std::string hash = fields.sha256("sha256");
   fields.done();
   return hash;
+}
+
+CellCheckParams read_cell_check(const Json& params) {
+  Fields fields = params_of(params);
+  CellCheckParams check;
+  check.robot = read_robot(fields);
+  if (fields.has("resolution"))
+    check.resolution = static_cast<int>(fields.integer("resolution", min_check_resolution, max_check_resolution));
+  fields.done();
+  return check;
 }
 
 SubmitParams read_submit(const Json& params) {

@@ -39,6 +39,12 @@ struct SubmitParams {
 };
 SubmitParams read_submit(const Json& params);
 
+struct CellCheckParams {
+  CellRef robot;
+  int resolution = 64;
+};
+CellCheckParams read_cell_check(const Json& params);
+
 /// job.get, job.cancel, job.pause, job.resume, job.retry, job.report, job.verify, artifact.list
 std::string read_job_id(const Json& params);
 

@@ -22,6 +22,7 @@
 #include "server/listener.hpp"
 #include "server/ops/folder_command.hpp"
 #include "server/run/isolated_check.hpp"
+#include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/isolated_run.hpp"
 #include "server/run/planner.hpp"
@@ -136,6 +137,7 @@ int main(int argc, char** argv) {
   const std::string_view mode = argc == 2 ? argv[1] : "";
   if (mode == run_job_option) return run_isolated_job(make_planner({}));
   if (mode == check_job_option) return run_isolated_check(make_planner({}));
+  if (mode == check_cell_option) return run_isolated_examination(make_planner({}));
   if (mode == replay_job_option) return run_isolated_replay(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;

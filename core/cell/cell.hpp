@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/cell/chain.hpp"
 #include "core/cell/tool.hpp"
 #include "core/material/voxel.hpp"
@@ -47,6 +48,18 @@ struct Cell {
 /// "packages" map, else in each folder above the URDF (NAME itself or a sub-folder NAME), else in ROS_PACKAGE_PATH.
 /// Throws InputError `cell_invalid` or `file_missing`.
 CellFiles read_cell_files(const std::filesystem::path& path);
+
+/// A cell that can be looked at even where its home cannot be used.
+struct CellDraft {
+  Cell cell;                            ///< joints whose home is at fault stand at 0, or at the limit that is nearest
+  std::vector<InputError> home_faults;  ///< each names its place in the file
+};
+
+/// As parse_cell, but for what is wrong with home.
+CellDraft draft_cell(const CellFiles& files);
+
+/// Gives joints that mimic another one the values that follow from it; one value a joint of the robot.
+void follow_leaders(const Robot& robot, std::vector<double>& values);
 
 /// Throws InputError `cell_invalid` (unknown or missing fields with their JSON pointer, link or joint names that do not
 /// exist, home outside limits) or `urdf_invalid`.

@@ -1,5 +1,4 @@
 // A cell file, and the files that it names, as JSON and text -> Cell.
-// A few lines above 300: each field of a cell file is read here and nowhere else.
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/cell/cell.hpp"
+#include "core/cell/cell_field.hpp"
 #include "core/cell/mesh_reference.hpp"
 
 namespace sculpt {
@@ -17,80 +17,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+using Field = CellField;
+
 constexpr std::size_t max_sections = 16;  // of the holder
-
-[[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
-  throw InputError("cell_invalid",
-                   "cell file, " + (where.empty() ? std::string("top level") : where) + ": " + sentence);
-}
-
-/// One JSON value of the cell file and its JSON pointer; every read checks the type and names the place.
-class Field {
- public:
-  Field(const json& value, std::string pointer) : value_(value), pointer_(std::move(pointer)) {}
-
-  /// Refuses anything but an object, and any field that is not in `known`.
-  void require_object(const std::vector<std::string>& known) const {
-    require(value_.is_object(), "an object");
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    for (const auto& [name, value] : value_.items()) {
-      if (std::find(known.begin(), known.end(), name) == known.end()) {
-        refuse(pointer_ + "/" + name, "unknown field; known here: " + list);
-      }
-    }
-  }
-  bool has(const std::string& name) const { return value_.contains(name); }
-  Field at(const std::string& name) const {
-    if (!has(name)) refuse(pointer_ + "/" + name, "missing field");
-    return Field(value_.at(name), pointer_ + "/" + name);
-  }
-  std::string text() const {
-    require(value_.is_string() && !value_.get_ref<const std::string&>().empty(), "a text that is not empty");
-    return value_.get<std::string>();
-  }
-  double number() const {
-    require(value_.is_number(), "a number");
-    return value_.get<double>();
-  }
-  double number_from(double least) const {
-    const double number_here = number();
-    if (number_here < least) {
-      std::ostringstream limit;
-      limit << "must be at least " << least;
-      refuse(pointer_, limit.str());
-    }
-    return number_here;
-  }
-  Vec3 vector() const {
-    require(value_.is_array() && value_.size() == 3, "an array of three numbers");
-    Vec3 out;
-    for (std::size_t i = 0; i < 3; ++i)
-      out[static_cast<int>(i)] = Field(value_[i], pointer_ + "/" + std::to_string(i)).number();
-    return out;
-  }
-  std::vector<Field> elements() const {
-    require(value_.is_array(), "an array");
-    std::vector<Field> out;
-    for (std::size_t i = 0; i < value_.size(); ++i) out.emplace_back(value_[i], pointer_ + "/" + std::to_string(i));
-    return out;
-  }
-  std::vector<std::pair<std::string, Field>> members() const {
-    require(value_.is_object(), "an object");
-    std::vector<std::pair<std::string, Field>> out;
-    for (const auto& [name, value] : value_.items()) out.emplace_back(name, Field(value, pointer_ + "/" + name));
-    return out;
-  }
-  const std::string& pointer() const { return pointer_; }
-
- private:
-  void require(bool good, const std::string& what) const {
-    if (!good) refuse(pointer_, "must be " + what + ", not " + value_.type_name());
-  }
-
-  const json& value_;
-  std::string pointer_;
-};
 
 json parse_json(const std::string& text) {
   constexpr int deepest = 16;
@@ -190,34 +119,52 @@ ToolSpec parse_tool(const Field& field) {
   return tool;
 }
 
-/// Every joint of the robot: the value the cell file gives, else 0 as far as its limits allow.
-std::vector<double> parse_home(const Robot& robot, const Field& top) {
+/// Every joint of the robot: 0 as far as its limits allow.
+std::vector<double> rest_of(const Robot& robot) {
   std::vector<double> rest;
-  for (const Joint& joint : robot.joints) {
+  for (const Joint& joint : robot.joints)
     rest.push_back(joint.kind == JointKind::fixed ? 0.0 : std::clamp(0.0, joint.lower, joint.upper));
-  }
-  for (const auto& [name, value] : top.at("home").members()) {
-    const int index = robot.find_joint(name);
-    if (index < 0) refuse(value.pointer(), "the URDF has no such joint");
-    const Joint& joint = robot.joints[static_cast<std::size_t>(index)];
-    if (joint.kind == JointKind::fixed) refuse(value.pointer(), "this joint is fixed: leave it out");
-    if (joint.mimic >= 0) {
-      refuse(value.pointer(),
-             "this joint follows '" + robot.joints[static_cast<std::size_t>(joint.mimic)].name + "': give that one");
+  return rest;
+}
+
+/// The joint that `name` names and home may set. Throws InputError.
+std::size_t home_joint(const Robot& robot, const std::string& name, const Field& value) {
+  const int index = robot.find_joint(name);
+  if (index < 0) refuse(value.pointer(), "the URDF has no such joint");
+  const Joint& joint = robot.joints[static_cast<std::size_t>(index)];
+  if (joint.kind == JointKind::fixed) refuse(value.pointer(), "this joint is fixed: leave it out");
+  if (joint.mimic >= 0)
+    refuse(value.pointer(),
+           "this joint follows '" + robot.joints[static_cast<std::size_t>(joint.mimic)].name + "': give that one");
+  return static_cast<std::size_t>(index);
+}
+
+/// Its value at home, at the limit where it is beyond one: that is a fault.
+double home_value(const Joint& joint, const Field& value, std::vector<InputError>& faults) {
+  const double q = value.number();
+  if (q >= joint.lower && q <= joint.upper) return q;
+  std::ostringstream text;
+  text << q << " is outside the joint's limits of " << joint.lower << " to " << joint.upper;
+  faults.push_back(cell_error(value.pointer(), text.str()));
+  return std::clamp(q, joint.lower, joint.upper);
+}
+
+/// Every joint of the robot: the value the cell file gives, else as `rest_of`. What is wrong with one is a fault.
+std::vector<double> parse_home(const Robot& robot, const Field& top, std::vector<InputError>& faults) {
+  std::vector<double> rest = rest_of(robot);
+  try {
+    for (const auto& [name, value] : top.at("home").members()) {
+      try {
+        const std::size_t joint = home_joint(robot, name, value);
+        rest[joint] = home_value(robot.joints[joint], value, faults);
+      } catch (const InputError& error) {
+        faults.push_back(error);
+      }
     }
-    const double q = value.number();
-    if (q < joint.lower || q > joint.upper) {
-      std::ostringstream text;
-      text << q << " is outside the joint's limits of " << joint.lower << " to " << joint.upper;
-      refuse(value.pointer(), text.str());
-    }
-    rest[static_cast<std::size_t>(index)] = q;
+  } catch (const InputError& error) {
+    faults.push_back(error);
   }
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    if (joint.mimic >= 0)
-      rest[j] = joint.mimic_multiplier * rest[static_cast<std::size_t>(joint.mimic)] + joint.mimic_offset;
-  }
+  follow_leaders(robot, rest);
   return rest;
 }
 
@@ -257,6 +204,14 @@ const std::string& file_named(const CellFiles& files, const std::string& name) {
 
 }  // namespace
 
+void follow_leaders(const Robot& robot, std::vector<double>& values) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (joint.mimic >= 0)
+      values[j] = joint.mimic_multiplier * values[static_cast<std::size_t>(joint.mimic)] + joint.mimic_offset;
+  }
+}
+
 Configuration Cell::home(const Chain& chain) const {
   Configuration q(chain.dof());
   for (int c = 0; c < chain.dof(); ++c)
@@ -286,10 +241,11 @@ CellFiles read_cell_files(const fs::path& path) {
   return files;
 }
 
-Cell parse_cell(const CellFiles& files) {
+CellDraft draft_cell(const CellFiles& files) {
   const json document = parse_json(files.cell_json);
   const Field top = top_level(document);
-  Cell cell;
+  CellDraft draft;
+  Cell& cell = draft.cell;
   cell.name = top.has("name") ? top.at("name").text() : files.name;
   if (top.has("packages")) {
     for (const auto& [package, folder] : top.at("packages").members()) folder.text();
@@ -305,12 +261,18 @@ Cell parse_cell(const CellFiles& files) {
   cell.tool_link = find_link(cell.robot, tool.at("link"));
   for (Shape& shape : holder_shapes(cell.tool))  // to whoever looks at links the holder is part of one
     cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes.push_back(std::move(shape));
-  cell.rest = parse_home(cell.robot, top);
+  cell.rest = parse_home(cell.robot, top, draft.home_faults);
   cell.ignore_pairs = parse_pairs(cell.robot, top, "ignore_pairs");
   cell.check_pairs = parse_pairs(cell.robot, top, "check_pairs");
   refuse_contradictions(cell);
   cell.chain();  // refuses a cell in which nothing moves the tool
-  return cell;
+  return draft;
+}
+
+Cell parse_cell(const CellFiles& files) {
+  CellDraft draft = draft_cell(files);
+  if (!draft.home_faults.empty()) throw draft.home_faults.front();
+  return std::move(draft.cell);
 }
 
 }  // namespace sculpt

@@ -29,11 +29,6 @@ std::shared_ptr<const Mesh> MeshShelf::get(const std::string& reference, const V
 
 Mesh MeshShelf::load(const std::string& reference, const std::string& owner) const {
   const std::string extension = extension_of(reference), named = "mesh '" + reference + "' of " + owner;
-  if (extension == "dae")
-    throw InputError("mesh_unreadable", named +
-                                            " is a Collada file, which is not read: convert it (for example with "
-                                            "`assimp export`) to STL or OBJ, in metres, and name that one in "
-                                            "<collision>; <visual> may keep it");
   const std::string bytes = read_file_(reference);
   try {
     return load_mesh(bytes, extension, mesh_memory_cap_bytes, Watch{});

@@ -11,6 +11,7 @@
 #include "core/collision/contact.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/material.hpp"
+#include "core/collision/near_bodies.hpp"
 #include "core/collision/shape/body.hpp"
 
 namespace sculpt {
@@ -50,6 +51,12 @@ class Scene {
   /// The first contact at q as a person would say it, e.g. "'link5' touches the stock", with the cure where it is two
   /// links; empty if there is none.
   std::string describe_contact(const Configuration& q) const;
+
+  /// Of the bodies that must stay apart those that are nearer than `within_m` (m), or too near, at q; joint limits are
+  /// not looked at.
+  std::vector<NearBodies> near_bodies(const Configuration& q, double within_m) const;
+  /// The first two that are too near at q, but for the tool in the stock; their gap is not measured.
+  std::optional<NearBodies> blocking_links(const Configuration& q) const;
 
   /// Pairs of bodies, or of a body and the material, by number.
   using Pairs = std::vector<std::size_t>;

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/mesh/collada.hpp"
 #include "core/mesh/gltf_guard.hpp"
 #include "core/mesh/off.hpp"
 #include "core/mesh/ply.hpp"
@@ -29,13 +30,14 @@ struct Kind {
   const char* extension;
   double memory_per_byte;
 };
-constexpr std::array<Kind, 6> kinds{{{"stl", 6.5}, {"obj", 14}, {"ply", 10}, {"off", 8}, {"gltf", 9}, {"glb", 12}}};
+constexpr std::array<Kind, 7> kinds{
+    {{"stl", 6.5}, {"obj", 14}, {"ply", 10}, {"off", 8}, {"gltf", 9}, {"glb", 12}, {"dae", 9}}};
 
 const Kind& find_kind(const std::string& extension) {
   for (const Kind& kind : kinds)
     if (extension == kind.extension) return kind;
-  throw InputError("mesh_unreadable",
-                   "mesh kind \"" + extension + "\" is not known: convert the mesh to stl, obj, ply, off, glb or gltf");
+  throw InputError("mesh_unreadable", "mesh kind \"" + extension +
+                                          "\" is not known: convert the mesh to stl, obj, ply, off, glb, gltf or dae");
 }
 
 /// Reads the caller's bytes in place. A reader that asks for more at the end again and again would do so for ever: it
@@ -264,6 +266,7 @@ Mesh load_mesh(std::string_view bytes, const std::string& extension, std::uint64
   check_gltf(bytes, extension);
   Mesh mesh = extension == "ply"   ? collect(read_ply(bytes, memory_cap_bytes), memory_cap_bytes)
               : extension == "off" ? collect(read_off(bytes), memory_cap_bytes)
+              : extension == "dae" ? collect(read_collada(bytes, memory_cap_bytes), memory_cap_bytes)
                                    : load_by_assimp(bytes, extension, memory_cap_bytes, watch);
   watch.step(Stage::load, bytes.size(), bytes.size());
   return mesh;

@@ -55,6 +55,19 @@ struct SubmitGroup {
 };
 Handlers submit_handlers(const SubmitGroup& group);
 
+/// cell.check.
+struct CellGroup {
+  const Answers& answers;
+  const Config& config;
+  Blobs& blobs;
+  const Planner& planner;
+  JobDefaults defaults;
+  const Isolation& isolation;
+  TaskQueue& admission;  ///< for all but the examination
+  CheckDesk& checks;     ///< for that
+};
+Handlers cell_handlers(const CellGroup& group);
+
 /// job.get, job.list, job.wait, job.report, job.verify.
 struct JobGroup {
   const Answers& answers;

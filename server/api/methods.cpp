@@ -15,6 +15,7 @@ constexpr std::array table{
     Method{"server.schema", Scope::read},
     Method{"blob.has", Scope::submit},
     Method{"blob.put", Scope::submit},
+    Method{"cell.check", Scope::submit},
     Method{"job.submit", Scope::submit},
     Method{"job.get", Scope::read},
     Method{"job.list", Scope::read},

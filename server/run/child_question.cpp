@@ -44,12 +44,17 @@ ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, cons
 }
 
 int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, const Job&)>& find) {
+  return answer_parent(
+      [&](const DescribedJob& described) { return find(described, load_and_confine(described, use)); });
+}
+
+int answer_parent(const std::function<Json(const DescribedJob&)>& find) {
   std::FILE* out = take_output();
   const std::optional<DescribedJob> described = take_description(std::cin);
   if (!described) return EXIT_FAILURE;
   Json said;
   try {
-    said = find(*described, load_and_confine(*described, use));
+    said = find(*described);
   } catch (const InputError& error) {
     said = report(error.code().c_str(), error.what());
   } catch (const proto::ProtocolError& error) {

@@ -21,9 +21,10 @@ struct ChildAnswer {
 ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, const char* option,
                       std::optional<std::chrono::milliseconds> patience, const std::stop_token& stop);
 
-/// The child's side: confines this process, lets `find` work on the job and prints what it returns, or what it throws
-/// as
-/// {"code","sentence"}. Gives the exit code.
+/// The child's side: lets `find`, which confines this process, work on the job, and prints what it returns, or what it
+/// throws as {"code","sentence"}. Gives the exit code.
+int answer_parent(const std::function<Json(const DescribedJob&)>& find);
+/// The same, with the job's files read.
 int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, const Job&)>& find);
 
 /// Throws the InputError that the child reported, if it did.

@@ -65,4 +65,13 @@ Job load_and_confine(const DescribedJob& described, FolderUse use) {
   return job;
 }
 
+CellFiles load_cell_and_confine(const DescribedJob& described) {
+  const Blobs blobs(described.blobs, 0);
+  CellFiles files = load_cell(described.job.cell_bundle, blobs, {});
+  Job none;
+  none.threads = described.defaults.threads;
+  confine(confinement(described, none, FolderUse::none));
+  return files;
+}
+
 }  // namespace sculpt::server

@@ -50,4 +50,7 @@ enum class FolderUse { none, read, write };
 /// (confinement.hpp) to what is left to do with them. Throws ProtocolError and StorageError.
 Job load_and_confine(const DescribedJob& described, FolderUse use);
 
+/// The same with the files of a cell alone, which may use no folder.
+CellFiles load_cell_and_confine(const DescribedJob& described);
+
 }  // namespace sculpt::server

@@ -3,6 +3,8 @@
 #include <fstream>
 
 #include "core/cell/shipped_cells.hpp"
+#include "core/doctor/examine.hpp"
+#include "core/doctor/findings_json.hpp"
 #include "core/material/binvox.hpp"
 #include "core/trajectory/export.hpp"
 
@@ -33,6 +35,12 @@ Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
           std::move(verdict.exempt_pairs)};
 }
 
+std::string examine(const CellFiles& cell, int resolution, int threads) {
+  const Helpers helpers(threads);
+  const Watch watch;
+  return findings_json(examine_files(cell, {resolution}, {0, helpers, watch}));
+}
+
 }  // namespace
 
 Planner make_planner(std::vector<fs::path> folders) {
@@ -40,6 +48,7 @@ Planner make_planner(std::vector<fs::path> folders) {
   planner.cells = [folders] { return cell_names(folders); };
   planner.read_cell = [folders](const std::string& name) { return read_cell_files(find_cell(name, folders)); };
   planner.check = check_job;
+  planner.examine = examine;
   planner.predict_memory = predict_memory;
   planner.run = run;
   planner.verify = verify;

@@ -34,6 +34,8 @@ struct Planner {
   std::function<std::vector<std::string>()> cells;
   std::function<CellFiles(const std::string& name)> read_cell;
   std::function<void(const Job&, const Watch&)> check;
+  /// What is found out about a cell, as a JSON object; what is wrong with its files is found too.
+  std::function<std::string(const CellFiles&, int resolution, int threads)> examine;
   /// Bytes that a job needs.
   std::function<std::uint64_t(const JobSizes&)> predict_memory;
   /// Goes on where a run of the job with the same trajectory file was stopped or killed. Leaves its checkpoints beside

@@ -33,21 +33,14 @@ JobSizes::File measure(const proto::BlobRef& ref, const Blobs& blobs, const std:
   return {blobs.size(ref.sha256, pointer + "/blob"), std::move(kind)};
 }
 
-proto::CellBundle read_bundle(const std::string& hash, const Blobs& blobs) {
-  if (const std::uint64_t size = blobs.size(hash, cell_pointer); size > proto::max_cell_bundle_bytes)
+proto::CellBundle read_bundle(const std::string& hash, const Blobs& blobs, const std::string& pointer) {
+  if (const std::uint64_t size = blobs.size(hash, pointer); size > proto::max_cell_bundle_bytes)
     throw proto::ProtocolError("too_large",
                                "the cell bundle has " + std::to_string(size) + " bytes, over the limit of " +
                                    std::to_string(proto::max_cell_bundle_bytes) +
                                    ": it only lists the files of the cell, by hash",
-                               cell_pointer);
-  return proto::read_cell_bundle(blobs.read(hash, cell_pointer));
-}
-
-CellFiles read_cell(const std::string& hash, const Blobs& blobs) {
-  const proto::CellBundle bundle = read_bundle(hash, blobs);
-  CellFiles files{bundle.name, bundle.cell_json, {}};
-  for (const auto& [reference, sha256] : bundle.files) files.files[reference] = blobs.read(sha256, cell_pointer);
-  return files;
+                               pointer);
+  return proto::read_cell_bundle(blobs.read(hash, pointer));
 }
 
 }  // namespace
@@ -56,14 +49,26 @@ std::string mesh_kind(const std::string& name) {
   return extension_of(name);
 }
 
+std::uint64_t measure_cell(const std::string& cell_bundle, const Blobs& blobs, const std::string& pointer) {
+  const proto::CellBundle bundle = read_bundle(cell_bundle, blobs, pointer);
+  std::uint64_t bytes = bundle.cell_json.size();
+  for (const auto& [reference, sha256] : bundle.files) bytes += blobs.size(sha256, pointer);
+  return bytes;
+}
+
+CellFiles load_cell(const std::string& cell_bundle, const Blobs& blobs, const std::string& pointer) {
+  const proto::CellBundle bundle = read_bundle(cell_bundle, blobs, pointer);
+  CellFiles files{bundle.name, bundle.cell_json, {}};
+  for (const auto& [reference, sha256] : bundle.files) files.files[reference] = blobs.read(sha256, pointer);
+  return files;
+}
+
 JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs) {
   JobSizes sizes;
   sizes.resolution = static_cast<int>(spec.resolution);
   sizes.mesh = measure(spec.mesh, blobs, mesh_pointer);
   if (spec.stock_mesh) sizes.stock = measure(*spec.stock_mesh, blobs, stock_pointer);
-  const proto::CellBundle bundle = read_bundle(cell_bundle, blobs);
-  sizes.cell_bytes = bundle.cell_json.size();
-  for (const auto& [reference, sha256] : bundle.files) sizes.cell_bytes += blobs.size(sha256, cell_pointer);
+  sizes.cell_bytes = measure_cell(cell_bundle, blobs, cell_pointer);
   return sizes;
 }
 
@@ -71,7 +76,7 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
            const JobDefaults& defaults) {
   Job job;
   job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
-  job.cell = read_cell(cell_bundle, blobs);
+  job.cell = load_cell(cell_bundle, blobs, cell_pointer);
   job.resolution = static_cast<int>(spec.resolution);
   if (spec.search) job.search = parse_search(*spec.search);
   job.seed = spec.seed;

@@ -26,6 +26,13 @@ JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, con
 /// `blob_missing` or `params_invalid`.
 Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults);
 
+/// Bytes of a cell: its file and, as often as it names them, its other files. `pointer`: of the bundle's hash, for
+/// errors.
+std::uint64_t measure_cell(const std::string& cell_bundle, const Blobs& blobs, const std::string& pointer);
+
+/// The files of a cell. Throws ProtocolError `blob_missing`, `params_invalid`, `too_large`.
+CellFiles load_cell(const std::string& cell_bundle, const Blobs& blobs, const std::string& pointer);
+
 /// Stores the files of a cell as blobs and returns the hash of their bundle.
 std::string store_cell(const CellFiles& files, Blobs& blobs);
 

@@ -35,6 +35,9 @@ class Man(ClientTest):
         for command in commands:
             self.assertRegex(page, rf"(?m)^\.Ss {command}\b")
             told |= self.options(*SCULPT, command)
+            for inner in re.findall(r"^  (\w+)", self.help(*SCULPT, command).partition("Subcommands:")[2], re.M):
+                self.assertRegex(page, rf"(?m)^\.Ss {command} {inner}\b")
+                told |= self.options(*SCULPT, command, inner)
         self.assertEqual(options_of(page), told)
 
     def test_sculptd_has_the_options_that_are_no_settings(self):

@@ -13,7 +13,7 @@ void read_hostile(std::string_view bytes) {
   if (bytes.empty()) return;
   constexpr std::array kinds{"stl", "obj", "ply", "gltf", "glb", "off"};
   constexpr std::uint64_t memory_cap_bytes = 256u << 20;
-  const char* kind = kinds[static_cast<std::uint8_t>(bytes.front()) % kinds.size()];
+  const char* kind = bytes.front() == 'd' ? "dae" : kinds[static_cast<std::uint8_t>(bytes.front()) % kinds.size()];
   try {
     const sculpt::Mesh mesh = sculpt::load_mesh(bytes.substr(1), kind, memory_cap_bytes, {});
     const sculpt::Grid grid{8, 1, sculpt::Vec3::Zero()};

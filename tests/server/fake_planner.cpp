@@ -105,6 +105,11 @@ Planner FakePlanner::planner() {
   planner.run = [this](const Job& job, const std::filesystem::path& path, const Watch& watch) {
     return run(job, path, watch);
   };
+  planner.examine = [](const CellFiles& cell, int resolution, int) {
+    if (cell.name == "crashes its reader") std::abort();
+    if (cell.name == "has no end") std::this_thread::sleep_for(std::chrono::hours(24));
+    return "{\"cell\":\"" + cell.name + "\",\"resolution\":" + std::to_string(resolution) + "}";
+  };
   planner.verify = [](const Job& job, const std::filesystem::path&, const Watch&) {
     Replay replay{job.mesh.bytes != "unclean", 0, 7, {}, {{"base", "arm", "a bearing"}}};
     if (!replay.clean) replay.collisions = 3;

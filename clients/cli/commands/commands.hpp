@@ -42,6 +42,8 @@ void add_fetch(CLI::App& app, Invocation& invocation);
 void add_verify(CLI::App& app, Invocation& invocation);
 void add_voxelize(CLI::App& app, Invocation& invocation);
 void add_plan(CLI::App& app, Invocation& invocation);
+void add_cell(CLI::App& app, Invocation& invocation);
+void add_cell_new(CLI::App& cell, Invocation& invocation);
 void add_completion(CLI::App& app, Invocation& invocation);
 
 }  // namespace sculpt::cli

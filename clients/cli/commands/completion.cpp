@@ -32,7 +32,7 @@ std::string first_line(const std::string& text) {
 
 /// CLI11 writes what an option is checked for behind its type: TEXT:{ndjson,binary,csv}.
 std::string values_of(const CLI::Option& option) {
-  if (option.check_lname("robot")) return cells;
+  if (option.check_lname("robot") || option.get_type_name() == "CELL") return cells;
   if (option.check_lname("search")) return "sweep octree voxel";
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{'), end = type.find('}');
@@ -58,11 +58,23 @@ std::string positional_values(const CLI::App& app) {
   return "";
 }
 
+/// With the names and options of the commands in it: `sculpt cell` takes `new` and what that takes.
+Command command_of(const CLI::App& app) {
+  Command command{{app.get_name(), first_line(app.get_description()), positional_values(app)}, options_of(app)};
+  for (const CLI::App* inner : app.get_subcommands([](const CLI::App*) { return true; })) {
+    command.word.values += (command.word.values.empty() ? "" : " ") + inner->get_name();
+    for (const Word& option : options_of(*inner))
+      if (std::none_of(command.options.begin(), command.options.end(),
+                       [&](const Word& known) { return known.text == option.text; }))
+        command.options.push_back(option);
+  }
+  return command;
+}
+
 std::vector<Command> commands_of(const CLI::App& app) {
   std::vector<Command> commands{{{}, options_of(app)}};
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
-    commands.push_back(
-        {{sub->get_name(), first_line(sub->get_description()), positional_values(*sub)}, options_of(*sub)});
+    commands.push_back(command_of(*sub));
   return commands;
 }
 
@@ -96,6 +108,15 @@ std::string quoted(std::string text) {
   return "'" + text + "'";
 }
 
+/// With a command that prints the names of cells in place of `cells`.
+std::string with_cells(std::string values, const std::string& command) {
+  if (const std::size_t at = values.find(cells); at != std::string::npos) values.replace(at, cells.size(), command);
+  return values;
+}
+
+const std::string bash_cells = "$(\"${COMP_WORDS[0]}\" completion cells 2>/dev/null)",
+                  zsh_cells = "$($words[1] completion cells 2>/dev/null)", fish_cells = "(sculpt completion cells)";
+
 std::string bash_script(const std::vector<Command>& commands) {
   std::string script =
       "# bash completion of sculpt\n"
@@ -109,16 +130,14 @@ std::string bash_script(const std::vector<Command>& commands) {
   for (const Command& command : commands)
     script += "    '" + command.word.text + "') words='" +
               (command.word.text.empty() ? joined(names_of(commands)) + " " : "") + joined(command.options) +
-              "' choices='" + command.word.values + "' ;;\n";
+              "' choices=\"" + with_cells(command.word.values, bash_cells) + "\" ;;\n";
   script +=
       "  esac\n"
       "  if [[ -z $command || $word == -* ]]; then choices=$words; fi\n"
       "  case $before in\n";
   for (const Word& option : choosy_options(commands))
     script +=
-        "    " + option.text + ") choices=" +
-        (option.values == cells ? "$(\"${COMP_WORDS[0]}\" completion cells 2>/dev/null)" : quoted(option.values)) +
-        " ;;\n";
+        "    " + option.text + ") choices=" + (option.values == cells ? bash_cells : quoted(option.values)) + " ;;\n";
   return script +
          "  esac\n"
          "  COMPREPLY=($(compgen -W \"$choices\" -- \"$word\"))\n"
@@ -139,8 +158,7 @@ std::string zsh_script(const std::vector<Command>& commands) {
       "  local -a choices; local command= word\n"
       "  case $words[CURRENT-1] in\n";
   for (const Word& option : choosy_options(commands))
-    script += "    " + option.text + ") compadd -- " +
-              (option.values == cells ? "$($words[1] completion cells 2>/dev/null)" : option.values) + "; " +
+    script += "    " + option.text + ") compadd -- " + with_cells(option.values, zsh_cells) + "; " +
               (option.values == cells ? "_files; " : "") + "return ;;\n";
   script +=
       "  esac\n"
@@ -150,7 +168,7 @@ std::string zsh_script(const std::vector<Command>& commands) {
     const std::vector<Word> first = command.word.text.empty() ? names_of(commands) : std::vector<Word>{};
     script += "    '" + command.word.text + "') choices=(" + zsh_list(first) + zsh_list(command.options) + " )";
     if (!command.word.values.empty())
-      script += "; [[ $PREFIX != -* ]] && { compadd -- " + command.word.values + "; return }";
+      script += "; [[ $PREFIX != -* ]] && { compadd -- " + with_cells(command.word.values, zsh_cells) + "; return }";
     script += " ;;\n";
   }
   return script +
@@ -169,12 +187,11 @@ std::string fish_script(const std::vector<Command>& commands) {
     if (!name.empty())
       script += "complete -c sculpt -n __fish_use_subcommand -a " + name + " -d " + quoted(command.word.help) + "\n";
     if (!command.word.values.empty())
-      script += "complete -c sculpt" + when + " -a " + quoted(command.word.values) + "\n";
+      script += "complete -c sculpt" + when + " -a " + quoted(with_cells(command.word.values, fish_cells)) + "\n";
     for (const Word& option : command.options) {
       const bool is_long = option.text.starts_with("--");
       script += "complete -c sculpt" + when + (is_long ? " -l " : " -s ") + option.text.substr(is_long ? 2 : 1);
-      if (!option.values.empty())
-        script += " -r -a " + quoted(option.values == cells ? "(sculpt completion cells)" : option.values);
+      if (!option.values.empty()) script += " -r -a " + quoted(with_cells(option.values, fish_cells));
       script += " -d " + quoted(option.help) + "\n";
     }
   }

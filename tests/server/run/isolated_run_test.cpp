@@ -10,6 +10,7 @@
 #include "server/files/blobs.hpp"
 #include "server/run/child_process.hpp"
 #include "server/run/isolated_check.hpp"
+#include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/job_run.hpp"
 #include "tests/server/fake_planner.hpp"
@@ -127,7 +128,7 @@ TEST_F(IsolatedRunTest, AfterASyncThatFailedTheRunStartsOver) {
 
 // Some died of an exception in their hands.
 TEST_F(IsolatedRunTest, AProcessWhoseParentIsGoneEndsInOrder) {
-  for (const char* option : {run_job_option, check_job_option, replay_job_option}) {
+  for (const char* option : {run_job_option, check_job_option, check_cell_option, replay_job_option}) {
     for (const std::string said : {"", "{\"daemon\":1"}) {
       ChildProcess child(FAKE_WORKER, option);
       child.send(said);

@@ -1,8 +1,9 @@
-// What the daemon starts with --run-job, --check-job and --replay-job, with the fake planner in the place of the real
-// one.
+// What the daemon starts with --run-job, --check-job, --check-cell and --replay-job, with the fake planner in the place
+// of the real one.
 #include <string_view>
 
 #include "server/run/isolated_check.hpp"
+#include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/isolated_run.hpp"
 #include "tests/server/fake_planner.hpp"
@@ -11,6 +12,7 @@ int main(int, char** arguments) {
   sculpt::server::FakePlanner fake;
   const std::string_view mode = arguments[1];
   if (mode == sculpt::server::check_job_option) return sculpt::server::run_isolated_check(fake.planner());
+  if (mode == sculpt::server::check_cell_option) return sculpt::server::run_isolated_examination(fake.planner());
   if (mode == sculpt::server::replay_job_option) return sculpt::server::run_isolated_replay(fake.planner());
   return sculpt::server::run_isolated_job(fake.planner());
 }

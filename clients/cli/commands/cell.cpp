@@ -1,0 +1,77 @@
+// sculpt cell: what a cell is made of, what is wrong with it, and the cure.
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "clients/cli/cell/cell_table.hpp"
+#include "clients/cli/cell/png_file.hpp"
+#include "clients/cli/commands/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/job_options.hpp"
+#include "core/doctor/examine.hpp"
+#include "core/doctor/findings_json.hpp"
+#include "core/doctor/picture/draw_cell.hpp"
+
+namespace sculpt::cli {
+
+namespace {
+
+struct CellOptions {
+  std::string cell, picture;
+  int resolution = 64;
+  bool json = false;
+};
+
+CellFindings examine(const CellOptions& options) {
+  std::stop_source stop;
+  const Interrupt interrupt([&stop] { stop.request_stop(); });
+  const Watch watch{stop.get_token(), {}};
+  const Helpers helpers(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  try {
+    const CellDraft draft = draft_cell(read_cell(options.cell));
+    CellFindings found = examine_cell(draft, {options.resolution}, {0, helpers, watch});
+    if (!options.picture.empty())
+      write_png(options.picture, draw_cell(draft.cell, draft.cell.home(draft.cell.chain()), found.home.bodies));
+    return found;
+  } catch (const InputError& error) {
+    if (error.code() == "cell_unknown") throw;
+    return unreadable_cell(options.cell, error);
+  }
+}
+
+int run_cell(const CellOptions& options) {
+  if (options.cell.empty())
+    throw Failure(exit_usage, "usage", "name a cell, or `new` and a URDF (see sculpt cell --help)");
+  check_resolution(options.resolution);
+  const CellFindings found = examine(options);
+  std::cout << (options.json ? findings_json(found) + "\n" : cell_table(found));
+  return found.plannable() ? exit_fine : exit_failed;
+}
+
+}  // namespace
+
+void add_cell(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<CellOptions>();
+  CLI::App& command =
+      add_command(app, invocation, "cell", "Say what a cell is made of, what is wrong with it, and the cure", {});
+  command.final_callback([&command, &invocation, options] {
+    if (command.get_subcommands().empty()) invocation.run = [options] { return run_cell(*options); };
+  });
+  command.require_subcommand(0, 1);
+  command.add_option("cell", options->cell, "The cell: a name under config/cells, or the path of a cell file")
+      ->type_name("CELL");
+  command.add_option("--resolution", options->resolution, "Voxels along each edge, for a tool that follows them")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "Print the findings as one JSON document");
+  command.add_option("--picture", options->picture, "Draw the cell at home, what is in the way in red")
+      ->type_name("FILE.png");
+  add_cell_new(command, invocation);
+}
+
+}  // namespace sculpt::cli

@@ -1,0 +1,92 @@
+// A JSON value of a cell file, read with its place named. Internal to core/cell: no other file sees JSON there.
+#pragma once
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/frame.hpp"
+
+namespace sculpt {
+
+inline InputError cell_error(const std::string& where, const std::string& sentence) {
+  return {"cell_invalid", "cell file, " + (where.empty() ? std::string("top level") : where) + ": " + sentence};
+}
+
+[[noreturn]] inline void refuse(const std::string& where, const std::string& sentence) {
+  throw cell_error(where, sentence);
+}
+
+/// One JSON value of the cell file and its JSON pointer; every read checks the type and names the place.
+class CellField {
+ public:
+  CellField(const nlohmann::json& value, std::string pointer) : value_(value), pointer_(std::move(pointer)) {}
+
+  /// Refuses anything but an object, and any field that is not in `known`.
+  void require_object(const std::vector<std::string>& known) const {
+    require(value_.is_object(), "an object");
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    for (const auto& [name, value] : value_.items()) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        refuse(pointer_ + "/" + name, "unknown field; known here: " + list);
+      }
+    }
+  }
+  bool has(const std::string& name) const { return value_.contains(name); }
+  CellField at(const std::string& name) const {
+    if (!has(name)) refuse(pointer_ + "/" + name, "missing field");
+    return CellField(value_.at(name), pointer_ + "/" + name);
+  }
+  std::string text() const {
+    require(value_.is_string() && !value_.get_ref<const std::string&>().empty(), "a text that is not empty");
+    return value_.get<std::string>();
+  }
+  double number() const {
+    require(value_.is_number(), "a number");
+    return value_.get<double>();
+  }
+  double number_from(double least) const {
+    const double number_here = number();
+    if (number_here < least) {
+      std::ostringstream limit;
+      limit << "must be at least " << least;
+      refuse(pointer_, limit.str());
+    }
+    return number_here;
+  }
+  Vec3 vector() const {
+    require(value_.is_array() && value_.size() == 3, "an array of three numbers");
+    Vec3 out;
+    for (std::size_t i = 0; i < 3; ++i)
+      out[static_cast<int>(i)] = CellField(value_[i], pointer_ + "/" + std::to_string(i)).number();
+    return out;
+  }
+  std::vector<CellField> elements() const {
+    require(value_.is_array(), "an array");
+    std::vector<CellField> out;
+    for (std::size_t i = 0; i < value_.size(); ++i) out.emplace_back(value_[i], pointer_ + "/" + std::to_string(i));
+    return out;
+  }
+  std::vector<std::pair<std::string, CellField>> members() const {
+    require(value_.is_object(), "an object");
+    std::vector<std::pair<std::string, CellField>> out;
+    for (const auto& [name, value] : value_.items()) out.emplace_back(name, CellField(value, pointer_ + "/" + name));
+    return out;
+  }
+  const std::string& pointer() const { return pointer_; }
+
+ private:
+  void require(bool good, const std::string& what) const {
+    if (!good) refuse(pointer_, "must be " + what + ", not " + value_.type_name());
+  }
+
+  const nlohmann::json& value_;
+  std::string pointer_;
+};
+
+}  // namespace sculpt

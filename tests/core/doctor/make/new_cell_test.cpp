@@ -1,0 +1,102 @@
+#include "core/doctor/make/new_cell.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/collision/scene.hpp"
+#include "core/doctor/make/find_tool.hpp"
+#include "core/doctor/make/urdf_text.hpp"
+#include "tests/core/cell/sample_robots.hpp"
+#include "tests/core/doctor/doctor_cells.hpp"
+
+namespace sculpt {
+namespace {
+
+MakersRobot maker(const std::string& urdf = without_branch(makers_arm, "hand")) {
+  return {urdf, [](const std::string& reference) -> std::string { throw InputError("file_missing", reference); }};
+}
+
+NewCell make(const CellWishes& wishes, const MakersRobot& robot = maker()) {
+  const QuietRun run;
+  return make_cell(robot, wishes, run.context());
+}
+
+/// The cell as everybody will read it.
+Cell read_back(const NewCell& made) {
+  CellFiles files;
+  files.name = "made";
+  files.cell_json = cell_text(made.cell, "made.urdf", {});
+  files.files["made.urdf"] = made.urdf;
+  return parse_cell(files);
+}
+
+void expect_free_home(const Cell& cell) {
+  const Grid grid = cell.grid(64);
+  const Scene scene(cell, grid, VoxelSet(grid.n, true));
+  EXPECT_EQ(scene.contact_at(cell.home(scene.chain())), Contact::none)
+      << scene.describe_contact(cell.home(scene.chain()));
+}
+
+TEST(NewCell, AnArmAloneGetsATableAToolAndAHomeThatIsFree) {
+  const NewCell made = make({});
+  EXPECT_TRUE(made.has_home);
+  EXPECT_FALSE(made.remarks.empty()) << "all of it was assumed";
+  const Cell cell = read_back(made);
+  EXPECT_EQ(cell.chain().dof(), 7) << "the arm and the turntable";
+  EXPECT_EQ(cell.rest, made.cell.rest);
+  expect_free_home(cell);
+}
+
+TEST(NewCell, TheToolPointsOutOfTheFlangeWhateverItsFrame) {
+  const Robot robot = parse_plain(makers_arm);
+  EXPECT_EQ(find_flange(robot), robot.find_link("flange")) << "fingers are no part of the row";
+  EXPECT_TRUE(find_way_out(robot, robot.find_link("flange")).isApprox(Vec3::UnitX()));
+  const Cell cell = make({}).cell;
+  std::vector<Frame> at;
+  const Chain chain = cell.chain();
+  chain.link_poses(cell.home(chain), at);
+  const Frame& flange = at[static_cast<std::size_t>(cell.robot.find_link("flange"))];
+  const ToolPose pose = chain.tool_pose(cell.home(chain));
+  EXPECT_TRUE((-pose.axis).isApprox(flange.linear().col(0), 1e-6));
+}
+
+TEST(NewCell, WishesAreKept) {
+  CellWishes wishes;
+  wishes.stock_size_m = 0.1;
+  wishes.stickout_m = 0.15;
+  wishes.ball_radius_m = 0.003;
+  wishes.table = Table::fixed;
+  wishes.table_at_m = Vec3(0.5, 0.05, 0.1);
+  const Cell cell = read_back(make(wishes));
+  EXPECT_EQ(cell.stock_size_m, 0.1);
+  EXPECT_EQ(cell.tool.stickout_m, 0.15);
+  EXPECT_FALSE(cell.tool.in_voxels);
+  EXPECT_EQ(cell.chain().dof(), 6) << "the table stands still";
+  std::vector<Frame> at;
+  cell.chain().link_poses(Configuration::Zero(6), at);
+  EXPECT_TRUE(at[static_cast<std::size_t>(cell.robot.find_link("base"))].translation().isApprox(-*wishes.table_at_m));
+}
+
+TEST(NewCell, NamesThatTheMakerTookStayHis) {
+  std::string urdf = without_branch(makers_arm, "hand");
+  urdf = with_elements(
+      urdf, R"(<link name="room"/><joint name="table" type="fixed"><parent link="base"/><child link="room"/></joint>)");
+  const NewCell made = make({}, maker(urdf));
+  EXPECT_GE(read_back(made).robot.find_link("room_2"), 0);
+  EXPECT_GE(read_back(made).robot.find_joint("table_2"), 0);
+}
+
+TEST(NewCell, AGripperInTheWayIsNamed) {
+  const NewCell made = make({}, maker(makers_arm));
+  const auto named = [](const std::string& remark) { return remark.find("'hand' hangs on") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(made.remarks.begin(), made.remarks.end(), named));
+}
+
+TEST(NewCell, LinksThatAreNotThereAreRefused) {
+  CellWishes wishes;
+  wishes.tool_link = "nose";
+  EXPECT_THROW(make(wishes), InputError);
+  EXPECT_THROW(make({}, maker("<robot name='r'><link name='stone'/></robot>")), InputError) << "nothing moves";
+}
+
+}  // namespace
+}  // namespace sculpt
