@@ -28,7 +28,7 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
-core_folders=(base mesh material solid cell trajectory collision search motion sweep verify plan)
+core_folders=(base mesh material solid cell trajectory collision search motion sweep place verify plan)
 for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${core_folders[*]:i+1}")
   forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
@@ -38,7 +38,7 @@ forbid "collision knows no trajectory" "$(include 'core/trajectory/')" -- core/c
 forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision)/')" -- core/search
 forbid "planners know keyframes, not how a file of them is read or written" \
   "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
-forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
+forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|place|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
 server_folders=(base files store confine run queue results access net events api http ops)
@@ -58,7 +58,7 @@ forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/field/posture_lanes\.cpp')" -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/cell_file\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+  "$(door '((cell/cell_file|place/placed_cell)\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
 forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.

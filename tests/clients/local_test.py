@@ -15,7 +15,7 @@ from harness import SCULPT, SOURCE, ClientTest, environment, shared_data
 
 import sculpt
 
-COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan".split()
+COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan place".split()
 
 
 class CommandLine(ClientTest):

@@ -1,0 +1,95 @@
+#include "core/place/arm/stand_contacts.hpp"
+
+#include <algorithm>
+
+#include "core/collision/clearance.hpp"
+#include "core/collision/link_pairs.hpp"
+#include "core/collision/margins.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Of a body, what covers shapes of its link that are kept apart from some of another's.
+std::vector<std::size_t> first_shapes(const CheckedLinks& checked, bool of_first) {
+  std::vector<std::size_t> shapes;
+  for (const auto& [first, second] : checked.shapes) shapes.push_back(of_first ? first : second);
+  std::sort(shapes.begin(), shapes.end());
+  shapes.erase(std::unique(shapes.begin(), shapes.end()), shapes.end());
+  return shapes;
+}
+
+}  // namespace
+
+Body make_block(const Eigen::AlignedBox3d& box_m) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.pose.translation() = box_m.center();
+  shape.sides_m = box_m.sizes();
+  // The capsule that holds a box: along its longest side.
+  Eigen::Index longest = 0;
+  shape.sides_m.maxCoeff(&longest);
+  const Vec3 along = 0.5 * shape.sides_m[longest] * Vec3::Unit(longest);
+  Vec3 across = 0.5 * shape.sides_m;
+  across[longest] = 0;
+  const Capsule hull{{box_m.center() - along, box_m.center() + along}, across.norm()};
+  return {-1, false, {{shape, hull, 0}}, hull};
+}
+
+StandContacts::StandContacts(const Cell& cell, const Grid& grid)
+    : bodies_(make_bodies(cell, make_tool(cell.tool, grid.voxel_m, grid.n))) {
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
+  const int stock_group = group[static_cast<std::size_t>(cell.stock_link)];
+  const int tool_group = group[static_cast<std::size_t>(cell.tool_link)];
+  const std::size_t whole = bodies_.size();
+  for (std::size_t at = 0; at < whole; ++at) {
+    if (!bodies_[at].tool && group_of(bodies_[at]) != stock_group) beside_stock_.push_back(at);
+    if (bodies_[at].tool)
+      for (std::size_t other = 0; other < whole; ++other)
+        if (!bodies_[other].tool && group_of(bodies_[other]) != tool_group)
+          pairs_.push_back({other, at, tool_margin_voxels * grid.voxel_m});
+  }
+  const auto body_of = [&](int link) {
+    return static_cast<std::size_t>(std::find_if(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(whole),
+                                                 [&](const Body& body) { return body.link == link && !body.tool; }) -
+                                    bodies_.begin());
+  };
+  const auto part = [&](std::size_t body, const std::vector<std::size_t>& shapes, std::size_t all) {
+    if (shapes.size() == all) return body;
+    bodies_.push_back(part_of(bodies_[body], shapes));
+    return bodies_.size() - 1;
+  };
+  for (const CheckedLinks& checked : find_link_pairs(cell).checked) {
+    const std::size_t all_first = cell.robot.links[static_cast<std::size_t>(checked.links.first)].shapes.size();
+    const std::size_t all_second = cell.robot.links[static_cast<std::size_t>(checked.links.second)].shapes.size();
+    const double margin_m = std::min(link_margin_m, checked.gap_m / 2);
+    // All shapes of one against those of the other that are kept apart from them: one by one where they differ.
+    const std::vector<std::size_t> firsts = first_shapes(checked, true), seconds = first_shapes(checked, false);
+    if (checked.shapes.size() == firsts.size() * seconds.size()) {
+      const std::size_t first = part(body_of(checked.links.first), firsts, all_first);
+      pairs_.push_back({first, part(body_of(checked.links.second), seconds, all_second), margin_m});
+      continue;
+    }
+    for (const std::size_t shape : firsts) {
+      std::vector<std::size_t> partners;
+      for (const auto& [one, other] : checked.shapes)
+        if (one == shape) partners.push_back(other);
+      const std::size_t first = part(body_of(checked.links.first), {shape}, all_first);
+      pairs_.push_back({first, part(body_of(checked.links.second), partners, all_second), margin_m});
+    }
+  }
+}
+
+StandContact StandContacts::at(const std::vector<Frame>& poses, const Body& block) const {
+  const auto pose = [&](const Body& body) -> const Frame& { return poses[static_cast<std::size_t>(body.link)]; };
+  static const Frame still = Frame::Identity();
+  for (const Pair& pair : pairs_) {
+    const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
+    if (near_body(first, pose(first), second, pose(second), pair.margin_m)) return StandContact::links;
+  }
+  for (const std::size_t body : beside_stock_)
+    if (near_body(bodies_[body], pose(bodies_[body]), block, still, link_margin_m)) return StandContact::stock;
+  return StandContact::none;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,39 @@
+// Do links touch the block, the room or each other at one configuration: the quick question of a study, not a
+// certificate.
+#pragma once
+
+#include <vector>
+
+#include "core/collision/shape/body.hpp"
+
+namespace sculpt {
+
+/// What a study finds in the way.
+enum class StandContact { none, stock, links };
+
+/// The bodies of a cell and which of them are kept apart, found once where the cell stands. Immutable: safe to share
+/// between threads.
+class StandContacts {
+ public:
+  /// `cell` with the tool of the study; only read during the call.
+  StandContacts(const Cell& cell, const Grid& grid);
+
+  /// The first contact found. `poses`: of all links in the stock frame, as Chain::link_poses gives them. `block`: the
+  /// stock as one body in that frame. Ball and shank may touch the block.
+  StandContact at(const std::vector<Frame>& poses, const Body& block) const;
+
+ private:
+  struct Pair {
+    std::size_t first, second;
+    double margin_m;
+  };
+
+  std::vector<Body> bodies_;
+  std::vector<std::size_t> beside_stock_;  ///< bodies that move against the stock
+  std::vector<Pair> pairs_;
+};
+
+/// A box of the stock's frame as a body.
+Body make_block(const Eigen::AlignedBox3d& box_m);
+
+}  // namespace sculpt

@@ -1,0 +1,36 @@
+#include "core/place/certify_stand.hpp"
+
+#include "core/place/tool_room_views.hpp"
+#include "core/sweep/directions.hpp"
+
+namespace sculpt {
+
+CertifiedShare certify_stand(const Cell& cell, const VoxelGrid& voxels, const RunContext& run) {
+  const Grid grid = cell.grid(voxels.n());
+  const Scene scene(cell, grid, voxels.stock);
+  const Configuration home = cell.home(scene.chain());
+  CertifiedShare share;
+  share.home_contact = scene.describe_contact(home);
+  Directions directions(scene, home, run);
+  directions.find_straight_fields();
+  for (std::size_t direction = directions.straight(); direction < directions.size(); ++direction)
+    directions.field(direction);
+  const ViewSets views = find_views(voxels.keep, run);
+  VoxelSet removable = voxels.stock;
+  removable -= voxels.keep;
+  for_each_voxel(removable, [&](Voxel v) {
+    ++share.removable;
+    const ViewSet asked = views[removable.index(v)];
+    share.tool += asked == 0;
+    for (std::size_t direction = 0; direction < directions.size(); ++direction) {
+      if (!(asked >> direction & 1)) continue;
+      const Voxel cell_of = directions.view(direction).cell(v);
+      if (!directions.may_reach(direction, Vec3(cell_of.i, cell_of.j, cell_of.k))) continue;
+      ++share.held;
+      return;
+    }
+  });
+  return share;
+}
+
+}  // namespace sculpt
