@@ -34,6 +34,7 @@ std::string row(const PlaceReport& report, std::size_t at) {
   const auto of_all = [&](std::uint64_t voxels) { return percent(voxels, share.removable); };
   const Stand& stand = one.stand;
   std::string notes = stand == report.own ? " now" : "";
+  if (one.reach.is_blocked) notes += " stands in something";
   if (!one.reach.home_is_free) notes += " home touches";
   const std::string certified =
       at < report.certified.size() ? print("%10.2f", percent(report.certified[at].held, report.certified[at].removable))
@@ -94,6 +95,7 @@ nlohmann::ordered_json stand_json(const RatedStand& one) {
           {"height_m", stand.height_m},
           {"stickout_m", stand.stickout_m},
           {"estimate", share_json(one.share)},
+          {"is_blocked", one.reach.is_blocked},
           {"home_is_free", one.reach.home_is_free}};
 }
 

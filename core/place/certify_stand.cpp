@@ -13,9 +13,11 @@ CertifiedShare certify_stand(const Cell& cell, const VoxelGrid& voxels, const Ru
   share.home_contact = scene.describe_contact(home);
   Directions directions(scene, home, run);
   directions.find_straight_fields();
-  for (std::size_t direction = directions.straight(); direction < directions.size(); ++direction)
-    directions.field(direction);
-  const ViewSets views = find_views(voxels.keep, run);
+  const Access access = access_of(scene.chain());
+  if (access == Access::along_views)
+    for (std::size_t direction = directions.straight(); direction < directions.size(); ++direction)
+      directions.field(direction);
+  const ViewSets views = find_views(voxels, access, run);
   VoxelSet removable = voxels.stock;
   removable -= voxels.keep;
   for_each_voxel(removable, [&](Voxel v) {

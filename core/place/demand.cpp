@@ -56,10 +56,12 @@ void add(Share& share, Hold hold, std::uint64_t voxels) {
 
 }  // namespace
 
-Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampings, const RunContext& run) {
+Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampings, Access access,
+                   const RunContext& run) {
   const int n = voxels.n();
   std::vector<ViewSets> views;
-  for (const CubeTurn& clamping : clampings) views.push_back(find_views(turned(voxels.keep, clamping), run));
+  for (const CubeTurn& clamping : clampings)
+    views.push_back(find_views({turned(voxels.stock, clamping), turned(voxels.keep, clamping), {}}, access, run));
   VoxelSet removable = voxels.stock;
   removable -= voxels.keep;
   std::map<std::vector<Asked>, std::uint64_t> counts;

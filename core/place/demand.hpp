@@ -39,7 +39,8 @@ struct Demand {
 };
 
 /// `clampings`: how the block is turned in each of them, one at least; the grid turns onto itself. Throws Cancelled.
-Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampings, const RunContext& run);
+Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampings, Access access,
+                   const RunContext& run);
 
 /// What a stand makes of a demand, in voxels. Every removable voxel is in one of these.
 struct Share {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/material/cavities.hpp"
 #include "core/place/arm/sectors.hpp"
 
 namespace sculpt {
@@ -32,9 +33,19 @@ VoxelSet find_blocked(const VoxelSet& keep, Voxel axis) {
   return blocked;
 }
 
+ViewSets find_open(const VoxelGrid& voxels) {
+  const VoxelSet enclosed = find_enclosed(voxels);
+  const auto n = static_cast<std::size_t>(voxels.n());
+  ViewSets sets(n * n * n, 1);
+  for_each_voxel(enclosed, [&](Voxel v) { sets[enclosed.index(v)] = 0; });
+  return sets;
+}
+
 }  // namespace
 
-ViewSets find_views(const VoxelSet& keep, const RunContext& run) {
+ViewSets find_views(const VoxelGrid& voxels, Access access, const RunContext& run) {
+  if (access == Access::any_way) return find_open(voxels);
+  const VoxelSet& keep = voxels.keep;
   const std::vector<ToolView> views = study_views(keep.n());
   std::vector<VoxelSet> blocked(views.size());
   run.helpers.for_each_index(views.size(), [&](std::size_t view) {

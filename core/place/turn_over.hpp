@@ -18,6 +18,7 @@ struct TurnOver {
 
 /// By half a turn about x, and by quarters about x and y, each with the arm as it is in `reach`; best first. The grid
 /// turns onto itself. What holds the block then, and how exactly it is put back, is not looked at. Throws Cancelled.
-std::vector<TurnOver> rate_turn_overs(const VoxelGrid& voxels, const ArmReach& reach, const RunContext& run);
+std::vector<TurnOver> rate_turn_overs(const VoxelGrid& voxels, Access access, const ArmReach& reach,
+                                      const RunContext& run);
 
 }  // namespace sculpt

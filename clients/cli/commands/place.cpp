@@ -165,8 +165,10 @@ int run_place(const PlaceOptions& options) {
   const VoxelGrid voxels = make_voxels(job, cell.grid(study_resolution), watch);
   std::vector<double> stickouts;
   for (const Stand& stand : stands) stickouts.push_back(stand.stickout_m);
+  const Access access = access_of(cell.chain());
   const ReachStudy study(cell, joint, stock_box(voxels), study_resolution, stickouts);
-  const std::vector<RatedStand> rated = rate_stands(study, find_demand(voxels, {no_turn}, run), stands, own, run);
+  const std::vector<RatedStand> rated =
+      rate_stands(study, find_demand(voxels, {no_turn}, access, run), stands, own, run);
   std::vector<CertifiedShare> certified;
   for (int at = 0; at < std::min<int>(options.certified, static_cast<int>(rated.size())); ++at) {
     watch.step(Stage::verify, static_cast<std::uint64_t>(at), static_cast<std::uint64_t>(options.certified));
@@ -174,7 +176,7 @@ int run_place(const PlaceOptions& options) {
   }
   const std::size_t best = best_of(rated, certified);
   std::vector<TurnOver> turn_overs;
-  if (options.turn_over) turn_overs = rate_turn_overs(voxels, rated[best].reach, run);
+  if (options.turn_over) turn_overs = rate_turn_overs(voxels, access, rated[best].reach, run);
   progress.clear();
 
   const PlaceReport report{cell, joint, own, rated, certified, best, turn_overs};

@@ -21,6 +21,13 @@ Robot without_limits(Robot robot) {
   return robot;
 }
 
+ArmReach blocked() {
+  ArmReach reach;
+  reach.is_blocked = true;
+  for (auto& view : reach.holds) view.fill(Hold::links);
+  return reach;
+}
+
 /// The directions of one stand; of four that are quarter turns of each other the first, if the stock can be turned.
 class StandSearch {
  public:
@@ -74,7 +81,7 @@ ReachStudy::ReachStudy(const Cell& cell, int joint, const Eigen::AlignedBox3d& b
   for (const double stickout_m : stickouts_m) {
     Stand stand = stand_of(cell, joint);
     stand.stickout_m = stickout_m;
-    contacts_.try_emplace(stickout_m, cell_at(cell, joint, stand), cell.grid(resolution));
+    contacts_.try_emplace(stickout_m, cell_at(cell, joint, stand), joint, cell.grid(resolution));
   }
 }
 
@@ -87,10 +94,11 @@ ArmReach ReachStudy::find(const Stand& stand) const {
   const StandContacts& contacts = contacts_.at(stand.stickout_m);
   const Body block =
       make_block({grid.origin_m + cell.stock_size_m * box_.min(), grid.origin_m + cell.stock_size_m * box_.max()});
-  const SeedPoses seed_poses = seeds_.poses(chain);
-  ArmReach reach = StandSearch({chain, free_chain, grid, contacts, block, seeds_, seed_poses}).run();
   std::vector<Frame> poses;
   chain.link_poses(cell.home(chain), poses);
+  if (contacts.is_blocked(poses, block)) return blocked();
+  const SeedPoses seed_poses = seeds_.poses(chain);
+  ArmReach reach = StandSearch({chain, free_chain, grid, contacts, block, seeds_, seed_poses}).run();
   reach.home_is_free = contacts.at(poses, block) == StandContact::none;
   return reach;
 }

@@ -27,6 +27,7 @@ namespace sculpt {
 struct ArmReach {
   /// By direction (study_views) and sector of the grid (sector_index).
   std::array<std::array<Hold, all_sectors>, all_views> holds{};
+  bool is_blocked = false;   ///< table or base stands in something: nothing can be held
   bool home_is_free = true;  ///< the cell's own home, at this stand
   std::optional<Configuration>
       above;  ///< a free configuration with the ball over the middle of the block, tool upright

@@ -1,6 +1,7 @@
 #include "core/place/arm/stand_contacts.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
@@ -8,6 +9,8 @@
 
 namespace sculpt {
 namespace {
+
+constexpr double touching_m = 1e-4;  // nearer to each other, things that stand still count as touching
 
 /// Of a body, what covers shapes of its link that are kept apart from some of another's.
 std::vector<std::size_t> first_shapes(const CheckedLinks& checked, bool of_first) {
@@ -25,17 +28,10 @@ Body make_block(const Eigen::AlignedBox3d& box_m) {
   shape.kind = ShapeKind::box;
   shape.pose.translation() = box_m.center();
   shape.sides_m = box_m.sizes();
-  // The capsule that holds a box: along its longest side.
-  Eigen::Index longest = 0;
-  shape.sides_m.maxCoeff(&longest);
-  const Vec3 along = 0.5 * shape.sides_m[longest] * Vec3::Unit(longest);
-  Vec3 across = 0.5 * shape.sides_m;
-  across[longest] = 0;
-  const Capsule hull{{box_m.center() - along, box_m.center() + along}, across.norm()};
-  return {-1, false, {{shape, hull, 0}}, hull};
+  return {-1, false, {{std::make_shared<const ShapeTree>(make_tree(shape)), 0}}};
 }
 
-StandContacts::StandContacts(const Cell& cell, const Grid& grid)
+StandContacts::StandContacts(const Cell& cell, int joint, const Grid& grid)
     : bodies_(make_bodies(cell, make_tool(cell.tool, grid.voxel_m, grid.n))) {
   const std::vector<int> group = rigid_groups(cell.robot);
   const auto group_of = [&](const Body& body) { return group[static_cast<std::size_t>(body.link)]; };
@@ -78,6 +74,52 @@ StandContacts::StandContacts(const Cell& cell, const Grid& grid)
       pairs_.push_back({first, part(body_of(checked.links.second), partners, all_second), margin_m});
     }
   }
+  find_standing(cell, joint, grid, whole);
+}
+
+/// What touches where the cell stands is meant to.
+void StandContacts::find_standing(const Cell& cell, int joint, const Grid& grid, std::size_t whole) {
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const auto group_of = [&](int link) { return group[static_cast<std::size_t>(link)]; };
+  const auto is_below = [&](int link) {
+    while (link >= 0) {
+      const int above = cell.robot.links[static_cast<std::size_t>(link)].parent_joint;
+      if (above == joint) return true;
+      link = above < 0 ? -1 : cell.robot.joints[static_cast<std::size_t>(above)].parent_link;
+    }
+    return false;
+  };
+  std::vector<Frame> poses;
+  const Chain chain = cell.chain();
+  chain.link_poses(cell.home(chain), poses);
+  const auto pose = [&](std::size_t body) -> const Frame& {
+    return poses[static_cast<std::size_t>(bodies_[body].link)];
+  };
+  const Body block = make_block({grid.origin_m, grid.origin_m + Vec3::Constant(grid.n * grid.voxel_m)});
+  for (std::size_t a = 0; a < whole; ++a) {
+    const int link = bodies_[a].link;
+    if (bodies_[a].tool) continue;
+    if (group_of(link) == group_of(cell.stock_link) && is_below(link) != is_below(cell.stock_link) &&
+        !near_body(bodies_[a], pose(a), block, Frame::Identity(), touching_m))
+      beside_block_.push_back(a);
+    for (std::size_t b = a + 1; b < whole; ++b)
+      if (!bodies_[b].tool && group_of(link) == group_of(bodies_[b].link) &&
+          is_below(link) != is_below(bodies_[b].link) &&
+          !near_body(bodies_[a], pose(a), bodies_[b], pose(b), touching_m))
+        standing_.push_back({a, b, touching_m});
+  }
+}
+
+bool StandContacts::is_blocked(const std::vector<Frame>& poses, const Body& block) const {
+  const auto pose = [&](const Body& body) -> const Frame& { return poses[static_cast<std::size_t>(body.link)]; };
+  return std::ranges::any_of(standing_,
+                             [&](const Pair& pair) {
+                               const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
+                               return near_body(first, pose(first), second, pose(second), pair.margin_m);
+                             }) ||
+         std::ranges::any_of(beside_block_, [&](std::size_t body) {
+           return near_body(bodies_[body], pose(bodies_[body]), block, Frame::Identity(), touching_m);
+         });
 }
 
 StandContact StandContacts::at(const std::vector<Frame>& poses, const Body& block) const {

@@ -15,8 +15,12 @@ enum class StandContact { none, stock, links };
 /// between threads.
 class StandContacts {
  public:
-  /// `cell` with the tool of the study; only read during the call.
-  StandContacts(const Cell& cell, const Grid& grid);
+  /// `cell` as it stands, with the tool of the study, and the joint that is to be moved; only read during the call.
+  StandContacts(const Cell& cell, int joint, const Grid& grid);
+
+  /// Does something that was moved, or the block, stand in something that no joint of the chain moves against it, and
+  /// that it does not touch where the cell stands? The planner looks at none of these. Arguments as of `at`.
+  bool is_blocked(const std::vector<Frame>& poses, const Body& block) const;
 
   /// The first contact found. `poses`: of all links in the stock frame, as Chain::link_poses gives them. `block`: the
   /// stock as one body in that frame. Ball and shank may touch the block.
@@ -28,9 +32,13 @@ class StandContacts {
     double margin_m;
   };
 
+  void find_standing(const Cell& cell, int joint, const Grid& grid, std::size_t whole);
+
   std::vector<Body> bodies_;
   std::vector<std::size_t> beside_stock_;  ///< bodies that move against the stock
   std::vector<Pair> pairs_;
+  std::vector<Pair> standing_;             ///< of what was moved and what was not, rigidly joined
+  std::vector<std::size_t> beside_block_;  ///< that stand still with the stock on the other side of the moved joint
 };
 
 /// A box of the stock's frame as a body.

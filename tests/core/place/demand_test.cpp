@@ -38,7 +38,7 @@ VoxelGrid table() {
 
 TEST(Demand, AnArmThatHoldsEverythingReachesAllThatTheToolDoes) {
   const VoxelGrid voxels = table();
-  const Demand demand = find_demand(voxels, {no_turn}, run);
+  const Demand demand = find_demand(voxels, {no_turn}, Access::along_views, run);
   EXPECT_EQ(demand.removable, voxels.stock.size() - voxels.keep.size());
   const ArmReach reach = reach_of(Hold::held);
   const Share share = find_share(demand, {&reach});
@@ -48,7 +48,7 @@ TEST(Demand, AnArmThatHoldsEverythingReachesAllThatTheToolDoes) {
 
 TEST(Demand, EveryVoxelHasOneReason) {
   Random random(7);
-  const Demand demand = find_demand(table(), {no_turn}, run);
+  const Demand demand = find_demand(table(), {no_turn}, Access::along_views, run);
   for (int round = 0; round < 50; ++round) {
     ArmReach reach;
     for (auto& view : reach.holds)
@@ -63,7 +63,7 @@ TEST(Demand, WhatOnlyOneDirectionAsksForIsLostWithIt) {
   // A pit that goes down from the top, as narrow as a voxel.
   VoxelGrid voxels{VoxelSet(n, true), VoxelSet(n, true), {}};
   for (int k = 4; k < n; ++k) voxels.keep.erase({8, 8, k});
-  const Demand demand = find_demand(voxels, {no_turn}, run);
+  const Demand demand = find_demand(voxels, {no_turn}, Access::along_views, run);
   ArmReach reach = reach_of(Hold::held);
   reach.holds[0].fill(Hold::limits);
   const Share share = find_share(demand, {&reach});
@@ -77,9 +77,9 @@ TEST(Demand, ATurnedBlockAsksForTheSameFromTheOtherSide) {
   VoxelGrid voxels{VoxelSet(n, true), VoxelSet(n, true), {}};
   for (int k = 0; k < n - 4; ++k) voxels.keep.erase({3, 8, k});
   const ArmReach reach = reach_of(Hold::held);
-  const Share once = find_share(find_demand(voxels, {no_turn}, run), {&reach});
+  const Share once = find_share(find_demand(voxels, {no_turn}, Access::along_views, run), {&reach});
   EXPECT_GT(once.tool, 0u);
-  const std::vector<TurnOver> turns = rate_turn_overs(voxels, reach, run);
+  const std::vector<TurnOver> turns = rate_turn_overs(voxels, Access::along_views, reach, run);
   ASSERT_EQ(turns.size(), 5u);
   EXPECT_EQ(turns.front().share.held, once.removable);
   EXPECT_EQ(turns.front().name, "half a turn about x");
@@ -93,7 +93,7 @@ TEST(Demand, TheTurnsOfABlockAreThoseOfItsMesh) {
   const ArmReach reach = reach_of(Hold::held);
   VoxelGrid voxels{VoxelSet(n, true), VoxelSet(n), {}};
   voxels.keep.insert({0, 0, 0});
-  for (const TurnOver& turn : rate_turn_overs(voxels, reach, run)) {
+  for (const TurnOver& turn : rate_turn_overs(voxels, Access::along_views, reach, run)) {
     const Vec3 rad = turn.rotate_deg * (3.14159265358979323846 / 180);
     const Eigen::Matrix3d rotation =
         (Eigen::AngleAxisd(rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rad.y(), Vec3::UnitY()) *

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cell/ik.hpp"
+#include "core/collision/scene.hpp"
 #include "core/place/certify_stand.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 
@@ -91,7 +93,7 @@ TEST(StandStudy, AnyNumberOfThreadsGivesTheSame) {
   const Stand own = stand_of(cell, joint);
   const std::vector<Stand> stands = list_stands(ranges, own);
   const ReachStudy study = make_study(cell, joint);
-  const Demand demand = find_demand(ball(), {no_turn}, run);
+  const Demand demand = find_demand(ball(), {no_turn}, Access::along_views, run);
   const auto rated = [&](int threads) {
     const Helpers helpers(threads);
     return rate_stands(study, demand, stands, own, {0, helpers, nobody});
@@ -117,6 +119,68 @@ TEST(StandStudy, TheOwnStandIsAlwaysAmongThem) {
   EXPECT_TRUE(has_own(list_stands(ranges, own)));
 }
 
+TEST(StandStudy, ABlockThatStandsInTheFloorIsBlocked) {
+  const Cell cell = shipped_cell("gantry");
+  const int joint = find_moved_joint(cell, Moved::table);
+  Stand stand = stand_of(cell, joint);
+  EXPECT_FALSE(make_study(cell, joint).find(stand).is_blocked);
+  stand.at_m.z() -= 0.05;  // it stands on the floor plate already, so that is meant: a block in a plate is not new
+  EXPECT_FALSE(make_study(cell, joint).find(stand).is_blocked);
+
+  Cell with_wall = cell;
+  Shape wall;
+  wall.sides_m = Vec3(0.02, 1, 1);
+  wall.pose.translation() = Vec3(0.3, 0, 0.5);
+  Link& room = with_wall.robot.links[static_cast<std::size_t>(with_wall.robot.root)];
+  room.shapes = {wall};
+  stand = stand_of(with_wall, joint);
+  EXPECT_FALSE(make_study(with_wall, joint).find(stand).is_blocked);
+  stand.at_m.x() += 0.25;
+  const ArmReach reach = make_study(with_wall, joint).find(stand);
+  EXPECT_TRUE(reach.is_blocked);
+  for (const Hold hold : reach.holds[0]) EXPECT_EQ(hold, Hold::links);
+}
+
+/// Every posture that 60 draws find, in sectors here and there, against what the study says.
+TEST(StandStudy, DrawingPosturesAtRandomFindsLittleThatTheStudyMisses) {
+  Random random(3);
+  for (const auto& [name, by] :
+       {std::pair("panda-turntable", Vec3(0.2, 0.2, 0.1)), std::pair("panda-turntable", Vec3(-0.1, -0.3, 0)),
+        std::pair("gantry", Vec3(0.1, 0, 0))}) {
+    const Cell cell = shipped_cell(name);
+    const int joint = find_moved_joint(cell, Moved::table);
+    Stand stand = stand_of(cell, joint);
+    stand.at_m += by;
+    const ArmReach reach = make_study(cell, joint).find(stand);
+    const Cell moved = cell_at(cell, joint, stand);
+    const Grid grid = moved.grid(n);
+    const Scene scene(moved, grid, VoxelSet(n, true));
+    const std::vector<ToolView> sectors = study_views(sectors_along);
+    int asked = 0, missed = 0, dreamt = 0;
+    for (std::size_t view = 0; view < all_views; view += 3)
+      for (int sector = 0; sector < all_sectors; sector += 5) {
+        const Voxel at{sector % 4, sector / 4 % 4, sector / 16};
+        const Vec3 ball = grid.origin_m + cell.stock_size_m / sectors_along * Vec3(at.i + 0.5, at.j + 0.5, at.k + 0.5);
+        bool any = false;
+        for (int draw = 0; draw < 60 && !any; ++draw) {
+          const auto q =
+              solve_ik(scene.chain(), {ball, sectors[view].axis()}, random_configuration(scene.chain(), random));
+          if (!q) continue;
+          std::vector<Frame> poses;
+          scene.chain().link_poses(*q, poses);
+          const Contact contact = scene.contact_at(*q);
+          any = contact == Contact::none || contact == Contact::tool_material;
+        }
+        const bool held = reach.holds[view][sector_index(at)] == Hold::held;
+        ++asked;
+        missed += any && !held;
+        dreamt += held && !any;
+      }
+    EXPECT_LE(dreamt, 0) << name << by.transpose() << " of " << asked;
+    EXPECT_LE(missed, asked / 20) << name << by.transpose() << " of " << asked;
+  }
+}
+
 TEST(StandStudy, CancelIsHeard) {
   const Cell cell = shipped_cell("panda-turntable");
   const int joint = find_moved_joint(cell, Moved::table);
@@ -133,7 +197,7 @@ TEST(StandStudy, TheEstimateIsNearToWhatIsCertified) {
   const Cell cell = shipped_cell("panda-turntable");
   const int joint = find_moved_joint(cell, Moved::table);
   const VoxelGrid voxels = ball();
-  const Demand demand = find_demand(voxels, {no_turn}, run);
+  const Demand demand = find_demand(voxels, {no_turn}, Access::along_views, run);
   const ReachStudy study = make_study(cell, joint);
   for (const Vec3& by : {Vec3(0, 0, 0), Vec3(0.25, 0, 0), Vec3(0.3, 0.25, 0.1), Vec3(-0.25, 0, 0)}) {
     Stand stand = stand_of(cell, joint);
