@@ -99,7 +99,8 @@ ArmReach ReachStudy::find(const Stand& stand) const {
   if (contacts.is_blocked(poses, block)) return blocked();
   const SeedPoses seed_poses = seeds_.poses(chain);
   ArmReach reach = StandSearch({chain, free_chain, grid, contacts, block, seeds_, seed_poses}).run();
-  reach.home_is_free = contacts.at(poses, block) == StandContact::none;
+  std::size_t any = 0;
+  reach.home_is_free = contacts.at(poses, block, any) == StandContact::none;
   return reach;
 }
 

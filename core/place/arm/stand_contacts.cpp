@@ -122,15 +122,21 @@ bool StandContacts::is_blocked(const std::vector<Frame>& poses, const Body& bloc
          });
 }
 
-StandContact StandContacts::at(const std::vector<Frame>& poses, const Body& block) const {
+StandContact StandContacts::at(const std::vector<Frame>& poses, const Body& block, std::size_t& last) const {
   const auto pose = [&](const Body& body) -> const Frame& { return poses[static_cast<std::size_t>(body.link)]; };
-  static const Frame still = Frame::Identity();
-  for (const Pair& pair : pairs_) {
+  const auto touches = [&](const Pair& pair) {
     const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
-    if (near_body(first, pose(first), second, pose(second), pair.margin_m)) return StandContact::links;
-  }
+    return near_body(first, pose(first), second, pose(second), pair.margin_m);
+  };
+  if (last < pairs_.size() && touches(pairs_[last])) return StandContact::links;
+  for (std::size_t at = 0; at < pairs_.size(); ++at)
+    if (at != last && touches(pairs_[at])) {
+      last = at;
+      return StandContact::links;
+    }
   for (const std::size_t body : beside_stock_)
-    if (near_body(bodies_[body], pose(bodies_[body]), block, still, link_margin_m)) return StandContact::stock;
+    if (near_body(bodies_[body], pose(bodies_[body]), block, Frame::Identity(), link_margin_m))
+      return StandContact::stock;
   return StandContact::none;
 }
 

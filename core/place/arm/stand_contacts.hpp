@@ -23,8 +23,9 @@ class StandContacts {
   bool is_blocked(const std::vector<Frame>& poses, const Body& block) const;
 
   /// The first contact found. `poses`: of all links in the stock frame, as Chain::link_poses gives them. `block`: the
-  /// stock as one body in that frame. Ball and shank may touch the block.
-  StandContact at(const std::vector<Frame>& poses, const Body& block) const;
+  /// stock as one body in that frame. Ball and shank may touch the block. `last`: the number of the pair of links that
+  /// touched last, which is asked for first; it becomes that of the one that does.
+  StandContact at(const std::vector<Frame>& poses, const Body& block, std::size_t& last) const;
 
  private:
   struct Pair {

@@ -41,6 +41,10 @@ class ViewSearch {
         free_lanes_(arm.free_chain, view.axis()),
         to_the_middle_{(arm.chain.lower() + arm.chain.upper()) / 2, 0.1} {
     found_.holds.fill(Hold::reach);
+    for (int part = 1; part < 8; ++part) {
+      const Voxel up{part & 1, part >> 1 & 1, part >> 2};
+      if (up.i <= view_.lean.i && up.j <= view_.lean.j && up.k <= view_.lean.k) above_.push_back(up);
+    }
   }
 
   ViewReach run() {
@@ -149,10 +153,9 @@ class ViewSearch {
     }
   }
 
-  Hold hold_at(const Configuration& q) const {
-    std::vector<Frame> poses;
-    arm_.chain.link_poses(q, poses);
-    switch (arm_.contacts.at(poses, arm_.block)) {
+  Hold hold_at(const Configuration& q) {
+    arm_.chain.link_poses(q, poses_);
+    switch (arm_.contacts.at(poses_, arm_.block, last_contact_)) {
       case StandContact::links:
         return Hold::links;
       case StandContact::stock:
@@ -162,11 +165,9 @@ class ViewSearch {
     }
   }
 
-  /// What it holds by itself, then also all the way out; into what was found.
+  /// What it holds, by itself and all the way out; into what was found.
   void take(Branch& branch) {
-    for (std::size_t at = 0; at < all_places; ++at)
-      branch.holds[at] = branch.at[at] ? hold_at(*branch.at[at]) : Hold::reach;
-    close_upwards(branch);
+    find_holds(branch);
     const Voxel middle{along / 2, along / 2, along};
     if (straight_ && !found_.above && branch.holds[place_index(middle)] == Hold::held)
       found_.above = branch.at[place_index(middle)];
@@ -185,21 +186,36 @@ class ViewSearch {
       }
   }
 
-  void close_upwards(Branch& branch) const {
-    std::vector<Voxel> above;
-    for (int part = 1; part < 8; ++part) {
-      const Voxel up{part & 1, part >> 1 & 1, part >> 2};
-      if (up.i <= view_.lean.i && up.j <= view_.lean.j && up.k <= view_.lean.k) above.push_back(up);
-    }
+  /// From outside in, so that nothing is asked for behind what is not held.
+  void find_holds(Branch& branch) {
+    const std::array<bool, all_places> wanted = find_wanted();
     for (int k = layers - 1; k >= 0; --k)
       for (int j = along - 1; j >= 0; --j)
-        for (int i = along - 1; i >= 0; --i)
-          for (const Voxel up : above) {
-            const Voxel place{i, j, k}, next = place + up;
-            if (!is_place(place) || !is_place(next)) continue;
-            Hold& hold = branch.holds[place_index(place)];
-            hold = std::max(hold, branch.holds[place_index(next)]);
-          }
+        for (int i = along - 1; i >= 0; --i) {
+          const Voxel place{i, j, k};
+          if (!is_place(place)) continue;
+          Hold hold = branch.at[place_index(place)] ? Hold::held : Hold::reach;
+          for (const Voxel up : above_)
+            if (is_place(place + up)) hold = std::max(hold, branch.holds[place_index(place + up)]);
+          if (hold == Hold::held)
+            hold = wanted[place_index(place)] ? hold_at(*branch.at[place_index(place)]) : Hold::reach;
+          branch.holds[place_index(place)] = hold;
+        }
+  }
+
+  /// Places that no branch holds yet, and those on the way out from them.
+  std::array<bool, all_places> find_wanted() const {
+    std::array<bool, all_places> wanted{};
+    for (int k = 0; k < layers; ++k)
+      for (int j = 0; j < along; ++j)
+        for (int i = 0; i < along; ++i) {
+          const Voxel place{i, j, k};
+          bool& here = wanted[place_index(place)];
+          here = here || (k < along && found_.holds[place_index(place)] != Hold::held);
+          for (const Voxel up : above_)
+            if (here && is_place(place + up)) wanted[place_index(place + up)] = true;
+        }
+    return wanted;
   }
 
   /// Of sectors that no branch came to, those that one would if there were no joint limits.
@@ -236,7 +252,9 @@ class ViewSearch {
   PostureLanes lanes_, free_lanes_;
   NullSpaceGoal to_the_middle_;
   std::vector<Branch> branches_;
-  std::size_t most_held_ = 0;
+  std::vector<Voxel> above_;  ///< steps to the places through which the ball comes in
+  std::size_t most_held_ = 0, last_contact_ = 0;
+  std::vector<Frame> poses_;
   ViewReach found_;
 };
 
