@@ -13,8 +13,8 @@ namespace {
 constexpr int along = sectors_along;
 constexpr int layers = along + 1;  // the last one is above the grid
 constexpr std::size_t all_places = static_cast<std::size_t>(along) * along * layers;
-constexpr std::size_t tried_seeds = 6;
-constexpr int max_branches = 3;
+constexpr std::size_t tried_seeds = 12;
+constexpr int max_branches = 5;
 constexpr double same_branch = 0.3;     // rad or m: starts that are nearer to each other grow to the same
 constexpr double max_joint_step = 0.8;  // rad or m, from one place to the next: else it is another branch
 constexpr double close_m = 1e-6;
