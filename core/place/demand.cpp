@@ -7,20 +7,6 @@
 namespace sculpt {
 namespace {
 
-Voxel turned(Voxel v, const CubeTurn& turn, int n) {
-  // About the middle of the cube, in half voxels.
-  const Voxel off = v * 2 - Voxel{n - 1, n - 1, n - 1};
-  const Voxel to = turn.axes[0] * off.i + turn.axes[1] * off.j + turn.axes[2] * off.k + Voxel{n - 1, n - 1, n - 1};
-  return {to.i / 2, to.j / 2, to.k / 2};
-}
-
-VoxelSet turned(const VoxelSet& set, const CubeTurn& turn) {
-  if (turn == no_turn) return set;
-  VoxelSet to(set.n());
-  for_each_voxel(set, [&](Voxel v) { to.insert(turned(v, turn, set.n())); });
-  return to;
-}
-
 /// The best that any of the directions gives, and those that hold.
 std::pair<Hold, ViewSet> best_hold(const Asked& asked, const ArmReach& reach) {
   Hold best = Hold::reach;
@@ -61,7 +47,7 @@ Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampin
   const int n = voxels.n();
   std::vector<ViewSets> views;
   for (const CubeTurn& clamping : clampings)
-    views.push_back(find_views({turned(voxels.stock, clamping), turned(voxels.keep, clamping), {}}, access, run));
+    views.push_back(find_views({clamping.of(voxels.stock), clamping.of(voxels.keep), {}}, access, run));
   VoxelSet removable = voxels.stock;
   removable -= voxels.keep;
   std::map<std::vector<Asked>, std::uint64_t> counts;
@@ -69,7 +55,7 @@ Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampin
   for_each_voxel(removable, [&](Voxel v) {
     std::vector<Asked> asked;
     for (std::size_t at = 0; at < clampings.size(); ++at) {
-      const Voxel there = turned(v, clampings[at], n);
+      const Voxel there = clampings[at].of(v, n);
       asked.push_back(
           {static_cast<std::uint16_t>(sector_index(sector_of(there, n))), views[at][voxels.keep.index(there)]});
     }

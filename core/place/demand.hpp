@@ -6,18 +6,12 @@
 #include <vector>
 
 #include "core/base/run_context.hpp"
+#include "core/material/cube_turn.hpp"
 #include "core/material/voxel_grid.hpp"
 #include "core/place/arm/arm_reach.hpp"
 #include "core/place/tool_room_views.hpp"
 
 namespace sculpt {
-
-/// Turns of a cube onto itself.
-struct CubeTurn {
-  std::array<Voxel, 3> axes;  ///< where x, y and z come to lie
-  bool operator==(const CubeTurn&) const = default;
-};
-inline constexpr CubeTurn no_turn{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
 
 /// Voxels that one clamping asks for in the same way: those of a sector for which ball and shank alone, with all gone
 /// that is to be removed, have room along these directions and no other.

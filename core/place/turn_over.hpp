@@ -12,7 +12,6 @@ namespace sculpt {
 struct TurnOver {
   std::string name;  ///< as a person would say it
   Vec3 rotate_deg;   ///< about the fixed x, y, z axes, as the placement of a mesh is given
-  CubeTurn turn;     ///< the same
   Share share;       ///< that the two clampings reach together, at one stand
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,7 +15,8 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
-#include "clients/cli/place_table.hpp"
+#include "clients/cli/place/place_map.hpp"
+#include "clients/cli/place/place_table.hpp"
 #include "clients/cli/progress_line.hpp"
 #include "core/base/extension.hpp"
 #include "core/cell/shipped_cells.hpp"
@@ -27,6 +29,7 @@ namespace sculpt::cli {
 
 namespace {
 
+constexpr double farthest = 1e4;      // of what is given in m or degrees
 constexpr int study_resolution = 32;  // of the voxels that a study counts
 
 struct PlaceOptions {
@@ -36,7 +39,7 @@ struct PlaceOptions {
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   int rows = 10, certified = 3;
   bool turn_over = false, json = false;
-  std::string output;
+  std::string output, map;
 };
 
 /// FROM:TO:STEPS, or one value.
@@ -47,7 +50,7 @@ StandRange read_range(const std::string& option, const std::string& text, double
   while (at < end && values.size() < 4) {
     double value = 0;
     const auto read = std::from_chars(at, end, value);
-    if (read.ec != std::errc()) break;
+    if (read.ec != std::errc() || !(std::abs(value) <= farthest)) break;
     values.push_back(value);
     at = read.ptr;
     if (at < end && *at == ':' && at + 1 < end)
@@ -181,6 +184,11 @@ int run_place(const PlaceOptions& options) {
 
   const PlaceReport report{cell, joint, own, rated, certified, best, turn_overs};
   std::cout << (options.json ? place_json(report) + "\n" : place_table(report, options.rows));
+  if (!options.map.empty()) {
+    PartFile map(options.map);
+    map.stream() << place_map_svg(report);
+    map.finish();
+  }
   if (!options.output.empty()) {
     write_cell(source, joint, rated[best], options.output);
     if (!options.json) std::cout << "\n" << options.output << ": rank " << best + 1 << "\n";
@@ -225,6 +233,7 @@ void add_place(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command.add_flag("--turn-over", options->turn_over,
                    "Say what a second clamping with the mesh turned over would add at the best stand");
+  command.add_option("--map", options->map, "Draw maps of all stands over x and y")->type_name("FILE.svg");
   command.add_option("-o,--output", options->output, "Write the best as a cell file, with its URDF beside it")
       ->type_name("CELL.json");
   command.add_option("--threads", options->threads, "Worker threads; the answer is the same at any number")

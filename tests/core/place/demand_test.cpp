@@ -89,22 +89,5 @@ TEST(Demand, ATurnedBlockAsksForTheSameFromTheOtherSide) {
   }
 }
 
-TEST(Demand, TheTurnsOfABlockAreThoseOfItsMesh) {
-  const ArmReach reach = reach_of(Hold::held);
-  VoxelGrid voxels{VoxelSet(n, true), VoxelSet(n), {}};
-  voxels.keep.insert({0, 0, 0});
-  for (const TurnOver& turn : rate_turn_overs(voxels, Access::along_views, reach, run)) {
-    const Vec3 rad = turn.rotate_deg * (3.14159265358979323846 / 180);
-    const Eigen::Matrix3d rotation =
-        (Eigen::AngleAxisd(rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rad.y(), Vec3::UnitY()) *
-         Eigen::AngleAxisd(rad.x(), Vec3::UnitX()))
-            .toRotationMatrix();
-    for (int axis = 0; axis < 3; ++axis) {
-      const Voxel to = turn.turn.axes[static_cast<std::size_t>(axis)];
-      EXPECT_LT((rotation.col(axis) - Vec3(to.i, to.j, to.k)).norm(), 1e-9) << turn.name;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace sculpt

@@ -1,4 +1,4 @@
-#include "clients/cli/place_table.hpp"
+#include "clients/cli/place/place_table.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -18,10 +18,6 @@ std::string print(const char* format, Values... values) {
   char line[256];
   std::snprintf(line, sizeof line, format, values...);
   return line;
-}
-
-double percent(std::uint64_t voxels, std::uint64_t of) {
-  return 100.0 * static_cast<double>(voxels) / static_cast<double>(std::max<std::uint64_t>(1, of));
 }
 
 const std::string& link_name(const Cell& cell, int link) {

@@ -1,7 +1,6 @@
-// What `sculpt place` found: for people the best stands and a map, for programs all of it.
+// What `sculpt place` found.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/place/certify_stand.hpp"
@@ -21,10 +20,9 @@ struct PlaceReport {
   const std::vector<TurnOver>& turn_overs;       ///< there; empty if not asked for
 };
 
-/// The first `rows` and the cell's own stand, a line each, and a map of x and y.
-std::string place_table(const PlaceReport& report, int rows);
-
-/// One JSON document: every stand.
-std::string place_json(const PlaceReport& report);
+/// In %.
+inline double percent(std::uint64_t voxels, std::uint64_t of) {
+  return of == 0 ? 100 : 100.0 * static_cast<double>(voxels) / static_cast<double>(of);
+}
 
 }  // namespace sculpt::cli
