@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_stands = 20000;
 constexpr double blocks_around = 1.5, blocks_up = 1;  // edges of the block
 constexpr double per_unit = 1e6;  // values are whole multiples of a micrometre or microradian: they read well
-constexpr int places_along = 9, places_up = 5;
+constexpr int places_x = 11, places_y = 9, places_up = 5;
 
 /// Metres; a turn of 1 rad counts as 1 m.
 double way_between(const Stand& a, const Stand& b) {
@@ -45,8 +45,8 @@ StandRanges ranges_around(const Cell& cell, int joint) {
     const auto whole = [](double value) { return std::round(value * per_unit) / per_unit; };
     return StandRange{whole(middle - half), whole(middle + half), steps};
   };
-  return {range(own.at_m.x(), around_m, places_along),
-          range(own.at_m.y(), around_m, places_along),
+  return {range(own.at_m.x(), around_m, places_x),
+          range(own.at_m.y(), around_m, places_y),
           range(own.at_m.z(), up_m, places_up),
           {0, 0, 1},
           {own.height_m, own.height_m, 1},

@@ -22,7 +22,7 @@ struct StandRanges {
   StandRange x, y, z, turn, height, stickout;
 };
 
-/// Where the cell stands, and around it: 9 x 9 places as far off as one and a half edges of the block, at 5 heights of
+/// Where the cell stands, and around it: 11 x 9 places as far off as one and a half edges of the block, at 5 heights of
 /// the moved joint up to one edge higher and lower; turn, height of the block and tool as they are.
 StandRanges ranges_around(const Cell& cell, int joint);
 

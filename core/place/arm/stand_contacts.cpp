@@ -12,6 +12,16 @@ namespace {
 
 constexpr double touching_m = 1e-4;  // nearer to each other, things that stand still count as touching
 
+/// Does the link hang below the joint?
+bool is_below(const Robot& robot, int link, int joint) {
+  while (link >= 0) {
+    const int above = robot.links[static_cast<std::size_t>(link)].parent_joint;
+    if (above == joint) return true;
+    link = above < 0 ? -1 : robot.joints[static_cast<std::size_t>(above)].parent_link;
+  }
+  return false;
+}
+
 /// Of a body, what covers shapes of its link that are kept apart from some of another's.
 std::vector<std::size_t> first_shapes(const CheckedLinks& checked, bool of_first) {
   std::vector<std::size_t> shapes;
@@ -43,7 +53,7 @@ StandContacts::StandContacts(const Cell& cell, int joint, const Grid& grid)
     if (bodies_[at].tool)
       for (std::size_t other = 0; other < whole; ++other)
         if (!bodies_[other].tool && group_of(bodies_[other]) != tool_group)
-          pairs_.push_back({other, at, tool_margin_voxels * grid.voxel_m});
+          pairs_.push_back({other, at, tool_margin_voxels * grid.voxel_m, {}});
   }
   const auto body_of = [&](int link) {
     return static_cast<std::size_t>(std::find_if(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(whole),
@@ -63,7 +73,7 @@ StandContacts::StandContacts(const Cell& cell, int joint, const Grid& grid)
     const std::vector<std::size_t> firsts = first_shapes(checked, true), seconds = first_shapes(checked, false);
     if (checked.shapes.size() == firsts.size() * seconds.size()) {
       const std::size_t first = part(body_of(checked.links.first), firsts, all_first);
-      pairs_.push_back({first, part(body_of(checked.links.second), seconds, all_second), margin_m});
+      pairs_.push_back({first, part(body_of(checked.links.second), seconds, all_second), margin_m, {}});
       continue;
     }
     for (const std::size_t shape : firsts) {
@@ -71,24 +81,27 @@ StandContacts::StandContacts(const Cell& cell, int joint, const Grid& grid)
       for (const auto& [one, other] : checked.shapes)
         if (one == shape) partners.push_back(other);
       const std::size_t first = part(body_of(checked.links.first), {shape}, all_first);
-      pairs_.push_back({first, part(body_of(checked.links.second), partners, all_second), margin_m});
+      pairs_.push_back({first, part(body_of(checked.links.second), partners, all_second), margin_m, {}});
     }
   }
+  find_cells(cell, joint);
   find_standing(cell, joint, grid, whole);
+}
+
+void StandContacts::find_cells(const Cell& cell, int joint) {
+  const Chain chain = cell.chain();
+  for (Pair& pair : pairs_) {
+    const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
+    if (is_below(cell.robot, first.link, joint) != is_below(cell.robot, second.link, joint)) continue;
+    auto cells = std::make_unique<FreeCells>(chain, first, second, pair.margin_m);
+    if (cells->is_usable()) pair.cells = std::move(cells);
+  }
 }
 
 /// What touches where the cell stands is meant to.
 void StandContacts::find_standing(const Cell& cell, int joint, const Grid& grid, std::size_t whole) {
   const std::vector<int> group = rigid_groups(cell.robot);
   const auto group_of = [&](int link) { return group[static_cast<std::size_t>(link)]; };
-  const auto is_below = [&](int link) {
-    while (link >= 0) {
-      const int above = cell.robot.links[static_cast<std::size_t>(link)].parent_joint;
-      if (above == joint) return true;
-      link = above < 0 ? -1 : cell.robot.joints[static_cast<std::size_t>(above)].parent_link;
-    }
-    return false;
-  };
   std::vector<Frame> poses;
   const Chain chain = cell.chain();
   chain.link_poses(cell.home(chain), poses);
@@ -99,14 +112,15 @@ void StandContacts::find_standing(const Cell& cell, int joint, const Grid& grid,
   for (std::size_t a = 0; a < whole; ++a) {
     const int link = bodies_[a].link;
     if (bodies_[a].tool) continue;
-    if (group_of(link) == group_of(cell.stock_link) && is_below(link) != is_below(cell.stock_link) &&
+    if (group_of(link) == group_of(cell.stock_link) &&
+        is_below(cell.robot, link, joint) != is_below(cell.robot, cell.stock_link, joint) &&
         !near_body(bodies_[a], pose(a), block, Frame::Identity(), touching_m))
       beside_block_.push_back(a);
     for (std::size_t b = a + 1; b < whole; ++b)
       if (!bodies_[b].tool && group_of(link) == group_of(bodies_[b].link) &&
-          is_below(link) != is_below(bodies_[b].link) &&
+          is_below(cell.robot, link, joint) != is_below(cell.robot, bodies_[b].link, joint) &&
           !near_body(bodies_[a], pose(a), bodies_[b], pose(b), touching_m))
-        standing_.push_back({a, b, touching_m});
+        standing_.push_back({a, b, touching_m, {}});
   }
 }
 
@@ -122,9 +136,11 @@ bool StandContacts::is_blocked(const std::vector<Frame>& poses, const Body& bloc
          });
 }
 
-StandContact StandContacts::at(const std::vector<Frame>& poses, const Body& block, std::size_t& last) const {
+StandContact StandContacts::at(const Chain& chain, const Configuration& q, const std::vector<Frame>& poses,
+                               const Body& block, std::size_t& last) const {
   const auto pose = [&](const Body& body) -> const Frame& { return poses[static_cast<std::size_t>(body.link)]; };
   const auto touches = [&](const Pair& pair) {
+    if (pair.cells && pair.cells->is_free(chain, q)) return false;
     const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
     return near_body(first, pose(first), second, pose(second), pair.margin_m);
   };

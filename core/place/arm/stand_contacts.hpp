@@ -2,9 +2,11 @@
 // certificate.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/collision/shape/body.hpp"
+#include "core/place/arm/free_cells.hpp"
 
 namespace sculpt {
 
@@ -22,17 +24,20 @@ class StandContacts {
   /// that it does not touch where the cell stands? The planner looks at none of these. Arguments as of `at`.
   bool is_blocked(const std::vector<Frame>& poses, const Body& block) const;
 
-  /// The first contact found. `poses`: of all links in the stock frame, as Chain::link_poses gives them. `block`: the
-  /// stock as one body in that frame. Ball and shank may touch the block. `last`: the number of the pair of links that
-  /// touched last, which is asked for first; it becomes that of the one that does.
-  StandContact at(const std::vector<Frame>& poses, const Body& block, std::size_t& last) const;
+  /// The first contact found at q. `poses`: of all links in the stock frame, as Chain::link_poses gives them. `block`:
+  /// the stock as one body in that frame. Ball and shank may touch the block. `last`: the number of the pair of links
+  /// that touched last, which is asked for first; it becomes that of the one that does.
+  StandContact at(const Chain& chain, const Configuration& q, const std::vector<Frame>& poses, const Body& block,
+                  std::size_t& last) const;
 
  private:
   struct Pair {
     std::size_t first, second;
     double margin_m;
+    std::unique_ptr<FreeCells> cells = {};  ///< of links that the moved joint does not move against each other
   };
 
+  void find_cells(const Cell& cell, int joint);
   void find_standing(const Cell& cell, int joint, const Grid& grid, std::size_t whole);
 
   std::vector<Body> bodies_;

@@ -155,7 +155,7 @@ class ViewSearch {
 
   Hold hold_at(const Configuration& q) {
     arm_.chain.link_poses(q, poses_);
-    switch (arm_.contacts.at(poses_, arm_.block, last_contact_)) {
+    switch (arm_.contacts.at(arm_.chain, q, poses_, arm_.block, last_contact_)) {
       case StandContact::links:
         return Hold::links;
       case StandContact::stock:
