@@ -30,8 +30,8 @@ std::vector<std::size_t> PostureSeeds::nearest(const SeedPoses& poses, const Eig
   std::vector<std::pair<double, std::size_t>> costs;
   costs.reserve(poses.size());
   for (std::size_t at = 0; at < poses.size(); ++at) {
-    const double angle_rad = std::acos(std::clamp(poses[at].axis.dot(axis), -1.0, 1.0));
-    costs.emplace_back(std::sqrt(balls_m.squaredExteriorDistance(poses[at].ball_m)) + lever_m * angle_rad, at);
+    const double off_m = std::sqrt(balls_m.squaredExteriorDistance(poses[at].ball_m));
+    costs.emplace_back(off_m + lever_m * (poses[at].axis - axis).norm(), at);
   }
   const auto end = costs.begin() + static_cast<std::ptrdiff_t>(std::min(most, costs.size()));
   std::partial_sort(costs.begin(), end, costs.end());

@@ -22,7 +22,7 @@ class PostureSeeds {
   SeedPoses poses(const Chain& chain) const;
 
   /// The numbers of the `most` seeds whose tool is nearest to a ball somewhere in the box and along `axis`, best first.
-  /// An angle of 1 rad counts as much as `lever_m`.
+  /// Axes that are apart by as much as their length count as `lever_m`.
   static std::vector<std::size_t> nearest(const SeedPoses& poses, const Eigen::AlignedBox3d& balls_m, const Vec3& axis,
                                           double lever_m, std::size_t most);
 
