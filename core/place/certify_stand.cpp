@@ -32,10 +32,8 @@ CertifiedShare certify_stand(const Cell& cell, const VoxelGrid& voxels, const Ru
   share.home_contact = scene.describe_contact(home);
   Directions directions(scene, home, run);
   directions.find_straight_fields();
-  const Access access = access_of(scene.chain());
-  if (access == Access::along_views)
-    for (std::size_t direction = 0; direction < directions.size(); ++direction) directions.field(direction);
-  const ViewSets views = find_views(voxels, access, run);
+  for (std::size_t direction = 0; direction < directions.size(); ++direction) directions.field(direction);
+  const ViewSets views = find_views(voxels, Access::along_views, run);
   const std::vector<std::size_t> bits = find_bits(directions, voxels.n());
   VoxelSet removable = voxels.stock;
   removable -= voxels.keep;

@@ -22,9 +22,9 @@ struct CertifiedShare {
   }
 };
 
-/// What is not held may still be reached in other ways than a sweep goes: it is a lower bound of what sweeps can cut,
-/// but for the order of cuts and the ways between directions, which only planning finds. Throws Cancelled, and
-/// InputError `tool_too_large`.
+/// Not for translating robots, which are planned without fields. What is not held may still be reached in other ways
+/// than a sweep goes: it is a lower bound of what sweeps can cut, but for the order of cuts and the ways between
+/// directions, which only planning finds. Throws Cancelled, and InputError `tool_too_large`.
 CertifiedShare certify_stand(const Cell& cell, const VoxelGrid& voxels, const RunContext& run);
 
 }  // namespace sculpt

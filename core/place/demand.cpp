@@ -56,8 +56,8 @@ Demand find_demand(const VoxelGrid& voxels, const std::vector<CubeTurn>& clampin
     std::vector<Asked> asked;
     for (std::size_t at = 0; at < clampings.size(); ++at) {
       const Voxel there = clampings[at].of(v, n);
-      asked.push_back(
-          {static_cast<std::uint16_t>(sector_index(sector_of(there, n))), views[at][voxels.keep.index(there)]});
+      asked.push_back({static_cast<std::uint16_t>(sector_index(sector_of(Vec3(there.i, there.j, there.k), n))),
+                       views[at][voxels.keep.index(there)]});
     }
     ++counts[std::move(asked)];
     ++demand.removable;

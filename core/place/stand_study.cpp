@@ -45,12 +45,9 @@ StandRanges ranges_around(const Cell& cell, int joint) {
     const auto whole = [](double value) { return std::round(value * per_unit) / per_unit; };
     return StandRange{whole(middle - half), whole(middle + half), steps};
   };
-  return {range(own.at_m.x(), around_m, places_x),
-          range(own.at_m.y(), around_m, places_y),
-          range(own.at_m.z(), up_m, places_up),
-          {0, 0, 1},
-          {own.height_m, own.height_m, 1},
-          {own.stickout_m, own.stickout_m, 1}};
+  return {range(own.at_m.x(), around_m, places_x), range(own.at_m.y(), around_m, places_y),
+          range(own.at_m.z(), up_m, places_up),    {0, 0, 1},
+          {own.height_m, own.height_m, 1},         {own.stickout_m, own.stickout_m, 1}};
 }
 
 std::vector<Stand> list_stands(const StandRanges& ranges, const Stand& own) {

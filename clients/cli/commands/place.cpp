@@ -173,8 +173,9 @@ int run_place(const PlaceOptions& options) {
   const std::vector<RatedStand> rated =
       rate_stands(study, find_demand(voxels, {no_turn}, access, run), stands, own, run);
   std::vector<CertifiedShare> certified;
-  for (int at = 0; at < std::min<int>(options.certified, static_cast<int>(rated.size())); ++at) {
-    watch.step(Stage::verify, static_cast<std::uint64_t>(at), static_cast<std::uint64_t>(options.certified));
+  const int to_certify = access == Access::any_way ? 0 : options.certified;  // translating robots plan without fields
+  for (int at = 0; at < std::min<int>(to_certify, static_cast<int>(rated.size())); ++at) {
+    watch.step(Stage::verify, static_cast<std::uint64_t>(at), static_cast<std::uint64_t>(to_certify));
     certified.push_back(certify_stand(cell_to_write(cell, joint, rated[static_cast<std::size_t>(at)]), voxels, run));
   }
   const std::size_t best = best_of(rated, certified);

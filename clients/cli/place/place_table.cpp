@@ -109,6 +109,9 @@ std::string place_table(const PlaceReport& report, int rows) {
       "reach\n";
   for (std::size_t at = 0; at < report.rated.size(); ++at)
     if (at < static_cast<std::size_t>(rows) || report.rated[at].stand == report.own) text += row(report, at);
+  const auto own = std::ranges::find(report.rated, report.own, &RatedStand::stand);
+  if (own != report.rated.end() && own->share.held == report.rated.front().share.held)
+    text += "\nNo stand reaches more than the cell's own.\n";
   return text + map_text(report) + turn_over_text(report);
 }
 

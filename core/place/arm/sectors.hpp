@@ -1,6 +1,14 @@
-// The cubes that a study of stands cuts the grid into: one question to the arm for each of them and each direction.
+// The parts that a study of stands cuts the grid into: one question to the arm for each of them and each direction.
+//
+// Along an edge of 32 voxels the ball is tried at 4 places, from the first voxel to the last, and each voxel belongs to
+// the nearest one:
+//
+//      0    5          16         26    31     voxels
+//      x----|----x-----|-----x----|-----x      x: at 0, 10.3, 20.7 and 31
+
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/sweep/reach/tool_view.hpp"
@@ -17,10 +25,18 @@ inline std::size_t sector_index(Voxel sector) {
 inline bool is_sector(Voxel sector) {
   return Grid{sectors_along, 1, Vec3::Zero()}.contains(sector);
 }
-/// The sector that a voxel of an n^3 grid is in; n is a power of two, 4 or more.
-inline Voxel sector_of(Voxel voxel, int n) {
-  const int edge = n / sectors_along;
-  return {voxel.i / edge, voxel.j / edge, voxel.k / edge};
+/// Where the ball is tried along one edge, in voxels from the first of n: the share of the way that a sector stands
+/// for.
+inline double sector_middle(int sector, int n) {
+  return sector * (n - 1.0) / (sectors_along - 1);
+}
+/// The sector whose place is nearest to one given in voxels, n^3 of which are the grid.
+inline Voxel sector_of(const Vec3& place, int n) {
+  const auto nearest = [n](double at) {
+    const double share = at * (sectors_along - 1) / (n - 1);
+    return static_cast<int>(std::clamp(share, 0.0, sectors_along - 1.0) + 0.5);
+  };
+  return {nearest(place.x()), nearest(place.y()), nearest(place.z())};
 }
 
 /// The directions that a study asks for, of a grid of n: the straight ones, then the tilted ones, as sweeps number

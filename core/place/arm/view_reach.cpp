@@ -77,8 +77,7 @@ class ViewSearch {
   }
 
   Vec3 place_cell(Voxel place) const {
-    const double edge = static_cast<double>(view_.n) / along;
-    const auto middle = [edge](int at) { return (at + 0.5) * edge - 0.5; };
+    const auto middle = [this](int at) { return sector_middle(at, view_.n); };
     return {middle(place.i), middle(place.j), place.k < along ? middle(place.k) : view_.n + 1.0};
   }
   Vec3 ball_m(Voxel place) const { return view_.ball_m(arm_.grid, place_cell(place)); }
@@ -92,10 +91,8 @@ class ViewSearch {
   }
   double lever_m() const { return arm_.chain.stickout_m() + arm_.grid.n * arm_.grid.voxel_m; }
   Voxel nearest_place(const Vec3& ball) const {
-    const double edge_m = arm_.grid.n * arm_.grid.voxel_m / along;
-    const Vec3 at = (ball - arm_.grid.origin_m) / edge_m;
-    const auto whole = [](double x) { return static_cast<int>(std::clamp(x, 0.0, along - 0.5)); };
-    return sectors_.cell({whole(at.x()), whole(at.y()), whole(at.z())});
+    const Vec3 voxels = (ball - arm_.grid.origin_m) / arm_.grid.voxel_m - Vec3::Constant(0.5);
+    return sectors_.cell(sector_of(voxels, view_.n));
   }
   bool is_known(Voxel place, const Configuration& q) const {
     return std::ranges::any_of(branches_, [&](const Branch& branch) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/cell/ik.hpp"
 #include "core/collision/scene.hpp"
 #include "core/place/certify_stand.hpp"
@@ -141,43 +143,59 @@ TEST(StandStudy, ABlockThatStandsInTheFloorIsBlocked) {
   for (const Hold hold : reach.holds[0]) EXPECT_EQ(hold, Hold::links);
 }
 
-/// Every posture that 60 draws find, in sectors here and there, against what the study says.
+/// By sector of the view: do 60 draws find a posture there, free of contacts, and everywhere from there out?
+std::array<bool, all_sectors> draw_holds(const Scene& scene, const ToolView& view, Random& random) {
+  std::array<bool, all_sectors> holds{};
+  for (int k = sectors_along - 1; k >= 0; --k)
+    for (int j = sectors_along - 1; j >= 0; --j)
+      for (int i = sectors_along - 1; i >= 0; --i) {
+        const Vec3 cell(sector_middle(i, n), sector_middle(j, n), sector_middle(k, n));
+        bool& held = holds[sector_index({i, j, k})];
+        for (int draw = 0; draw < 60 && !held; ++draw) {
+          const auto q = solve_ik(scene.chain(), {view.ball_m(scene.grid(), cell), view.axis()},
+                                  random_configuration(scene.chain(), random));
+          if (!q) continue;
+          // Links and holder against everything; ball and shank may be in the material.
+          const Configuration half = Configuration::Constant(q->size(), 1e-6);
+          Scene::Pairs pairs = scene.pairs();
+          held = !scene.bubble(*q, {*q - half, *q + half}, {}, scene.full_stock(), pairs).empty();
+        }
+        for (int part = 1; part < 8; ++part) {
+          const Voxel up{part & 1, part >> 1 & 1, part >> 2}, next = Voxel{i, j, k} + up;
+          const bool is_out = up.i > view.lean.i || up.j > view.lean.j || up.k > view.lean.k || !is_sector(next);
+          held = held && (is_out || holds[sector_index(next)]);
+        }
+      }
+  return holds;
+}
+
+/// The study looks from a few seeds, along one branch after the other; drawing looks everywhere and mixes branches.
 TEST(StandStudy, DrawingPosturesAtRandomFindsLittleThatTheStudyMisses) {
   Random random(3);
   for (const auto& [name, by] :
        {std::pair("panda-turntable", Vec3(0.2, 0.2, 0.1)), std::pair("panda-turntable", Vec3(-0.1, -0.3, 0)),
-        std::pair("gantry", Vec3(0.1, 0, 0))}) {
+        std::pair("panda-turntable-6mm", Vec3(0.1, 0, 0.05)), std::pair("gantry", Vec3(0.1, 0, 0))}) {
     const Cell cell = shipped_cell(name);
     const int joint = find_moved_joint(cell, Moved::table);
     Stand stand = stand_of(cell, joint);
     stand.at_m += by;
     const ArmReach reach = make_study(cell, joint).find(stand);
     const Cell moved = cell_at(cell, joint, stand);
-    const Grid grid = moved.grid(n);
-    const Scene scene(moved, grid, VoxelSet(n, true));
-    const std::vector<ToolView> sectors = study_views(sectors_along);
+    const Scene scene(moved, moved.grid(n), VoxelSet(n, true));
     int asked = 0, missed = 0, dreamt = 0;
-    for (std::size_t view = 0; view < all_views; view += 3)
-      for (int sector = 0; sector < all_sectors; sector += 5) {
-        const Voxel at{sector % 4, sector / 4 % 4, sector / 16};
-        const Vec3 ball = grid.origin_m + cell.stock_size_m / sectors_along * Vec3(at.i + 0.5, at.j + 0.5, at.k + 0.5);
-        bool any = false;
-        for (int draw = 0; draw < 60 && !any; ++draw) {
-          const auto q =
-              solve_ik(scene.chain(), {ball, sectors[view].axis()}, random_configuration(scene.chain(), random));
-          if (!q) continue;
-          std::vector<Frame> poses;
-          scene.chain().link_poses(*q, poses);
-          const Contact contact = scene.contact_at(*q);
-          any = contact == Contact::none || contact == Contact::tool_material;
-        }
-        const bool held = reach.holds[view][sector_index(at)] == Hold::held;
+    for (std::size_t view = 0; view < all_views; view += 4) {
+      const auto drawn = draw_holds(scene, study_views(n)[view], random);
+      const ToolView sectors = study_views(sectors_along)[view];
+      for (int at = 0; at < all_sectors; ++at) {
+        const Voxel sector{at % sectors_along, at / sectors_along % sectors_along, at / sectors_along / sectors_along};
+        const bool held = reach.holds[view][sector_index(sectors.voxel(sector))] == Hold::held;
         ++asked;
-        missed += any && !held;
-        dreamt += held && !any;
+        missed += drawn[sector_index(sector)] && !held;
+        dreamt += held && !drawn[sector_index(sector)];
       }
-    EXPECT_LE(dreamt, 0) << name << by.transpose() << " of " << asked;
-    EXPECT_LE(missed, asked / 20) << name << by.transpose() << " of " << asked;
+    }
+    EXPECT_LE(dreamt, asked / 50) << name << " " << by.transpose() << " of " << asked;
+    EXPECT_LE(missed, asked / 10) << name << " " << by.transpose() << " of " << asked;
   }
 }
 
