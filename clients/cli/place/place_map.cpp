@@ -73,7 +73,7 @@ class Maps {
     std::string text = print(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" "
         "font-size=\"11\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-        std::max(width * columns, 480.0), 40 + height * static_cast<double>(rows));
+        std::max(width * columns, 760.0), 40 + height * static_cast<double>(rows));
     text += "<text x=\"12\" y=\"24\" font-size=\"14\">" + escaped(report_.cell.name) +
             ": % of what is to be removed, at x " + "(across) and y (up) of joint '" +
             escaped(report_.cell.robot.joints[static_cast<std::size_t>(report_.joint)].name) + "' in m</text>\n";

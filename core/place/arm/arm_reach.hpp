@@ -1,5 +1,5 @@
 // A stand -> where the arm can hold the tool there, direction by direction, whatever is carved: an estimate, from one
-// ball position in the middle of each sector.
+// ball position of each sector.
 //
 // For each direction the sectors are 4 x 4 x 4 ball positions and, along an axis of the grid, 4 x 4 more above it:
 //

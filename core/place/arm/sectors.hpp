@@ -25,8 +25,7 @@ inline std::size_t sector_index(Voxel sector) {
 inline bool is_sector(Voxel sector) {
   return Grid{sectors_along, 1, Vec3::Zero()}.contains(sector);
 }
-/// Where the ball is tried along one edge, in voxels from the first of n: the share of the way that a sector stands
-/// for.
+/// Where the ball is tried along one edge of n voxels: 0 is the middle of the first, n - 1 that of the last.
 inline double sector_middle(int sector, int n) {
   return sector * (n - 1.0) / (sectors_along - 1);
 }
