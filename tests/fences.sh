@@ -28,7 +28,7 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
-core_folders=(base mesh material solid cell trajectory collision search motion sweep doctor verify plan)
+core_folders=(base mesh material solid cell trajectory collision search motion sweep doctor place verify plan)
 for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${core_folders[*]:i+1}")
   forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
@@ -40,7 +40,7 @@ forbid "planners know keyframes, not how a file of them is read or written" \
   "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
 forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_field')" "$(door 'cell/cell_file\.cpp')" -- core server clients
-forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|doctor|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
+forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|doctor|place|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
 server_folders=(base files store confine run queue results access net events api http ops)
@@ -61,7 +61,7 @@ forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/fi
 forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/cell_(file\.cpp|field\.hpp)|doctor/(make/cell_text|findings_json)\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+  "$(door '(cell/cell_(file\.cpp|field\.hpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
 forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.

@@ -9,13 +9,14 @@ import re
 import signal
 import subprocess
 import unittest
+import xml.etree.ElementTree
 
 import shapes
 from harness import SCULPT, SOURCE, ClientTest, environment, shared_data
 
 import sculpt
 
-COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan cell".split()
+COMMANDS = "submit list status watch wait cancel report fetch verify voxelize plan cell place".split()
 
 
 class CommandLine(ClientTest):
@@ -48,6 +49,85 @@ class CommandLine(ClientTest):
         for arguments in (["--server", "127.0.0.1:1", "list"], ["list", "--server", "127.0.0.1:1"], ["status", "x", "--server", "127.0.0.1:1"]):
             self.assertIn("127.0.0.1:1", self.refused(3, "unreachable", *arguments))
         self.assertIn("127.0.0.1:1", self.refused(3, "unreachable", "list", server="127.0.0.1:1"))
+
+
+class Place(ClientTest):
+    """Where table or base should stand."""
+
+    HERE = ("--x", "0.45:0.65:3", "--y", "0", "--z", "0.1")
+    THERE = ("--x", "0.45", "--y", "0", "--z", "0.1", "--stickout", "0.25", "--height", "0.01")
+
+    def place(self, *options, where=HERE):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        return self.fine("place", mesh, "--robot", "panda-turntable", *where, *options)
+
+    def test_all_stands_as_json_best_first(self):
+        report = json.loads(self.place("--json", "--turn-over"))
+        self.assertEqual(report["moved"], {"joint": "table", "parent": "room", "child": "turntable"})
+        self.assertEqual(len(report["stands"]), 3)
+        self.assertEqual([stand["is_own"] for stand in report["stands"]].count(True), 1)
+        held = [stand["estimate"]["held"] for stand in report["stands"]]
+        self.assertEqual(held, sorted(held, reverse=True))
+        for stand in report["stands"]:
+            counts = stand["estimate"]
+            self.assertEqual(counts["removable"], sum(counts[name] for name in "held tool stock links limits reach".split()))
+            self.assertLessEqual(stand["certified"]["held"], counts["removable"])
+        self.assertEqual(len(report["turn_overs"]), 5)
+
+    def test_the_answer_is_the_same_at_any_number_of_threads(self):
+        self.assertEqual(self.place("--json", "--threads", 1), self.place("--json", "--threads", 4))
+
+    def test_the_table_has_the_cells_own_stand_and_a_map(self):
+        text = self.place("--rows", 1)
+        self.assertRegex(text, r"(?m)^ +\d+ +0\.550 +0\.000 +0\.100 .* now$")
+        self.assertIn("y \\ x", text)
+
+    def test_the_best_is_written_as_a_cell_that_differs_in_its_stand_alone(self):
+        report = json.loads(self.place("--json", "--certify", 0, "-o", "better.json", where=self.THERE))
+        best = report["stands"][report["best"]]
+        cell = json.loads((self.scratch / "better.json").read_text())
+        shipped = json.loads((SOURCE / "config/cells/panda-turntable.json").read_text())
+        self.assertEqual(cell.pop("urdf"), "better.urdf")
+        shipped.pop("urdf")
+        self.assertEqual([*cell["stock"]["origin_m"][:2], cell["stock"]["origin_m"][2]], [-0.1, -0.1, best["height_m"]])
+        self.assertEqual(cell["tool"]["stickout_m"], best["stickout_m"])
+        shipped["stock"]["origin_m"][2], shipped["tool"]["stickout_m"] = best["height_m"], best["stickout_m"]
+        if best["home_is_free"]:
+            self.assertEqual(cell, shipped)
+        before = (SOURCE / "config/robots/panda-turntable.urdf").read_text().splitlines()
+        after = (self.scratch / "better.urdf").read_text().splitlines()
+        changed = [(old, new) for old, new in zip(before, after) if old != new]
+        self.assertEqual(len(before), len(after))
+        self.assertEqual(changed, [] if best["at_m"] == [0.55, 0, 0.1] else [changed[0]])
+        self.fine("plan", self.scratch / "mesh.stl", "--resolution", 8, "--robot", "./better.json", "-o", "plan.sct")
+
+    def test_the_map_is_a_picture(self):
+        self.place("--map", "map.svg")
+        picture = xml.etree.ElementTree.parse(self.scratch / "map.svg")
+        self.assertEqual(picture.getroot().tag, "{http://www.w3.org/2000/svg}svg")
+
+    def test_what_makes_no_sense_is_refused(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        for options in (["--x", "1:2"], ["--x", "a"], ["--x", "1:2:0"], ["--x", "1:2:3.5"], ["--x", "1:2:3:4"], ["--x", "nan"], ["--x", "inf"], ["--x", "1e9"], ["--z", "0:nan:3"], ["--move", "wall"]):
+            self.refused(2, "usage", "place", mesh, "--robot", "panda-turntable", *options)
+        self.refused(4, "cell_invalid", "place", mesh, "--robot", "panda-turntable", "--joint", "wall")
+        self.refused(4, "cell_invalid", "place", mesh, "--robot", "panda-turntable", "--x", "0:1:1000", "--y", "0:1:1000")
+        self.refused(2, "format_unknown", "place", mesh, "--robot", "panda-turntable", "-o", "cell.txt")
+
+
+class SecondClamping(ClientTest):
+    def test_what_only_a_second_clamping_reaches_is_cut_by_it(self):
+        mesh = SOURCE / "config/samples/dish.stl"  # upside down: hollow from below
+        common = ("--robot", "panda-turntable", "--resolution", 16, "--json")
+        first = json.loads(self.fine("plan", mesh, *common, "--rotate", "180,0,0", "--turn-over", "180,0,0", "-o", "first.sct"))
+        self.assertGreater(first["voxels"]["residue"], 0)
+        second = json.loads(self.fine("plan", "first.sct.target.binvox", "--stock", "first.sct.stock.binvox", *common, "-o", "second.sct"))
+        self.assertEqual(second["voxels"]["remove"], first["voxels"]["residue"])
+        self.assertEqual(second["voxels"]["residue"], 0)
+
+    def test_only_quarters_turn_a_grid_onto_itself(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        self.refused(2, "usage", "plan", mesh, "--robot", "gantry", "--resolution", 8, "-o", "x.sct", "--turn-over", "45,0,0")
 
 
 class Voxelize(ClientTest):

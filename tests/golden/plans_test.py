@@ -31,7 +31,7 @@ def jobs():
                               ("shared/david.stl", (16, 32, 64, 128)), ("shared/stanford-bunny.obj", (16, 32, 64, 128))):
         for resolution in resolutions:
             for search, robot in (*arms.items(), *gantries.items()):
-                if robot in arms.values() and search == "octree" and resolution > 64:
+                if robot in arms.values() and search == "octree" and resolution > 32:
                     continue
                 for seed in (0, 7):
                     quick = search == "sweep" or robot == "gantry" and resolution <= 32 or resolution <= 16 and seed == 0

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -17,6 +18,8 @@
 #include "clients/cli/progress_line.hpp"
 #include "clients/cli/report_table.hpp"
 #include "core/base/extension.hpp"
+#include "core/material/binvox.hpp"
+#include "core/material/cube_turn.hpp"
 #include "core/trajectory/export.hpp"
 
 namespace sculpt::cli {
@@ -28,13 +31,38 @@ struct PlanOptions {
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool json = false;
   std::string output;
+  std::vector<double> turn_over_deg;  ///< empty or roll, pitch, yaw
 };
+
+/// Nothing if none was asked for.
+std::optional<CubeTurn> read_turn_over(const PlanOptions& options) {
+  if (options.turn_over_deg.empty()) return std::nullopt;
+  const std::vector<double>& deg = options.turn_over_deg;
+  const auto turn = cube_turn({deg[0], deg[1], deg[2]});
+  if (!turn)
+    throw Failure(exit_usage, "usage", "--turn-over turns by quarters: give multiples of 90, for example 180,0,0");
+  return turn;
+}
+
+/// What is left stands on the floor, turned, and the target is where it is in it.
+void write_turned_over(const JobResult& result, const CubeTurn& turn, const std::string& output) {
+  VoxelSet standing = result.voxels.keep;
+  for (const Residue& left : result.residue) standing.insert(left.voxel);
+  const VoxelSet stock = turn.of(standing), target = turn.of(result.voxels.keep);
+  const int down = lowest_layer(stock);
+  for (const auto& [name, voxels] : {std::pair(".target.binvox", &target), std::pair(".stock.binvox", &stock)}) {
+    PartFile file(output + name);
+    file.stream() << write_binvox(lowered(*voxels, down), result.grid);
+    file.finish();
+  }
+}
 
 int run_plan(const PlanOptions& options) {
   const std::string extension = extension_of(options.output);
   if (extension != "ndjson" && extension != "csv" && extension != "sct")
     throw Failure(exit_usage, "format_unknown",
                   "cannot tell the format of " + options.output + " from its name: end it in .ndjson, .csv or .sct");
+  const std::optional<CubeTurn> turn_over = read_turn_over(options);
   Job job = read_job(options.job);
   job.threads = options.threads;
 
@@ -62,6 +90,7 @@ int run_plan(const PlanOptions& options) {
     export_csv(in, output.stream());
   }
   output.finish();
+  if (turn_over) write_turned_over(result, *turn_over, options.output);
   progress.clear();
 
   const std::string report = report_json(result.report);
@@ -83,6 +112,13 @@ void add_plan(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command.add_flag("--json", options->json, "Print the report as one JSON document");
+  command
+      .add_option("--turn-over", options->turn_over_deg,
+                  "Write where a second clamping begins, turned by quarters about x, y, z: FILE.target.binvox and "
+                  "FILE.stock.binvox")
+      ->type_name("R,P,Y")
+      ->delimiter(',')
+      ->expected(3);
   command.add_option("-o,--output", options->output, "The trajectory: .ndjson, .csv or .sct by extension")
       ->type_name("FILE")
       ->required();

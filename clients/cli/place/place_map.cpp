@@ -1,0 +1,135 @@
+#include "clients/cli/place/place_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+namespace sculpt::cli {
+
+namespace {
+
+constexpr std::size_t most_maps = 24, maps_a_row = 3;
+constexpr double cell_width = 52, cell_height = 26, left = 56, top = 44, gap = 24;  // pixels
+constexpr double least_left = 0.01, most_left = 100;                                // % at the ends of the scale
+
+/// All of a stand but x and y.
+using Rest = std::tuple<double, double, double, double>;
+Rest rest_of(const Stand& stand) {
+  return {stand.at_m.z(), stand.height_m, stand.stickout_m, stand.turn_rad};
+}
+
+template <typename... Values>
+std::string print(const char* format, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// From dark red over yellow to green: all is left to (next to) nothing is.
+std::string colour(double left_percent) {
+  constexpr std::array<std::array<double, 3>, 4> stops{{{165, 0, 38}, {244, 109, 67}, {254, 224, 139}, {26, 152, 80}}};
+  const double share =
+      std::log(std::clamp(left_percent, least_left, most_left) / most_left) / std::log(least_left / most_left);
+  const double at = share * (stops.size() - 1);
+  const auto first = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+  const double part = at - static_cast<double>(first);
+  const auto mixed = [&](std::size_t channel) {
+    return static_cast<int>(std::lround(stops[first][channel] * (1 - part) + stops[first + 1][channel] * part));
+  };
+  return print("#%02x%02x%02x", mixed(0), mixed(1), mixed(2));
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
+}
+
+class Maps {
+ public:
+  explicit Maps(const PlaceReport& report) : report_(report) {
+    std::vector<Rest> best;  // of the maps, in order of their best stand
+    for (const RatedStand& one : report.rated) {
+      xs_.insert(one.stand.at_m.x());
+      ys_.insert(one.stand.at_m.y());
+      if (std::ranges::find(best, rest_of(one.stand)) == best.end()) best.push_back(rest_of(one.stand));
+    }
+    best.resize(std::min(best.size(), most_maps));
+    for (const Rest& rest : best) maps_[rest];
+    for (const RatedStand& one : report.rated)
+      if (const auto at = maps_.find(rest_of(one.stand)); at != maps_.end()) at->second.push_back(&one);
+  }
+
+  std::string draw() const {
+    const double width = left + cell_width * static_cast<double>(xs_.size()) + gap;
+    const double height = top + cell_height * static_cast<double>(ys_.size()) + gap;
+    const std::size_t rows = (maps_.size() + maps_a_row - 1) / maps_a_row;
+    const double columns = static_cast<double>(std::min(maps_.size(), maps_a_row));
+    std::string text = print(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" "
+        "font-size=\"11\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+        std::max(width * columns, 760.0), 40 + height * static_cast<double>(rows));
+    text += "<text x=\"12\" y=\"24\" font-size=\"14\">" + escaped(report_.cell.name) +
+            ": % of what is to be removed, at x " + "(across) and y (up) of joint '" +
+            escaped(report_.cell.robot.joints[static_cast<std::size_t>(report_.joint)].name) + "' in m</text>\n";
+    std::size_t number = 0;
+    for (const auto& [rest, stands] : maps_) {
+      text += print("<g transform=\"translate(%.0f %.0f)\">\n", width * static_cast<double>(number % maps_a_row),
+                    40 + height * static_cast<double>(number / maps_a_row));
+      text += draw_one(rest, stands) + "</g>\n";
+      ++number;
+    }
+    return text + "</svg>\n";
+  }
+
+ private:
+  std::string draw_one(const Rest& rest, const std::vector<const RatedStand*>& stands) const {
+    const auto [z, height, tool, turn] = rest;
+    std::string text =
+        print("<text x=\"%.0f\" y=\"16\" font-weight=\"bold\">z %.3f, block %.3f, tool %.3f, turn %.1f</text>\n", left,
+              z, height, tool, turn * 180 / std::numbers::pi);
+    for (const double x : xs_)
+      text += print("<text x=\"%.0f\" y=\"36\" text-anchor=\"middle\">%.3f</text>\n", column(x) + cell_width / 2, x);
+    for (const double y : ys_)
+      text += print("<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%.3f</text>\n", left - 6, row(y) + 17, y);
+    std::string frame;
+    for (const RatedStand* one : stands) {
+      const double x = column(one->stand.at_m.x()), y = row(one->stand.at_m.y());
+      const double reached = percent(one->share.held, one->share.removable);
+      text += print(
+          "<rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" fill=\"%s\"/>"
+          "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%.2f</text>\n",
+          x, y, cell_width, cell_height, colour(100 - reached).c_str(), x + cell_width / 2, y + 17, reached);
+      if (one->stand == report_.own)
+        frame = print(
+            "<rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" fill=\"none\" stroke=\"black\" "
+            "stroke-width=\"2\"/>\n",
+            x, y, cell_width, cell_height);
+    }
+    return text + frame;
+  }
+
+  double column(double x) const {
+    return left + cell_width * static_cast<double>(std::distance(xs_.begin(), xs_.find(x)));
+  }
+  double row(double y) const {
+    return top + cell_height * static_cast<double>(std::distance(ys_.find(y), ys_.end()) - 1);
+  }
+
+  const PlaceReport& report_;
+  std::set<double> xs_, ys_;
+  std::map<Rest, std::vector<const RatedStand*>> maps_;
+};
+
+}  // namespace
+
+std::string place_map_svg(const PlaceReport& report) {
+  return Maps(report).draw();
+}
+
+}  // namespace sculpt::cli
