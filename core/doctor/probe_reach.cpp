@@ -12,7 +12,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int random_starts = 8, starts_beyond_limits = 3;
+constexpr int random_starts = 8, starts_beyond_limits = 3, starts_of_joint_reach = 3;
 
 /// The centre of a voxel of the stock by shares of its edges.
 Vec3 place_m(const Grid& grid, const Vec3& share) {
@@ -131,6 +131,22 @@ double probe_reach(const Scene& scene, const Configuration& from, const Watch& w
       }
     }
   return static_cast<double>(free) / probes;
+}
+
+int count_joint_reach(const Cell& cell, const Configuration& start) {
+  const Chain chain = cell.chain();
+  Random random(1);
+  std::vector<Configuration> starts{start};
+  for (int guess = 0; guess < starts_of_joint_reach; ++guess) starts.push_back(random_configuration(chain, random));
+  int reached = 0;
+  for (const Direction& direction : directions_of(chain, start))
+    for (int place = 0; place < 9; ++place) {
+      const Vec3 share = place == 8 ? Vec3::Constant(0.5) : Vec3(place & 1, place >> 1 & 1, place >> 2 & 1);
+      const IkGoal goal{cell.stock_origin_m + cell.stock_size_m * share, direction.axis};
+      reached += std::any_of(starts.begin(), starts.end(),
+                             [&](const Configuration& from) { return solve_ik(chain, goal, from).has_value(); });
+    }
+  return reached;
 }
 
 Reach find_reach(const Scene& scene, const Configuration& home, int per_edge, const RunContext& run) {

@@ -11,6 +11,10 @@ namespace sculpt {
 /// nothing but the tool in the full stock. An estimate that costs milliseconds. Any thread. Throws Cancelled.
 double probe_reach(const Scene& scene, const Configuration& from, const Watch& watch);
 
+/// At how many of the corners and the middle of the stock's cube, over the straight directions, joints within limits
+/// can hold the tool, found from `start` and a few random configurations; no contact is looked at. Any thread.
+int count_joint_reach(const Cell& cell, const Configuration& start);
+
 /// The straight directions, or for a robot that only shifts the one that it has, each over a lattice of `per_edge`^3
 /// places; from `home` and random configurations. `field` stays 0. `scene` has the full stock standing. Deterministic
 /// for a seed. Throws Cancelled.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/cell/ik.hpp"
 #include "core/doctor/probe_reach.hpp"
 
 namespace sculpt {
@@ -53,20 +52,6 @@ Reach reach_of(const Cell& cell, const Configuration& start, const RunContext& r
   return find_reach(Scene(coarse, grid, VoxelSet(grid.n, true)), start, coarse_places, run);
 }
 
-/// Corners and middle of the cube that joints within limits come to, over the straight directions.
-int count_kinematic(const Cell& cell, const Configuration& start) {
-  const Chain chain = cell.chain();
-  int reached = 0;
-  for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)})
-    for (int place = 0; place < 9; ++place) {
-      const Vec3 share =
-          place == 8 ? Vec3::Constant(0.5) : Vec3((place & 1) / 1.0, (place >> 1 & 1) / 1.0, (place >> 2 & 1) / 1.0);
-      const Vec3 ball = cell.stock_origin_m + cell.stock_size_m * share;
-      reached += solve_ik(chain, {ball, axis}, start).has_value();
-    }
-  return reached;
-}
-
 struct Move {
   Vec3 by_m;
   int kinematic;
@@ -79,7 +64,7 @@ std::vector<Move> moves_of(const Cell& cell, const Configuration& start, const W
       for (const double side : {1.0, -1.0}) {
         watch.step(Stage::plan, 0, 0);
         const Vec3 by = side * step * cell.stock_size_m * Vec3::Unit(axis);
-        moves.push_back({by, count_kinematic(move_table(cell, by), start)});
+        moves.push_back({by, count_joint_reach(move_table(cell, by), start)});
       }
   std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.kinematic > b.kinematic; });
   return moves;

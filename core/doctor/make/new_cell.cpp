@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "core/base/error.hpp"
 #include "core/cell/link_poses.hpp"
@@ -23,6 +24,7 @@ constexpr double stock_of_arm = 1.0 / 7, stickout_of_stock = 1.1, spindle_radius
                  spindle_length_of_stock = 0.7, table_radius_of_stock = 0.5;
 constexpr double ball_voxels = 0.45, shank_voxels = 0.4;
 constexpr std::array far_of_arm{0.4, 0.5, 0.6, 0.7}, high_of_arm{0.05, 0.2, 0.35, 0.5};
+constexpr std::size_t looked_at_in_full = 6;
 constexpr int coarse_resolution = 16, coarse_places = 3, fine_resolution = 64;
 
 std::string in_m(double metres) {
@@ -223,15 +225,39 @@ double worth_of(const Cell& cell, const RunContext& run) {
   return worth;
 }
 
-Vec3 best_place(const CellMaker& maker, const RunContext& run) {
-  const std::vector<Vec3> places = maker.places();
-  if (places.size() == 1) return places.front();
-  std::vector<double> worth(places.size());
+/// With a tool that is thin enough for few voxels.
+Cell coarse_cell(const CellMaker& maker, const Vec3& table_m) {
+  Cell cell = maker.make(table_m).cell;
+  cell.tool = {ball_voxels, shank_voxels, true, cell.tool.stickout_m};
+  return cell;
+}
+
+/// Those of the places, in their order, where the joints alone reach most.
+std::vector<Vec3> promising_places(const CellMaker& maker, const std::vector<Vec3>& places, const RunContext& run) {
+  std::vector<int> reached(places.size());
   run.helpers.for_each_index(places.size(), [&](std::size_t at) {
-    Cell cell = maker.make(places[at]).cell;
-    cell.tool = {ball_voxels, shank_voxels, true, cell.tool.stickout_m};  // thin enough for few voxels
-    worth[at] = worth_of(cell, run);
+    run.watch.step(Stage::plan, 0, 0);
+    const Cell cell = coarse_cell(maker, places[at]);
+    reached[at] = count_joint_reach(cell, cell.home(cell.chain()));
   });
+  std::vector<int> sorted = reached;
+  std::nth_element(sorted.begin(), sorted.begin() + looked_at_in_full - 1, sorted.end(), std::greater<>());
+  const int least = sorted[looked_at_in_full - 1];
+  std::vector<Vec3> left;
+  for (std::size_t at = 0; at < places.size(); ++at)
+    if (reached[at] > least) left.push_back(places[at]);
+  for (std::size_t at = 0; at < places.size() && left.size() < looked_at_in_full; ++at)
+    if (reached[at] == least) left.push_back(places[at]);
+  return left;
+}
+
+Vec3 best_place(const CellMaker& maker, const RunContext& run) {
+  std::vector<Vec3> places = maker.places();
+  if (places.size() == 1) return places.front();
+  places = promising_places(maker, places, run);
+  std::vector<double> worth(places.size());
+  run.helpers.for_each_index(places.size(),
+                             [&](std::size_t at) { worth[at] = worth_of(coarse_cell(maker, places[at]), run); });
   return places[static_cast<std::size_t>(std::max_element(worth.begin(), worth.end()) - worth.begin())];
 }
 
