@@ -112,6 +112,11 @@ class Place(ClientTest):
             self.refused(2, "usage", "place", mesh, "--robot", "panda-turntable", *options)
         self.refused(4, "cell_invalid", "place", mesh, "--robot", "panda-turntable", "--joint", "wall")
         self.refused(4, "cell_invalid", "place", mesh, "--robot", "panda-turntable", "--x", "0:1:1000", "--y", "0:1:1000")
+        for name in ("cell.json", "other.json"):
+            (self.scratch / name).write_text((SOURCE / "config/cells/gantry.json").read_text().replace("../robots/gantry.urdf", "other.urdf"))
+        (self.scratch / "other.urdf").write_text((SOURCE / "config/robots/gantry.urdf").read_text())
+        for name in ("cell.json", "other.json"):  # the cell itself, or a name beside which its URDF would be written over
+            self.refused(2, "usage", "place", mesh, "--robot", "./cell.json", "-o", name)
         self.refused(2, "format_unknown", "place", mesh, "--robot", "panda-turntable", "-o", "cell.txt")
 
 

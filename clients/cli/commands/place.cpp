@@ -132,16 +132,32 @@ void write_cell(const CellSource& source, int joint, const RatedStand& rated, co
   cell.finish();
 }
 
+/// What was written, and what to do where its home cannot be used.
+void tell_written(const RatedStand& rated, const std::string& home_contact, std::size_t rank,
+                  const PlaceOptions& options) {
+  if (!options.json) std::cout << "\n" << options.output << ": rank " << rank + 1 << "\n";
+  if (!home_contact.empty() || (!rated.reach.home_is_free && !rated.reach.above))
+    std::cerr << "sculpt: warning: at the home of " << options.output << " "
+              << (home_contact.empty() ? "something touches" : home_contact)
+              << ": give it another home before you plan with it\n";
+  else if (!rated.reach.home_is_free)
+    std::cerr << "sculpt: note: the cell's home touches something there, so " << options.output
+              << " has another: over the block, the tool upright\n";
+}
+
 void check_output(const PlaceOptions& options, const CellSource& source) {
   if (options.output.empty()) return;
   if (extension_of(options.output) != "json")
     throw Failure(exit_usage, "format_unknown", "a cell file's name ends in .json, " + options.output + " does not");
-  std::error_code none;
   const auto urdf = std::filesystem::path(options.output).replace_extension(".urdf");
-  for (const std::filesystem::path& file : {std::filesystem::path(options.output), urdf})
-    if (std::filesystem::equivalent(file, source.path, none) ||
-        (std::filesystem::exists(file, none) && source.cell.urdf == read_input(file, "URDF")))
-      throw Failure(exit_usage, "usage", file.string() + " is the cell that is studied: name another file");
+  const auto refuse_if = [&](const std::filesystem::path& own) {
+    std::error_code none;
+    for (const std::filesystem::path& file : {std::filesystem::path(options.output), urdf})
+      if (std::filesystem::equivalent(file, own, none))
+        throw Failure(exit_usage, "usage", file.string() + " is a file of the cell that is studied: name another one");
+  };
+  refuse_if(source.path);
+  for (const auto& [name, bytes] : source.files.files) refuse_if(source.path.parent_path() / name);
 }
 
 int run_place(const PlaceOptions& options) {
@@ -192,7 +208,7 @@ int run_place(const PlaceOptions& options) {
   }
   if (!options.output.empty()) {
     write_cell(source, joint, rated[best], options.output);
-    if (!options.json) std::cout << "\n" << options.output << ": rank " << best + 1 << "\n";
+    tell_written(rated[best], best < certified.size() ? certified[best].home_contact : "", best, options);
   }
   return exit_fine;
 }

@@ -100,7 +100,8 @@ ArmReach ReachStudy::find(const Stand& stand) const {
   const SeedPoses seed_poses = seeds_.poses(chain);
   ArmReach reach = StandSearch({chain, free_chain, grid, contacts, block, seeds_, seed_poses}).run();
   std::size_t any = 0;
-  reach.home_is_free = contacts.at(chain, cell.home(chain), poses, block, any) == StandContact::none;
+  reach.home_is_free = !contacts.tool_touches(poses, block) &&
+                       contacts.at(chain, cell.home(chain), poses, block, any) == StandContact::none;
   return reach;
 }
 

@@ -156,4 +156,11 @@ StandContact StandContacts::at(const Chain& chain, const Configuration& q, const
   return StandContact::none;
 }
 
+bool StandContacts::tool_touches(const std::vector<Frame>& poses, const Body& block) const {
+  return std::ranges::any_of(bodies_, [&](const Body& body) {
+    return body.tool &&
+           near_body(body, poses[static_cast<std::size_t>(body.link)], block, Frame::Identity(), link_margin_m);
+  });
+}
+
 }  // namespace sculpt

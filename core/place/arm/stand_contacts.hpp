@@ -30,6 +30,9 @@ class StandContacts {
   StandContact at(const Chain& chain, const Configuration& q, const std::vector<Frame>& poses, const Body& block,
                   std::size_t& last) const;
 
+  /// Do ball or shank touch the block? Arguments as of `at`.
+  bool tool_touches(const std::vector<Frame>& poses, const Body& block) const;
+
  private:
   struct Pair {
     std::size_t first, second;

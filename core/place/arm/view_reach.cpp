@@ -166,13 +166,13 @@ class ViewSearch {
   void take(Branch& branch) {
     find_holds(branch);
     const Voxel middle{along / 2, along / 2, along};
-    if (straight_ && !found_.above && branch.holds[place_index(middle)] == Hold::held)
-      found_.above = branch.at[place_index(middle)];
     std::size_t held = 0;
     for (std::size_t at = 0; at < all_sectors; ++at) {
       found_.holds[at] = std::min(found_.holds[at], branch.holds[at]);
       held += branch.holds[at] == Hold::held;
     }
+    const bool is_free_above = straight_ && branch.holds[place_index(middle)] == Hold::held;
+    if (is_free_above && (held > most_held_ || !found_.above)) found_.above = branch.at[place_index(middle)];
     if (held <= most_held_) return;
     most_held_ = held;
     found_.low = found_.high = Configuration();

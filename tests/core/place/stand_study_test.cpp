@@ -199,6 +199,20 @@ TEST(StandStudy, DrawingPosturesAtRandomFindsLittleThatTheStudyMisses) {
   }
 }
 
+TEST(StandStudy, AHomeWithTheToolInTheBlockIsNotFree) {
+  const Cell cell = shipped_cell("panda-turntable");
+  const int joint = find_moved_joint(cell, Moved::table);
+  Stand stand = stand_of(cell, joint);
+  stand.at_m = {0.4, 0, 0.3};
+  const ArmReach reach = make_study(cell, joint).find(stand);
+  EXPECT_FALSE(reach.home_is_free);
+  ASSERT_TRUE(reach.above);
+  Cell moved = cell_at(cell, joint, stand);
+  const Scene scene(moved, moved.grid(n), VoxelSet(n, true));
+  EXPECT_NE(scene.contact_at(cell.home(scene.chain())), Contact::none);
+  EXPECT_EQ(scene.contact_at(*reach.above), Contact::none);
+}
+
 TEST(StandStudy, CancelIsHeard) {
   const Cell cell = shipped_cell("panda-turntable");
   const int joint = find_moved_joint(cell, Moved::table);
