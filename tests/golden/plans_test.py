@@ -1,7 +1,7 @@
 """Plans keep their bytes: `plan_sha256` of many jobs, as written down in plans.tsv.
 
 A change of a hash is a change of plans: someone must want it, look at the new plans, and write the table anew:
-    SCULPT_GOLDEN=write python3 tests/golden/plans_test.py          (all rows; half an hour)
+    SCULPT_GOLDEN=write python3 tests/golden/plans_test.py          (all rows; minutes)
     SCULPT_GOLDEN=all ...                                           (compares all rows, not only the short ones)
 sin and cos give other bits with and without FMA, so the runs are made without.
 """
@@ -24,7 +24,7 @@ COLUMNS = ["mesh", "resolution", "robot", "search", "seed", "short", "plan_sha25
 
 
 def jobs():
-    """Every job of the table without its hash; arms with `octree` only up to 64, where one takes minutes."""
+    """Every job of the table without its hash; arms with `octree` only up to 32, above it takes minutes."""
     arms = {"sweep": "panda-turntable", "octree": "panda-turntable"}
     gantries = {"octree": "gantry", "voxel": "gantry"}
     for mesh, resolutions in (("samples/bust.stl", (16, 32)), ("samples/vase.stl", (16, 32)), ("samples/dish.stl", (16, 32)),
