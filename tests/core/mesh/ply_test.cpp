@@ -111,7 +111,7 @@ TEST(Ply, AListLongerThanTheFileIsRefusedBeforeItIsMade) {
     const std::string header = std::string("ply\nformat ") + form + " 1.0\n" + corners +
                                "element face 1\nproperty list int int vertex_indices\nend_header\n";
     const bool is_text = form[0] == 'a';
-    Bytes bytes(form[7] == 'b');
+    Bytes bytes(std::string_view(form) == "binary_big_endian");
     for (int number = 0; number < 12; ++number) bytes.put(0.0f);
     bytes.put<std::int32_t>(2147483647);
     const std::string told = said(header + (is_text ? places + "2147483647 0 1 2\n" : bytes.text));
