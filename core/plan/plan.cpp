@@ -81,6 +81,63 @@ Verdict replay(const std::filesystem::path& trajectory, const Cell& cell, const 
                            log.hear_replay());
 }
 
+void name_job(Report& report, const Job& job) {
+  report.mesh = job.mesh.name;
+  report.robot = job.cell.name;
+  report.seed = job.seed;
+  report.resolution = job.resolution;
+  report.threads = job.threads;
+}
+
+void count_search(Report& report, const Checkpoint& now) {
+  report.sweep = now.sweep_figures;
+  report.quality.ompl_calls = now.arm.ompl_calls;
+  report.quality.ompl_solved = now.arm.ompl_solved;
+}
+
+/// What is read and made of a job before anything is planned; figures of it go to the report of `result`, the voxels
+/// to `result` itself.
+struct Inputs {
+  Cell cell;
+  Octree octree;
+};
+
+Inputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
+  Report& report = result.report;
+  const Stopwatch load;
+  watch.step(Stage::load, 0, 1);
+  CheckedJob checked = check_job(job, watch);
+  result.grid = checked.grid;
+  report.seconds.load = load.seconds();
+
+  const Stopwatch voxelizing;
+  result.voxels = std::move(checked.shapes).take_voxels(checked.grid, watch);
+  report.seconds.voxelize = voxelizing.seconds();
+
+  const Stopwatch building;
+  Octree octree = build_octree(result.voxels, watch);
+  watch.doubts = find_doubts(result.voxels, result.grid);
+  count_voxels(report, result.voxels, watch.doubts, octree);
+  watch.step(Stage::plan, 0, report.voxels.remove);
+  report.seconds.octree = building.seconds();
+  return {std::move(checked.cell), std::move(octree)};
+}
+
+void check_home(const Scene& scene, const Cell& cell, const Configuration& home) {
+  if (const std::string contact = scene.describe_contact(home); !contact.empty())
+    throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
+                                         ": choose a home clear of the full stock, the room and itself");
+}
+
+/// Why what is left was left; found out once a plan.
+const std::vector<Residue>& explain(const Scene& scene, const CarveTask& task, RunLog& log, const RunContext& run) {
+  if (!log.now().residue) {
+    const bool any_may_fall = scene.chain().translating() && !task.header.held;
+    log.end_plan(explain_residue(scene, task.voxels, any_may_fall ? task.voxels.stock : task.may_fall, run));
+  }
+  return *log.now().residue;
+}
+
 JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
                CheckpointFolder kept) {
   const Stopwatch total;
@@ -89,61 +146,33 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
   const RunContext run{job.seed, helpers, watch};
   JobResult result;
   Report& report = result.report;
-  report.mesh = job.mesh.name;
-  report.robot = job.cell.name;
-  report.seed = job.seed;
-  report.resolution = job.resolution;
-  report.threads = job.threads;
+  name_job(report, job);
+  const auto [cell, octree] = read_inputs(job, watch, result);
 
-  Stopwatch load;
-  watch.step(Stage::load, 0, 1);
-  CheckedJob checked = check_job(job, watch);
-  const Cell& cell = checked.cell;
-  result.grid = checked.grid;
-  report.seconds.load = load.seconds();
-
-  Stopwatch voxelizing;
-  result.voxels = std::move(checked.shapes).take_voxels(checked.grid, watch);
-  report.seconds.voxelize = voxelizing.seconds();
-
-  Stopwatch building;
-  const Octree octree = build_octree(result.voxels, watch);
-  watch.doubts = find_doubts(result.voxels, result.grid);
-  count_voxels(report, result.voxels, watch.doubts, octree);
-  watch.step(Stage::plan, 0, report.voxels.remove);
-  report.seconds.octree = building.seconds();
-
-  Stopwatch planning;
+  const Stopwatch planning;
   Scene scene(cell, result.grid, result.voxels.stock);
-  const Chain& chain = scene.chain();
-  const Search search = search_for(job, chain);
+  const Search search = search_for(job, scene.chain());
   report.search = name(search);
   list_unchecked_links(report, scene);
-  const TrajectoryHeader header = make_header(job, search, cell, chain, result.grid);
-  if (const std::string contact = scene.describe_contact(header.home); !contact.empty())
-    throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
-                                         ": choose a home clear of the full stock, the room and itself");
+  const TrajectoryHeader header = make_header(job, search, cell, scene.chain(), result.grid);
+  check_home(scene, cell, header.home);
   const VoxelSet may_fall = find_unheld(result.voxels);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});
   Carved carved{result.voxels.stock, header.home, {}};
-  Output output = open_output({trajectory, header, chain, report.voxels.remove, job.threads}, form, now, carved, watch);
+  Output output =
+      open_output({trajectory, header, scene.chain(), report.voxels.remove, job.threads}, form, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
-    if (!now.residue) carve(scene, {result.voxels, octree, may_fall, header, search}, carved, log, run);
-    report.sweep = now.sweep_figures;
-    report.quality.ompl_calls = now.arm.ompl_calls;
-    report.quality.ompl_solved = now.arm.ompl_solved;
+    const CarveTask task{result.voxels, octree, may_fall, header, search};
+    if (!now.residue) carve(scene, task, carved, log, run);
+    count_search(report, now);
     report.plan_sha256 = output.finish().sha256;
     count_path(report, output.figures(), result.grid.voxel_m, log.checks());
-    if (!now.residue) {
-      const bool any_may_fall = chain.translating() && !header.held;
-      log.end_plan(explain_residue(scene, result.voxels, any_may_fall ? result.voxels.stock : may_fall, run));
-    }
-    result.residue = *now.residue;
+    result.residue = explain(scene, task, log, run);
     count_residue(report, result.residue);
     report.seconds.plan = planning.seconds();
 
-    Stopwatch verifying;
+    const Stopwatch verifying;
     count_replay(report, replay(trajectory, cell, result, log, watch));
     report.seconds.verify = verifying.seconds();
   } catch (const Cancelled&) {
