@@ -3,21 +3,13 @@
 #include <algorithm>
 
 #include "core/cell/link_poses.hpp"
+#include "core/cell/link_tree.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/shape/motion_bound.hpp"
 #include "core/doctor/picture/facets.hpp"
 
 namespace sculpt {
 namespace {
-
-bool carries(const Robot& robot, int joint, int link) {
-  for (int at = link; at >= 0;) {
-    const int parent = robot.links[static_cast<std::size_t>(at)].parent_joint;
-    if (parent == joint) return true;
-    at = parent < 0 ? -1 : robot.joints[static_cast<std::size_t>(parent)].parent_link;
-  }
-  return false;
-}
 
 /// The joint that a mimic joint follows in the end; itself where it is none.
 int leader_of(const Robot& robot, int joint) {

@@ -1,8 +1,8 @@
 #include "core/doctor/examine.hpp"
 
 #include <algorithm>
-#include <chrono>
 
+#include "core/base/stopwatch.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/doctor/body_names.hpp"
 #include "core/doctor/describe_cell.hpp"
@@ -18,14 +18,6 @@ namespace {
 
 constexpr int sampled_per_edge = 32;
 constexpr double look_around_m = 0.02;  // what is nearer to something at home is told
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 double holder_length_m(const ToolSpec& tool) {
   double length = 0;

@@ -2,12 +2,12 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <fstream>
 #include <utility>
 
 #include "core/base/helpers.hpp"
 #include "core/base/run_context.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/explain_residue.hpp"
 #include "core/plan/carve.hpp"
@@ -24,14 +24,6 @@ namespace sculpt {
 namespace {
 
 constexpr double tolerance_voxels = 0.02;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::uint64_t peak_memory_bytes() {
   rusage usage{};

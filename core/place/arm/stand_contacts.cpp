@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/cell/link_tree.hpp"
 #include "core/collision/clearance.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/margins.hpp"
@@ -11,16 +12,6 @@ namespace sculpt {
 namespace {
 
 constexpr double touching_m = 1e-4;  // nearer to each other, things that stand still count as touching
-
-/// Does the link hang below the joint?
-bool is_below(const Robot& robot, int link, int joint) {
-  while (link >= 0) {
-    const int above = robot.links[static_cast<std::size_t>(link)].parent_joint;
-    if (above == joint) return true;
-    link = above < 0 ? -1 : robot.joints[static_cast<std::size_t>(above)].parent_link;
-  }
-  return false;
-}
 
 /// Of a body, what covers shapes of its link that are kept apart from some of another's.
 std::vector<std::size_t> first_shapes(const CheckedLinks& checked, bool of_first) {
@@ -92,7 +83,7 @@ void StandContacts::find_cells(const Cell& cell, int joint) {
   const Chain chain = cell.chain();
   for (Pair& pair : pairs_) {
     const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
-    if (is_below(cell.robot, first.link, joint) != is_below(cell.robot, second.link, joint)) continue;
+    if (carries(cell.robot, joint, first.link) != carries(cell.robot, joint, second.link)) continue;
     auto cells = std::make_unique<FreeCells>(chain, first, second, pair.margin_m);
     if (cells->is_usable()) pair.cells = std::move(cells);
   }
@@ -113,12 +104,12 @@ void StandContacts::find_standing(const Cell& cell, int joint, const Grid& grid,
     const int link = bodies_[a].link;
     if (bodies_[a].tool) continue;
     if (group_of(link) == group_of(cell.stock_link) &&
-        is_below(cell.robot, link, joint) != is_below(cell.robot, cell.stock_link, joint) &&
+        carries(cell.robot, joint, link) != carries(cell.robot, joint, cell.stock_link) &&
         !near_body(bodies_[a], pose(a), block, Frame::Identity(), touching_m))
       beside_block_.push_back(a);
     for (std::size_t b = a + 1; b < whole; ++b)
       if (!bodies_[b].tool && group_of(link) == group_of(bodies_[b].link) &&
-          is_below(cell.robot, link, joint) != is_below(cell.robot, bodies_[b].link, joint) &&
+          carries(cell.robot, joint, link) != carries(cell.robot, joint, bodies_[b].link) &&
           !near_body(bodies_[a], pose(a), bodies_[b], pose(b), touching_m))
         standing_.push_back({a, b, touching_m, {}});
   }
