@@ -2,6 +2,10 @@
 // SCULPT_TIGHT_FROM on.
 #include "tests/core/plan/tight_cells.hpp"
 
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
 #include "core/base/error.hpp"
 #include "tests/core/plan/jobs.hpp"
 
