@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "tests/core/base/cases.hpp"
 
 namespace sculpt {
 namespace {
@@ -29,8 +30,8 @@ bool meets_by_brute_force(const VoxelSet& voxels, const Segment& segment, double
 
 TEST(Material, CapsuleMeetsExactlyWhatBruteForceFinds) {
   int met = 0;
-  constexpr int cases = 4000;
-  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+  constexpr int tried = cases(4000);
+  for (std::uint64_t seed = 0; seed < tried; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const VoxelSet voxels = random_voxels(8, random.between(0, 0.06), random);
@@ -46,8 +47,8 @@ TEST(Material, CapsuleMeetsExactlyWhatBruteForceFinds) {
     EXPECT_EQ(material.meets_capsule(segment, radius, exempt), expected);
     met += expected;
   }
-  EXPECT_GT(met, cases / 10) << "the cases must hold hits and misses";
-  EXPECT_LT(met, cases * 9 / 10);
+  EXPECT_GT(met, tried / 10) << "the cases must hold hits and misses";
+  EXPECT_LT(met, tried * 9 / 10);
 }
 
 TEST(Material, ABallOf045FitsAOneVoxelSlotAndOneOf051DoesNot) {

@@ -5,6 +5,7 @@
 #include "core/base/random.hpp"
 #include "core/collision/shape/body.hpp"
 #include "core/collision/shape/motion_bound.hpp"
+#include "tests/core/base/cases.hpp"
 #include "tests/core/collision/small_arm.hpp"
 
 namespace sculpt {
@@ -51,7 +52,7 @@ TEST(Scene, AnEdgeWhoseMiddleTouchesIsNeverCertified) {
   const Cell cell = make_test_cell();
   const Scene scene(cell, cell.grid(16), VoxelSet(16, true));
   int tried = 0;
-  for (std::uint64_t seed = 0; seed < 4000 && tried < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(4000) && tried < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Configuration from = random_within(scene.chain(), random);
@@ -64,7 +65,7 @@ TEST(Scene, AnEdgeWhoseMiddleTouchesIsNeverCertified) {
     ++tried;
     EXPECT_NE(scene.certify(from, to), Contact::none) << "both ends are free, the way between is not";
   }
-  EXPECT_GE(tried, 50);
+  EXPECT_GE(tried, cases(50));
 }
 
 TEST(Scene, TheExemptVoxelExemptsOnlyItself) {

@@ -6,6 +6,7 @@
 
 #include "core/mesh/mesh_file.hpp"
 #include "core/solid/placement.hpp"
+#include "tests/core/base/cases.hpp"
 #include "tests/core/material/shapes.hpp"
 
 namespace sculpt {
@@ -215,13 +216,13 @@ int disagreements(const std::string& path, const Vec3& rotation_rad, int samples
 
 TEST(Voxelize, DavidIsInsideWhereHisSurfaceWindsRoundThePoint) {
   if (shapes::shared_data("meshes/david.stl").empty()) GTEST_SKIP() << "shared data folder without meshes/david.stl";
-  EXPECT_EQ(disagreements("meshes/david.stl", Vec3::Zero(), 300), 0);
+  EXPECT_EQ(disagreements("meshes/david.stl", Vec3::Zero(), cases(300)), 0);
 }
 
 TEST(Voxelize, TheBunnyWithHolesInItsBaseStillWorks) {
   if (shapes::shared_data("meshes/stanford-bunny.obj").empty())
     GTEST_SKIP() << "shared data folder without meshes/stanford-bunny.obj";
-  EXPECT_LE(disagreements("meshes/stanford-bunny.obj", Vec3(EIGEN_PI / 2, 0, 0), 300), 1);
+  EXPECT_LE(disagreements("meshes/stanford-bunny.obj", Vec3(EIGEN_PI / 2, 0, 0), cases(300)), 1);
 }
 
 struct Kept {

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "tests/core/base/cases.hpp"
 #include "tests/core/collision/shape/random_shapes.hpp"
 
 namespace sculpt {
@@ -13,7 +14,7 @@ constexpr double tiny = 1e-9;
 
 TEST(Convex, ThePlaneOfASeparationLiesBetweenAllPointsOfTheTwo) {
   int apart = 0;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(3000); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Convex first = random_convex(random), second = random_convex(random);
@@ -43,7 +44,7 @@ TEST(Convex, ShapesThatAreApartAreSeparatedByNearlyAllOfTheirDistance) {
     ++compared;
     ASSERT_GE(gap, 0.8 * distance - 1e-3);
   }
-  EXPECT_GT(compared, 1000);
+  EXPECT_GT(compared, cases(1000));
 }
 
 TEST(Convex, NoPointOfAShapeIsBeyondItsCornersOrItsExtent) {
