@@ -98,8 +98,8 @@ Json to_json(const SweepMemory& sweeping) {
             {"transits", sweeping.arm.transits},
             {"at", {at.x(), at.y(), at.z()}},
             {"way_home", to_json(sweeping.arm.way_home)}};
-  for (const auto& [standing, grain] : sweeping.openings)
-    json["openings"].push_back({{"n", standing.n()}, {"words", standing.words()}, {"grain", grain}});
+  for (const auto& [standing, wanted] : sweeping.openings)
+    json["openings"].push_back({{"n", standing.n()}, {"standing", standing.words()}, {"wanted", wanted.words()}});
   if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
   if (sweeping.direction) json["direction"] = *sweeping.direction;
   if (sweeping.pass) json["pass"] = to_json(*sweeping.pass);
@@ -112,8 +112,10 @@ SweepMemory sweeping_of(const Json& json) {
   sweeping.spared = json.at("spared").get<std::vector<char>>();
   sweeping.tilted_fields = json.at("tilted_fields").get<std::vector<std::size_t>>();
   for (const Json& opening : json.at("openings")) {
-    sweeping.openings.push_back({VoxelSet(opening.at("n").get<int>()), opening.at("grain").get<Directions::Grain>()});
-    sweeping.openings.back().standing.words() = opening.at("words").get<std::vector<std::uint64_t>>();
+    const VoxelSet none(opening.at("n").get<int>());
+    auto& [standing, wanted] = sweeping.openings.emplace_back(Opening{none, none});
+    standing.words() = opening.at("standing").get<std::vector<std::uint64_t>>();
+    wanted.words() = opening.at("wanted").get<std::vector<std::uint64_t>>();
   }
   sweeping.asked_with = json.at("asked_with").get<std::uint64_t>();
   sweeping.tilted = json.at("tilted").get<bool>();

@@ -14,7 +14,43 @@ namespace {
 
 constexpr std::size_t top = 0, first_side = 1, sides = 4;  // of tool_views
 constexpr int max_blocks = 32;                             // along an edge of the grid
-constexpr std::size_t worth[]{32, 512};                    // of all parts opening a field must add one in so many
+
+/// The parts of a field that blocks of voxels lie in.
+VoxelSet parts_of(const PostureField& field, const VoxelSet& blocks) {
+  const ToolView& view = field.view();
+  const int size = view.n / blocks.n();
+  VoxelSet parts(PostureLattice::fine);
+  for_each_voxel(blocks, [&](Voxel block) {
+    const Voxel first = block * size, last = first + Voxel{1, 1, 1} * (size - 1);
+    const Voxel a = field.part(ToolView::place(view.cell(first))), b = field.part(ToolView::place(view.cell(last)));
+    for (int k = std::min(a.k, b.k); k <= std::max(a.k, b.k); ++k)
+      for (int j = std::min(a.j, b.j); j <= std::max(a.j, b.j); ++j)
+        for (int i = std::min(a.i, b.i); i <= std::max(a.i, b.i); ++i) parts.insert({i, j, k});
+  });
+  return parts;
+}
+
+/// They, what is around and above them, and the top of the field, over which the ball comes.
+VoxelSet with_ways_in(const VoxelSet& parts) {
+  constexpr int around = 1, top_layers = 2;
+  const int n = parts.n();
+  VoxelSet all(n);
+  for_each_voxel(parts, [&](Voxel part) {
+    for (int j = std::max(0, part.j - around); j <= std::min(n - 1, part.j + around); ++j)
+      for (int i = std::max(0, part.i - around); i <= std::min(n - 1, part.i + around); ++i)
+        for (int k = part.k; k < n && !all.contains({i, j, k}); ++k) all.insert({i, j, k});
+  });
+  for (int k = n - top_layers; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) all.insert({i, j, k});
+  return all;
+}
+
+std::size_t count_usable(const PostureField& field, const VoxelSet& parts) {
+  std::size_t usable = 0;
+  for_each_voxel(parts, [&](Voxel part) { usable += field.usable_part(part); });
+  return usable;
+}
 
 }  // namespace
 
@@ -40,33 +76,34 @@ void Directions::find_straight_fields() {
   for (const ToolView& view : tilted_views(scene_.grid().n)) ways_.push_back({view});
 }
 
-bool Directions::open(const VoxelSet& standing_blocks, Grain grain) {
-  const Body standing = scene_.stock_of(standing_blocks);
+bool Directions::open(const Opening& opening) {
+  const Body standing = scene_.stock_of(opening.standing);
   std::vector<std::unique_ptr<PostureField>> opened(straight_);
+  std::vector<VoxelSet> wanted;
+  for (std::size_t way = 0; way < straight_; ++way) wanted.push_back(parts_of(*ways_[way].field, opening.wanted));
   run_.helpers.for_each_index(straight_, [&](std::size_t way) {
     const PostureField& field = *ways_[way].field;
-    if (!field.may_open(scene_, standing)) return;
-    opened[way] = std::make_unique<PostureField>(field, scene_, standing, run_.helpers, run_.watch);
-    if (grain == Grain::fine && 2 * opened[way]->usable_cells() > PostureField::all_cells())
-      opened[way]->refine(scene_, standing, run_.helpers, run_.watch);
+    if (count_usable(field, wanted[way]) < wanted[way].size())
+      opened[way] = std::make_unique<PostureField>(field, scene_, standing, with_ways_in(wanted[way]), run_.helpers,
+                                                   run_.watch);
   });
   const std::size_t before = ways_.size();
   for (std::size_t way = 0; way < straight_; ++way) {
     if (!opened[way]) continue;
-    std::size_t covered = ways_[way].field->usable_cells();
+    std::size_t covered = count_usable(*ways_[way].field, wanted[way]);
     for (std::size_t other = straight_; other < before; ++other)
-      if (ways_[other].opens == way) covered = std::max(covered, ways_[other].field->usable_cells());
-    if (opened[way]->usable_cells() < covered + PostureField::all_cells() / worth[grain == Grain::fine]) continue;
+      if (ways_[other].opens == way) covered = std::max(covered, count_usable(*ways_[other].field, wanted[way]));
+    if (count_usable(*opened[way], wanted[way]) <= covered) continue;
     ways_.push_back({ways_[way].view, std::move(opened[way]), {}, way});
     find_reach(ways_.back());
   }
   return ways_.size() > before;
 }
 
-VoxelSet Directions::blocks_of(const VoxelSet& standing) {
-  const int blocks = std::min(standing.n(), max_blocks), size = standing.n() / blocks;
+VoxelSet Directions::blocks_of(const VoxelSet& voxels) {
+  const int blocks = std::min(voxels.n(), max_blocks), size = voxels.n() / blocks;
   VoxelSet all(blocks);
-  for_each_voxel(standing, [&](Voxel v) { all.insert({v.i / size, v.j / size, v.k / size}); });
+  for_each_voxel(voxels, [&](Voxel v) { all.insert({v.i / size, v.j / size, v.k / size}); });
   return all;
 }
 

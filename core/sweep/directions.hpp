@@ -13,6 +13,11 @@
 
 namespace sculpt {
 
+/// Straight directions are looked at again for what stands, where something is wanted. Both as `blocks_of` has them.
+struct Opening {
+  VoxelSet standing, wanted;
+};
+
 /// By number: the straight ones (tool_views), some of them more than once, with fields that cover different parts;
 /// then the tilted ones, whose fields are found when they are first asked for; then straight ones again, with fields
 /// for what stood when they were opened. Not shared between threads.
@@ -24,12 +29,11 @@ class Directions {
   /// The fields of all straight directions, and with them their numbers. To be called first. Throws Cancelled.
   void find_straight_fields();
 
-  /// Looks again at straight directions where the full stock was in the way of links, now that only this stands (as
-  /// `blocks_of` has it). Says whether it found new ones. Throws Cancelled.
-  enum class Grain { coarse, fine };
-  bool open(const VoxelSet& standing_blocks, Grain grain);
-  /// What stands as a coarser grid, of blocks in which anything does.
-  static VoxelSet blocks_of(const VoxelSet& standing);
+  /// Looks again at straight directions where the full stock was in the way of links, now that only this stands. Says
+  /// whether it found new ones. Throws Cancelled.
+  bool open(const Opening& opening);
+  /// Voxels as a coarser grid, of blocks in which any are.
+  static VoxelSet blocks_of(const VoxelSet& voxels);
 
   /// The coordinate that turns the stock under the arm, if there is one.
   std::optional<int> stock_turn() const { return turn_ ? std::optional(turn_->coordinate) : std::nullopt; }

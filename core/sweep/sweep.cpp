@@ -49,16 +49,21 @@ class Sweep {
   const VoxelSet& standing() const { return carving_.support.standing(); }
 
   SweepFigures count() const {
-    SweepFigures figures{carving_.scene.material().solid().size() - standing().size(), 0, 0};
+    return {carving_.scene.material().solid().size() - standing().size(), find_wanted().size(),
+            find_uncovered().size()};
+  }
+
+  /// Of what is left to cut, what the field of no direction that was found covers.
+  VoxelSet find_uncovered() const {
+    VoxelSet uncovered(standing().n());
     for (const Voxel v : find_wanted()) {
-      ++figures.left;
       bool is_covered = false;
       for (std::size_t direction = 0; direction < directions_.size() && !is_covered; ++direction)
         is_covered = directions_.is_found(direction) &&
                      directions_.may_reach(direction, ToolView::place(directions_.view(direction).cell(v)));
-      figures.uncovered += !is_covered;
+      if (!is_covered) uncovered.insert(v);
     }
-    return figures;
+    return uncovered;
   }
 
   /// Straight directions as long as they cut something, then tilted ones for what no straight one came to, and so on.
@@ -116,18 +121,16 @@ class Sweep {
     const std::uint64_t standing_voxels = standing().size();
     if (std::exchange(now_.asked_with, standing_voxels) == standing_voxels) return false;
     if (!now_.out_of_reach) find_out_of_reach();
-    if (count().uncovered < fewest_uncovered) return false;
-    for (const auto grain : {Directions::Grain::coarse, Directions::Grain::fine}) {
-      Opening opening{Directions::blocks_of(standing()), grain};
-      if (!open(opening)) continue;
-      now_.openings.push_back(std::move(opening));
-      return true;
-    }
-    return false;
+    const VoxelSet uncovered = find_uncovered();
+    if (uncovered.size() < fewest_uncovered) return false;
+    Opening opening{Directions::blocks_of(standing()), Directions::blocks_of(uncovered)};
+    if (!open(opening)) return false;
+    now_.openings.push_back(std::move(opening));
+    return true;
   }
 
   bool open(const Opening& opening) {
-    if (!directions_.open(opening.standing, opening.grain)) return false;
+    if (!directions_.open(opening)) return false;
     now_.used_up.resize(directions_.size());
     now_.spared.resize(directions_.size());
     counts_.resize(directions_.size());

@@ -11,12 +11,6 @@
 
 namespace sculpt {
 
-/// Straight directions were looked at again for what stood, as blocks.
-struct Opening {
-  VoxelSet standing;
-  Directions::Grain grain;
-};
-
 /// As of the end of a pass or, where `pass` is set, of a batch of layers. Together with the keyframes until then it is
 /// all that what comes next depends on. What can be had from them is not in it: what stands and what holds it, where
 /// the joints are, the fields of the directions, what is left to cut along tilted ones.

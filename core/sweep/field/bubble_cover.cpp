@@ -43,17 +43,19 @@ Wanted find_wanted(const PostureLattice& lattice, const LatticeCube& cube) {
 /// Covers one of the cubes that are tried first.
 class BubbleCover::Search {
  public:
-  Search(const BubbleCover& whole, const Making& making, int smallest)
+  Search(const BubbleCover& whole, const Making& making, int smallest, const VoxelSet* wanted)
       : whole_(whole),
         scene_(making.scene),
         stock_(making.stock),
         lattice_(making.lattice),
         watch_(making.watch),
-        smallest_(smallest) {}
+        smallest_(smallest),
+        wanted_(wanted) {}
 
   /// Covers a cube by one bubble if there is one, else by parts as small as `smallest_`. `room`: for the tool is known.
   void cover(LatticeCube cube, bool room) {
     if (watch_.stop.stop_requested()) throw Cancelled{};
+    if (wanted_ != nullptr && !lacks_wanted(cube)) return;
     const bool has_all = lattice_.has_nodes(cube.corner, cube.size);
     if (cube.size <= PostureLattice::parts && !has_all) return;
     room = room || has_room(cube.corner, cube.size);
@@ -77,6 +79,16 @@ class BubbleCover::Search {
   std::vector<LatticeCube> holes;
 
  private:
+  bool lacks_wanted(const LatticeCube& cube) const {
+    for (int k = 0; k < cube.size; ++k)
+      for (int j = 0; j < cube.size; ++j)
+        for (int i = 0; i < cube.size; ++i) {
+          const Voxel part = cube.corner + Voxel{i, j, k};
+          if (wanted_->contains(part) && whole_.bubble_[PostureLattice::index_of(part)] < 0) return true;
+        }
+    return false;
+  }
+
   /// A bubble in the box of what is wanted; empty if there is none. The cube's surroundings become those of the bubble.
   Bubble find_bubble(const Wanted& wanted, LatticeCube& cube) const {
     if (!cube.box.holds(wanted.box)) {
@@ -114,20 +126,30 @@ class BubbleCover::Search {
   const PostureLattice& lattice_;
   const Watch& watch_;
   int smallest_;
+  const VoxelSet* wanted_;  ///< parts; null for all
 };
 
 BubbleCover::BubbleCover(const Making& making)
     : bubble_(PostureLattice::all_parts(), -1), box_(making.lattice.bounds()) {
   if (box_.low.size() > 0) pairs_ = making.scene.pairs_in(box_);
+  cover(making, largest_cubes(), PostureLattice::parts);
+}
+
+std::vector<LatticeCube> BubbleCover::largest_cubes() const {
   std::vector<LatticeCube> cubes;
   for (int k = 0; k < PostureLattice::fine; k += largest)
     for (int j = 0; j < PostureLattice::fine; j += largest)
       for (int i = 0; i < PostureLattice::fine; i += largest) cubes.push_back({{i, j, k}, largest, box_, pairs_});
-  cover(making, cubes, PostureLattice::parts);
+  return cubes;
 }
 
 void BubbleCover::refine(const Making& making) {
   cover(making, std::exchange(holes_, {}), 1);
+}
+
+void BubbleCover::extend(const Making& making, const VoxelSet& wanted) {
+  cover(making, largest_cubes(), 1, &wanted);
+  holes_.clear();
 }
 
 void BubbleCover::turn(const Configuration& turn) {
@@ -136,8 +158,9 @@ void BubbleCover::turn(const Configuration& turn) {
   holes_.clear();
 }
 
-void BubbleCover::cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest) {
-  std::vector<Search> found(cubes.size(), Search(*this, making, smallest));
+void BubbleCover::cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest,
+                        const VoxelSet* wanted) {
+  std::vector<Search> found(cubes.size(), Search(*this, making, smallest, wanted));
   making.helpers.for_each_index(cubes.size(), [&](std::size_t at) { found[at].cover(cubes[at], false); });
   for (Search& one : found) {
     for (auto& [bubble, places] : one.bubbles) {

@@ -48,6 +48,8 @@ class BubbleCover {
 
   /// Tries again, in finer parts, where no bubble was found. Slow where there is none. Throws Cancelled.
   void refine(const Making& making);
+  /// Looks for bubbles at those of the `wanted` parts that have none, down to single parts. Throws Cancelled.
+  void extend(const Making& making, const VoxelSet& wanted);
   /// For a lattice that was turned.
   void turn(const Configuration& turn);
 
@@ -62,7 +64,9 @@ class BubbleCover {
 
  private:
   class Search;
-  void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest);
+  std::vector<LatticeCube> largest_cubes() const;
+  /// `wanted`: parts; null for all.
+  void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest, const VoxelSet* wanted = nullptr);
   void close_upwards(Voxel lean);
 
   std::vector<std::int32_t> bubble_;         ///< per part: index into bubbles_, or -1

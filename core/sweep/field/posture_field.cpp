@@ -11,11 +11,6 @@ namespace {
 /// How far the tool may be off a wide path, and beside that the room that it takes itself.
 constexpr double wide_room_voxels = 0.5 + (0.5 - tool_margin_voxels);
 
-/// Where it is asked whether a field could be opened: every so many parts, and joints must be free by so much (rad or
-/// m).
-constexpr int places_apart = 4;
-constexpr double probe_half = 1e-3;
-
 }  // namespace
 
 PostureField::PostureField(const Scene& scene, const ToolView& view, const PostureLattice::Start& start,
@@ -25,22 +20,10 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Postu
   find_roomy(scene);
 }
 
-PostureField::PostureField(const PostureField& other, const Scene& scene, const Body& stock, const Helpers& helpers,
-                           const Watch& watch)
-    : lattice_(other.lattice_), cover_({scene, stock, lattice_, helpers, watch}), roomy_(other.roomy_) {}
-
-bool PostureField::may_open(const Scene& scene, const Body& stock) const {
-  for (int part = 0; part < PostureLattice::fine; part += places_apart)
-    for (int beside = 0; beside < PostureLattice::fine; beside += places_apart)
-      for (int above = 0; above < PostureLattice::fine; above += places_apart) {
-        const Voxel corner{part, beside, above};
-        if (usable_part(corner) || !lattice_.has_nodes(corner, 1)) continue;
-        const Configuration q = lattice_.guess(lattice_.middle_cell(corner, 1));
-        const Configuration half = Configuration::Constant(q.size(), probe_half);
-        Scene::Pairs pairs = scene.pairs();
-        if (chain().within_limits(q) && !scene.bubble(q, {q - half, q + half}, {}, stock, pairs).empty()) return true;
-      }
-  return false;
+PostureField::PostureField(const PostureField& other, const Scene& scene, const Body& stock, const VoxelSet& wanted,
+                           const Helpers& helpers, const Watch& watch)
+    : PostureField(other) {
+  cover_.extend({scene, stock, lattice_, helpers, watch}, wanted);
 }
 
 PostureField::PostureField(const PostureField& other, const ToolView& view, const Configuration& turn)

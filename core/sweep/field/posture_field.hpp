@@ -29,11 +29,10 @@ class PostureField {
   PostureField(const Scene& scene, const ToolView& view, const PostureLattice::Start& start, const Helpers& helpers,
                const Watch& watch);
 
-  /// `other`, as far as it is usable where only `stock` of the scene's stands any longer. Throws Cancelled.
-  PostureField(const PostureField& other, const Scene& scene, const Body& stock, const Helpers& helpers,
-               const Watch& watch);
-  /// Could that be more than it is now? Looks at a few places only.
-  bool may_open(const Scene& scene, const Body& stock) const;
+  /// `other`, and those of the `wanted` parts that are free where only `stock` of the scene's stands any longer. Throws
+  /// Cancelled.
+  PostureField(const PostureField& other, const Scene& scene, const Body& stock, const VoxelSet& wanted,
+               const Helpers& helpers, const Watch& watch);
 
   /// `other`, for a direction that it is turned to by adding `turn` to the joints. Only where that changes nothing but
   /// the direction (find_stock_turn).

@@ -20,7 +20,7 @@ SweepMemory full_sweep_memory() {
   SweepMemory sweeping{{0, 1, 0}, {1, 1, 0}, {2, 5}, {}, 77, true, true, {{{7, 8, 9}}}, {}, 2, {}};
   VoxelSet blocks(8);
   blocks.insert({7, 1, 3});
-  sweeping.openings = {{blocks, Directions::Grain::coarse}, {VoxelSet(32, true), Directions::Grain::fine}};
+  sweeping.openings = {{VoxelSet(8, true), blocks}, {VoxelSet(32, true), VoxelSet(32)}};
   sweeping.arm = {11, {0.1, 1.0 / 3, 65}, {configuration(0.3, -1e-7)}};
   sweeping.pass = StraightMark{5, 8, {{1, 2, 3, 4}}, {{5, 6, 7, 8}, {0, 0, 1, 1}}, true, {true, true}};
   return sweeping;
