@@ -18,6 +18,10 @@ Vec3 centre(Voxel cell) {
   return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
 }
 
+int dot(Voxel a, Voxel b) {
+  return a.i * b.i + a.j * b.j + a.k * b.k;
+}
+
 template <typename Visit>
 void for_each_cut(const Stroke& stroke, const Visit& visit) {
   const Voxel step = sign(stroke.last - stroke.first);
@@ -110,10 +114,13 @@ bool SlantedCuts::see(Voxel cell) {
   return true;
 }
 
-/// The cut that the fewest steps lead to, straight on first; none if too many cells would have to be looked at.
+/// The cut that the fewest steps lead to, across the axis first, straight on before turning; none if too many cells would
+/// have to be looked at.
 bool SlantedCuts::cut_near(Sortie& sortie) {
+  // Cells beside each other across the axis do not wait for one another: rows there go to and fro.
   std::array<Voxel, 9> steps{last_step_};
-  std::copy(face_steps.begin(), face_steps.end(), steps.begin() + 1);
+  std::ranges::copy(face_steps, steps.begin() + 1);
+  std::stable_partition(steps.begin(), steps.begin() + 7, [&](Voxel step) { return dot(step, view_.lean) == 0; });
   steps[7] = view_.lean * -1;
   steps[8] = view_.lean;
   ++search_;

@@ -10,7 +10,9 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t max_sorties_at_once = 8, max_cuts = 256;
+constexpr std::size_t max_sorties_at_once = 8;
+/// Voxels a sortie: at first, and where all of them are followed.
+constexpr std::size_t first_cuts = 256, max_cuts = 4096;
 
 class TiltedPass {
  public:
@@ -26,7 +28,7 @@ class TiltedPass {
   PassEnd run() {
     const std::uint64_t before = arm_.removed();
     bool spared = false;
-    std::size_t at_once = max_sorties_at_once, each = max_cuts;
+    std::size_t at_once = max_sorties_at_once, each = first_cuts;
     for (;;) {
       std::vector<Sortie> sorties = plan(at_once, each);
       if (sorties.empty()) break;
