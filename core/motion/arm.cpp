@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/line.hpp"
-#include "core/motion/random_configuration.hpp"
 #include "core/motion/tool_axes.hpp"
 #include "core/motion/transit.hpp"
 
@@ -15,8 +14,8 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t max_hubs = 12;
-/// Attempts by effort: configurations to start IK from, and iterations of RRTConnect.
-constexpr int random_seeds[] = {3, 10, 30};
+/// Attempts by effort: postures of the atlas to start IK from, and iterations of RRTConnect.
+constexpr std::size_t known_postures[] = {2, 6, 16};
 constexpr int rrt_iterations[] = {150, 600, 3000};
 /// Work on transits that may be in vain, in tests of configurations: at first, and more for each voxel that is cut.
 constexpr std::uint64_t in_vain_at_first = 10'000'000, in_vain_a_voxel = 20'000;
@@ -39,6 +38,7 @@ Arm::Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std:
       stop_(std::move(stop)),
       emit_(std::move(emit)),
       axes_(tool_axes()),
+      atlas_(scene.chain(), scene.grid(), seed),
       q_(home) {
   const int n = scene.grid().n;
   at_ = {n / 2, n / 2, n - 1};
@@ -79,6 +79,9 @@ bool Arm::cut_neighbour(Voxel voxel) {
 bool Arm::cut_after_hop(Voxel voxel) {
   if (stop_.stop_requested()) throw Cancelled{};
   if (memory_.outside || !fits(voxel, memory_.axis)) return false;
+  // Where the tool ends up does not depend on how far it is lifted.
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[memory_.axis]}, q_);
+  if (!q || scene_.contact_at(*q, voxel) != Contact::none) return false;
   const double h = scene_.grid().voxel_m;
   for (int lift = 1; lift <= 2 * scene_.grid().n; lift *= 2)
     if (hop(voxel, lift * h)) return true;
@@ -122,19 +125,20 @@ const Arm::Path& Arm::way_out() {
   return memory_.way_out;
 }
 
-std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int effort) {
+std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int effort) const {
+  const std::vector<Configuration> known = atlas_.around(voxel, axis, known_postures[effort]);
+  if (known.empty()) return {};
   std::vector<Configuration> seeds;
   if (axis == memory_.axis) seeds.push_back(q_);
-  Path hubs = memory_.hubs[axis];
-  const Vec3 ball = outside(centre(voxel), axes_[axis]);
-  const auto distance = [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); };
-  std::stable_sort(hubs.begin(), hubs.end(),
-                   [&](const Configuration& a, const Configuration& b) { return distance(a) < distance(b); });
-  const std::size_t most = effort == 0 ? 3 : max_hubs;
-  for (std::size_t i = 0; i < std::min(most, hubs.size()); ++i) seeds.push_back(hubs[i]);
-  seeds.push_back(home_);
-  Random random(mix(seed_, mix(scene_.material().solid().index(voxel), axis + 64 * static_cast<std::size_t>(effort))));
-  for (int i = 0; i < random_seeds[effort]; ++i) seeds.push_back(random_configuration(scene_.chain(), random));
+  if (const auto at = memory_.hubs.find(axis); at != memory_.hubs.end()) {
+    Path hubs = at->second;
+    const Vec3 ball = outside(centre(voxel), axes_[axis]);
+    std::ranges::stable_sort(
+        hubs, {}, [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); });
+    const std::size_t most = effort == 0 ? 3 : max_hubs;
+    seeds.insert(seeds.end(), hubs.begin(), hubs.begin() + static_cast<std::ptrdiff_t>(std::min(most, hubs.size())));
+  }
+  seeds.insert(seeds.end(), known.begin(), known.end());
   return seeds;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/collision/scene.hpp"
 #include "core/material/support.hpp"
+#include "core/motion/posture_atlas.hpp"
 #include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
@@ -80,7 +81,7 @@ class Arm {
   bool transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& starts);
   /// From where the arm stands to outside the stock, both included; never fails.
   const Path& way_out();
-  std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort);
+  std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort) const;
   std::optional<Entry> find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const;
   /// Free motion between two configurations outside the stock; empty if none was found.
   Path cross(const Configuration& from, const Configuration& to, int iterations);
@@ -96,6 +97,7 @@ class Arm {
   std::stop_token stop_;
   Emit emit_;
   std::vector<Vec3> axes_;
+  PostureAtlas atlas_;
 
   Configuration q_;
   Voxel at_, last_step_;

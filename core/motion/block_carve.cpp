@@ -5,7 +5,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t transits_an_axis[] = {2, 4, 16};
+constexpr std::size_t transits_an_axis[] = {2, 4, 8};
 /// Extra cost in voxel steps; together below 1, so that a nearer voxel always comes first.
 constexpr double turn_cost = 0.5, inward_cost = 0.25;
 

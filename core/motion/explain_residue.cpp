@@ -3,36 +3,38 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/base/random.hpp"
 #include "core/cell/ik.hpp"
 #include "core/material/cavities.hpp"
 #include "core/material/support.hpp"
 #include "core/motion/behind.hpp"
-#include "core/motion/random_configuration.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/posture_atlas.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int seeds_an_axis = 8;
+constexpr std::size_t postures_an_axis = 8;
 
-/// The farthest that a tool axis gets at this voxel, from these starting points of IK.
-Reason explain_axis(const Scene& scene, const ToolRoom& room, Voxel voxel, const Vec3& axis,
-                    const std::vector<Configuration>& seeds) {
-  const Vec3 ball = scene.grid().centre(voxel);
-  if (!room.is_free(scene.material(), voxel, axis)) return Reason::tool_cannot_reach;
+/// The farthest that a tool axis gets at this voxel.
+Reason explain_axis(const Scene& scene, const ToolRoom& room, const PostureAtlas& atlas, Voxel voxel,
+                    std::size_t axis) {
+  const IkGoal goal{scene.grid().centre(voxel), atlas.axes()[axis]};
+  if (!room.is_free(scene.material(), voxel, *goal.axis)) return Reason::tool_cannot_reach;
   Reason farthest = Reason::out_of_reach;
-  for (const Configuration& seed : seeds) {
-    if (const auto q = solve_ik(scene.chain(), {ball, axis}, seed)) {
-      if (scene.contact_at(*q, voxel) == Contact::none) return Reason::no_transit;
-      farthest = Reason::link_collision;
-    } else if (farthest == Reason::out_of_reach) {
-      IkSettings beyond_limits;
-      beyond_limits.respect_limits = false;
-      if (solve_ik(scene.chain(), {ball, axis}, seed, beyond_limits)) farthest = Reason::joint_limits;
-    }
+  const std::vector<Configuration> known = atlas.around(voxel, axis, postures_an_axis);
+  for (const Configuration& start : known) {
+    const auto q = solve_ik(scene.chain(), goal, start);
+    if (q && scene.contact_at(*q, voxel) == Contact::none) return Reason::no_transit;
+    if (q) farthest = Reason::link_collision;
   }
-  return farthest;
+  if (farthest == Reason::link_collision) return farthest;
+  IkSettings unlimited;
+  unlimited.respect_limits = false;
+  const auto is_beyond = [&](const Configuration& start) {
+    return solve_ik(scene.chain(), goal, start, unlimited).has_value();
+  };
+  if (std::ranges::any_of(known, is_beyond) || std::ranges::any_of(atlas.beyond_limits(voxel, axis), is_beyond))
+    return Reason::joint_limits;
+  return Reason::out_of_reach;
 }
 
 /// Of a robot that only shifts its tool, and so comes to every voxel in one way.
@@ -50,14 +52,13 @@ Reason explain_shifted(const Scene& scene, const Support& support, Voxel voxel, 
   return support.frees(voxel) ? Reason::loose_piece : Reason::no_transit;
 }
 
-Reason explain(const Scene& scene, const Support& support, const ToolRoom& room, Voxel voxel, std::uint64_t seed) {
+Reason explain(const Scene& scene, const Support& support, const ToolRoom& room, const PostureAtlas& atlas,
+               Voxel voxel) {
   if (scene.chain().translating())
     return explain_shifted(scene, support, voxel, (scene.chain().lower() + scene.chain().upper()) / 2);
-  Random random(mix(seed, scene.material().solid().index(voxel)));
-  std::vector<Configuration> seeds;
-  for (int i = 0; i < seeds_an_axis; ++i) seeds.push_back(random_configuration(scene.chain(), random));
   Reason farthest = Reason::tool_cannot_reach;
-  for (const Vec3& axis : tool_axes()) farthest = std::max(farthest, explain_axis(scene, room, voxel, axis, seeds));
+  for (std::size_t axis = 0; axis < atlas.axes().size(); ++axis)
+    farthest = std::max(farthest, explain_axis(scene, room, atlas, voxel, axis));
   if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
   return farthest;
 }
@@ -69,6 +70,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
   const VoxelSet enclosed = find_enclosed(voxels);
   const Support support(scene.material().solid(), may_fall);
   const ToolRoom room(scene);
+  const PostureAtlas atlas(scene.chain(), scene.grid(), run.seed);
   std::vector<Residue> residue;
   const auto n = static_cast<std::size_t>(voxels.n());
   for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {
@@ -84,7 +86,7 @@ std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels
     for (std::size_t at = part * at_once; at < std::min((part + 1) * at_once, residue.size()); ++at) {
       if (run.watch.stop.stop_requested()) throw Cancelled{};
       auto& [voxel, reason] = residue[at];
-      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, voxel, run.seed);
+      if (!enclosed.contains(voxel)) reason = explain(scene, support, room, atlas, voxel);
     }
   });
   find_behind(residue, scene, room, run.helpers, run.watch);

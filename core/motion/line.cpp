@@ -25,6 +25,7 @@ struct Tracker {
         path.push_back(*to);
         return true;
       }
+      if (scene.contact_at(*to) != Contact::none) return false;  // however short the steps, they lead there
     }
     if ((end - start).norm() < 2 * shortest_piece_voxels * scene.grid().voxel_m) return false;
     const Vec3 middle = (start + end) / 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace sculpt {
@@ -34,6 +35,10 @@ class ToolReach {
         states_(wanted.size(), State::buried),
         last_waiting_(wanted.size(), none) {
     for (const Voxel step : steps) rays_.emplace_back(step, length);
+    const auto n = static_cast<std::size_t>(standing.n());
+    row_ends_.resize(n * n);
+    for (const Voxel v : wanted) ++row_ends_[row(v)];
+    std::partial_sum(row_ends_.begin(), row_ends_.end(), row_ends_.begin());
   }
 
   std::vector<Voxel> run(const Watch& watch) {
@@ -55,39 +60,46 @@ class ToolReach {
   /// A voxel that waits, along one ray, for another one to go.
   struct Waiting {
     std::size_t number, ray;
+    int passed;          ///< steps along the ray that nothing is in the way of
     std::size_t before;  ///< who else waits for the same one
   };
 
   /// At first.
   bool stands(Voxel v) const { return Grid{standing_.n(), 1, Vec3::Zero()}.contains(v) && standing_.contains(v); }
 
+  std::size_t row(Voxel v) const {
+    return static_cast<std::size_t>(v.k) * static_cast<std::size_t>(standing_.n()) + static_cast<std::size_t>(v.j);
+  }
+
   /// Of a wanted voxel, its place among them.
   std::optional<std::size_t> number_of(Voxel v) const {
-    const auto before = [this](Voxel a, Voxel b) { return standing_.index(a) < standing_.index(b); };
-    const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), v, before);
-    if (at == wanted_.end() || *at != v) return std::nullopt;
+    const std::size_t begin = row(v) == 0 ? 0 : row_ends_[row(v) - 1], end = row_ends_[row(v)];
+    const auto first = wanted_.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = wanted_.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto at = std::ranges::lower_bound(first, last, v.i, {}, &Voxel::i);
+    if (at == last || at->i != v.i) return std::nullopt;
     return static_cast<std::size_t>(at - wanted_.begin());
   }
 
   void look_around(std::size_t number) {
     if (states_[number] != State::buried) return;
     states_[number] = State::open;
-    for (std::size_t ray = 0; ray < rays_.size(); ++ray) look(number, ray);
+    for (std::size_t ray = 0; ray < rays_.size(); ++ray) look(number, ray, 0);
   }
 
   /// Takes the voxel away if nothing is in the way along the ray; waits for what is, unless it stays.
-  void look(std::size_t number, std::size_t which) {
+  void look(std::size_t number, std::size_t which, int passed) {
     if (states_[number] == State::gone) return;
     const ToolRay& ray = rays_[which];
     const Grid grid{standing_.n(), 1, Vec3::Zero()};
-    Voxel ball = wanted_[number];
-    for (int m = 0; m < ray.steps && grid.contains(ball); ++m, ball = ball + ray.step)
+    Voxel ball = wanted_[number] + ray.step * passed;
+    for (int m = passed; m < ray.steps && grid.contains(ball); ++m, ball = ball + ray.step)
       for (const Voxel w : ray.beside) {
         if (!stands(ball + w)) continue;
         const auto blocker = number_of(ball + w);
         if (!blocker) return;
         if (states_[*blocker] == State::gone) continue;
-        waiting_.push_back({number, which, last_waiting_[*blocker]});
+        waiting_.push_back({number, which, m, last_waiting_[*blocker]});
         last_waiting_[*blocker] = waiting_.size() - 1;
         return;
       }
@@ -101,7 +113,7 @@ class ToolReach {
       to_tell_.pop_back();
       for (std::size_t at = last_waiting_[gone]; at != none;) {
         const Waiting waiting = waiting_[at];
-        look(waiting.number, waiting.ray);
+        look(waiting.number, waiting.ray, waiting.passed);
         at = waiting.before;
       }
       for (const Voxel step : face_steps)
@@ -112,6 +124,7 @@ class ToolReach {
 
   const VoxelSet& standing_;
   const std::vector<Voxel>& wanted_;  ///< a voxel's number is its place here
+  std::vector<std::size_t> row_ends_;  ///< of the voxels that share j and k: where those that are wanted end
   std::vector<ToolRay> rays_;
   std::vector<State> states_;
   std::vector<Waiting> waiting_;
