@@ -110,6 +110,7 @@ class SceneBodies {
   /// The body, or a new one that is a part of it.
   int body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes);
   void find_free_ranges();
+  bool never_touch(const Pair& pair) const;
   void add_free_ranges(Pair& pair, double low, double high) const;
   JointBox find_bounds() const;
 };

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "core/collision/margins.hpp"
+#include "core/collision/one_joint.hpp"
 #include "core/collision/scene_bodies.hpp"
 
 namespace sculpt {
@@ -9,6 +10,8 @@ namespace {
 
 /// Parts of a joint's range that move less than this are not split further (m).
 constexpr double finest_part_m = 1e-3;
+/// Of a joint's range, to find pairs that touch before it is tried to prove that they do not.
+constexpr int places_tried = 16;
 /// Of a gap at home that is less than the margin. Edges that start there move on for the rest.
 constexpr double share_of_gap = 0.6;
 
@@ -101,12 +104,39 @@ void SceneBodies::add_pairs(const Cell& cell) {
 void SceneBodies::find_free_ranges() {
   for (Pair& pair : pairs) {
     if (pair.joints() != 1) continue;
-    const Configuration range = chain.upper() - chain.lower();
-    pair.never_touch = certify_links(chain.lower(), range, 0.5, 0.5, {&pair}) == Contact::none;
+    pair.never_touch = never_touch(pair);
     if (pair.never_touch || !pair.of_links) continue;
     pair.movers[0].speed.maxCoeff(&pair.coordinate);
     add_free_ranges(pair, chain.lower()[pair.coordinate], chain.upper()[pair.coordinate]);
   }
+}
+
+/// Of a pair that one joint moves: wherever it stands?
+bool SceneBodies::never_touch(const Pair& pair) const {
+  const Mover& mover = pair.movers[0];
+  if (pair.second < 0 || mover.drives.size() != 1)
+    return certify_links(chain.lower(), chain.upper() - chain.lower(), 0.5, 0.5, {&pair}) == Contact::none;
+  const Drive& drive = mover.drives[0];
+  const Body& moves = bodies[static_cast<std::size_t>(pair.first)];
+  const Body& other = bodies[static_cast<std::size_t>(pair.second)];
+  const double low = chain.lower()[drive.coordinate], high = chain.upper()[drive.coordinate];
+  std::vector<Frame> at;
+  Configuration q = chain.lower();
+  for (int place = 0; place <= places_tried; ++place) {
+    q[drive.coordinate] = low + (high - low) * place / places_tried;
+    count_check();
+    chain.link_poses(q, at);
+    if (near(pair, at, pair.margin_m)) return false;
+  }
+  q[drive.coordinate] = low;
+  chain.link_poses(q, at);
+  const Frame to_other = at[static_cast<std::size_t>(other.link)].inverse();
+  const Joint& joint = chain.robot().joints[static_cast<std::size_t>(drive.joint)];
+  const Frame joint_at = to_other * at[static_cast<std::size_t>(joint.child_link)];
+  return stay_apart(moves, other,
+                    {to_other * at[static_cast<std::size_t>(moves.link)], joint.kind != JointKind::prismatic,
+                     joint_at.linear() * joint.axis, joint_at.translation(), drive.rate * (high - low)},
+                    pair.margin_m);
 }
 
 void SceneBodies::add_free_ranges(Pair& pair, double low, double high) const {

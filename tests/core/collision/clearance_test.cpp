@@ -2,31 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/collision/shape/fcl_shape.hpp"
 #include "tests/core/cell/sample_robots.hpp"
-#include "tests/core/collision/shape/random_shapes.hpp"
+#include "tests/core/collision/random_bodies.hpp"
 
 namespace sculpt {
 namespace {
-
-Body body_of(const Shape& shape) {
-  return {0, false, {{std::make_shared<const ShapeTree>(make_tree(shape)), 0}}};
-}
-
-Shape random_shape(Random& random) {
-  Shape shape;
-  const auto kind = static_cast<int>(random.between(0, 5));
-  shape.kind = kind == 0   ? ShapeKind::sphere
-               : kind == 1 ? ShapeKind::box
-               : kind == 2 ? ShapeKind::cylinder
-                           : ShapeKind::mesh;
-  shape.pose = random_pose(random, 0.1);
-  shape.sides_m = {random.between(0.01, 0.4), random.between(0.01, 0.4), random.between(0.01, 0.4)};
-  shape.radius_m = random.between(0.01, 0.2);
-  shape.length_m = random.between(0.01, 0.4);
-  if (shape.kind == ShapeKind::mesh) shape.mesh = random_mesh(random, 1 + static_cast<int>(random.between(0, 80)));
-  return shape;
-}
 
 // FCL shares nothing with the trees and planes that bodies are asked by.
 TEST(Clearance, OfBodiesIsThatOfTheirShapesAsFclMeasuresIt) {
@@ -36,9 +16,7 @@ TEST(Clearance, OfBodiesIsThatOfTheirShapesAsFclMeasuresIt) {
     Random random(seed);
     const Shape first = random_shape(random), second = random_shape(random);
     const Frame pose = random_pose(random, 0.3), other = random_pose(random, 0.2);
-    const auto a = make_fcl_geometry(first, 0), b = make_fcl_geometry(second, 0);
-    const Frame at = to_fcl(pose * first.pose), other_at = to_fcl(other * second.pose);
-    const double distance_m = fcl_touch(*a, at, *b, other_at) ? 0 : fcl_distance_mm(*a, at, *b, other_at) / fcl_mm;
+    const double distance_m = FclPair(first, second).distance_m(pose, other);
     const Body one = body_of(first), two = body_of(second);
     const double reach = random.between(0, 0.2);
     const bool is_near = near_body(one, pose, two, other, reach);
