@@ -29,8 +29,8 @@ bool meets_by_brute_force(const VoxelSet& voxels, const Segment& segment, double
 }
 
 TEST(Material, CapsuleMeetsExactlyWhatBruteForceFinds) {
-  int met = 0;
-  constexpr int tried = cases(4000);
+  unsigned met = 0;
+  constexpr unsigned tried = cases(4000u);
   for (std::uint64_t seed = 0; seed < tried; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);

@@ -52,7 +52,7 @@ TEST(Scene, AnEdgeWhoseMiddleTouchesIsNeverCertified) {
   const Cell cell = make_test_cell();
   const Scene scene(cell, cell.grid(16), VoxelSet(16, true));
   int tried = 0;
-  for (std::uint64_t seed = 0; seed < cases(4000) && tried < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(4000u) && tried < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Configuration from = random_within(scene.chain(), random);

@@ -116,7 +116,7 @@ std::uint64_t count_within_reach(const ToolView& view, const VoxelSet& standing,
 }
 
 TEST(SlantedCuts, CutAllThatTheToolCanComeToAndTouchNothingElse) {
-  for (std::uint64_t seed = 0; seed < cases(30); ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(30u); ++seed) {
     const int n = 8 << seed % 2;
     const Shape shape = random_shape(n, seed);
     const std::vector<Voxel> wanted = list(shape.stock, shape.keep);

@@ -14,7 +14,7 @@ constexpr double tiny = 1e-9;
 
 TEST(Convex, ThePlaneOfASeparationLiesBetweenAllPointsOfTheTwo) {
   int apart = 0;
-  for (std::uint64_t seed = 0; seed < cases(3000); ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(3000u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Convex first = random_convex(random), second = random_convex(random);
