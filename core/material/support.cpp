@@ -4,16 +4,13 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <queue>
-#include <unordered_set>
 
+#include "core/material/support_search.hpp"
 #include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
 namespace {
 
-/// Voxels that a search looks at before the whole grid is flooded, a row of words at a time.
-constexpr std::size_t max_looked_at = 8192;
 /// Height of the columns around the grid: nothing stands there that could come loose.
 constexpr std::int16_t beyond = std::numeric_limits<std::int16_t>::max();
 
@@ -139,46 +136,17 @@ bool Support::frees_if_apart(Voxel voxel) const {
   std::vector<Voxel> left = around.unrooted();
   for (Voxel& neighbour : left) neighbour = neighbour + voxel;
   bool any_held = around.any_rooted();
+  SupportSearch search(standing_, may_fall_, [this](int i, int j) { return rooted(i, j); }, voxel);
+  using Way = SupportSearch::Way;
   while (!left.empty()) {
     const Voxel from = left.back();
     left.pop_back();
-    const Way way = search(from, voxel, left, any_held);
+    const Way way = search.follow(from, left, any_held);
     if (way == Way::none) return true;
     if (way == Way::long_) return frees_by_flood(voxel);
     any_held |= way == Way::held;
   }
   return false;
-}
-
-/// Does a column that stands on the table hold this voxel, once `gone` is gone?
-bool Support::is_rooted(Voxel voxel, Voxel gone) const {
-  const int height = rooted(voxel.i, voxel.j);
-  return voxel.k < (voxel.i == gone.i && voxel.j == gone.j ? std::min(height, gone.k) : height);
-}
-
-/// From a neighbour of `gone` to all that it is joined to, until that is known to be held, or too much.
-Support::Way Support::search(Voxel from, Voxel gone, std::vector<Voxel>& others, bool any_held) const {
-  const Grid bounds{standing_.n(), 1, Vec3::Zero()};
-  std::unordered_set<std::size_t> seen{standing_.index(from), standing_.index(gone)};
-  // The lowest first: that is where the table is.
-  const auto higher = [](Voxel a, Voxel b) { return a.k > b.k; };
-  std::priority_queue<Voxel, std::vector<Voxel>, decltype(higher)> open(higher);
-  open.push(from);
-  bool foreseen = may_fall_.contains(from);
-  while (!open.empty()) {
-    const Voxel here = open.top();
-    open.pop();
-    for (Voxel step : face_steps) {
-      const Voxel next = here + step;
-      if (!bounds.contains(next) || !standing_.contains(next) || !seen.insert(standing_.index(next)).second) continue;
-      if (is_rooted(next, gone)) return Way::held;
-      if (std::erase(others, next) > 0 && others.empty() && !any_held) return Way::held;
-      foreseen = foreseen && may_fall_.contains(next);
-      open.push(next);
-    }
-    if (seen.size() > max_looked_at) return Way::long_;
-  }
-  return foreseen ? Way::falls : Way::none;
 }
 
 bool Support::frees_by_flood(Voxel voxel) const {

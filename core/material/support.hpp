@@ -47,9 +47,6 @@ class Support {
   bool is_among_columns(std::size_t column, std::size_t voxel, int k) const;
   bool frees_if_apart(Voxel voxel) const;
   void remove(std::size_t column, std::size_t voxel, int k);
-  bool is_rooted(Voxel voxel, Voxel gone) const;
-  enum class Way { held, none, falls, long_ };
-  Way search(Voxel from, Voxel gone, std::vector<Voxel>& others, bool any_held) const;
   bool frees_by_flood(Voxel voxel) const;
 
   VoxelSet standing_;

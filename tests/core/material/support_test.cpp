@@ -153,6 +153,44 @@ TEST(Support, ALineIsCutUpToWhatHoldsTheRest) {
   EXPECT_EQ(support.standing().size(), 0u);
 }
 
+/// Cubes of voxels that all stand are passed in one step: thick blocks on thin posts, joined by thin rods.
+TEST(Support, WhatHangsOnThickPartsIsHeldAsAPlainFloodSays) {
+  int frees = 0, does_not = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const int n = 32;
+    VoxelSet blocks(n), rods(n), may_fall(n);
+    const auto within = [&](int from, int to) { return static_cast<int>(random.between(from, to + 1)); };
+    for (const Voxel low : {Voxel{2, 2, 10}, Voxel{17, 2, 10}, Voxel{2, 17, 10}}) {
+      fill(blocks, low, low + Voxel{within(9, 12), within(9, 12), within(8, 20)});
+      for (int post = within(0, 1); post > 0; --post) {
+        const int i = low.i + within(0, 8), j = low.j + within(0, 8);
+        fill(rods, {i, j, 0}, {i, j, 9});
+      }
+    }
+    for (int rod = within(1, 2); rod > 0; --rod) {
+      const int across = within(3, 10), k = within(11, 17);
+      fill(rods, {10, across, k}, {20, across, k});
+    }
+    for (int rod = within(1, 2); rod > 0; --rod) {
+      const int across = within(3, 10), k = within(11, 17);
+      fill(rods, {across, 10, k}, {across, 20, k});
+    }
+    if (seed % 4 == 0) fill(may_fall, {0, 0, 8}, {31, 15, 31});
+    VoxelSet set = blocks;
+    for (const Voxel voxel : members(rods)) set.insert(voxel);
+    const Support support(set, may_fall);
+    for (const Voxel voxel : members(rods)) {
+      const bool expected = frees_by_brute_force(set, may_fall, voxel);
+      ASSERT_EQ(support.frees(voxel), expected) << voxel.i << " " << voxel.j << " " << voxel.k;
+      (expected ? frees : does_not) += 1;
+    }
+  }
+  EXPECT_GT(frees, 300);
+  EXPECT_GT(does_not, 300);
+}
+
 /// Far from any column that stands on the table, and too large for anything but a flood of the whole grid.
 TEST(Support, ALargeOverhangIsFollowedToItsOnlyPost) {
   VoxelSet table(64);
