@@ -521,6 +521,9 @@ def read_column(numbers, count):
 # Commands: each gets the parsed options and gives the exit code
 
 def run_submit(options):
+    placed = [name for name in ("scale", "offset", "margin", "stock_box", "stock") if getattr(options, name) is not None]
+    if options.continued and placed:
+        raise Failure(USAGE, "usage", f"--continue excludes --{placed[0].replace('_', '-')}: the mesh stands as in job {options.continued}, in what that one left")
     read_input(options.mesh, "mesh")
     is_path = "/" in options.robot or options.robot.endswith(".json")
     if is_path:
@@ -532,14 +535,10 @@ def run_submit(options):
             spec["search"] = options.search
         if options.allow_freed:
             spec["allow_freed"] = True
-        spec["placement"] = {"rotation_rad": [math.radians(degrees) for degrees in options.rotate],
-                             "offset_m": options.offset, "margin_m": options.margin}
-        if options.scale is not None:
-            spec["placement"]["scale_m"] = options.scale
-        if options.stock_box:
-            spec["stock"] = {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}
-        elif options.stock:
-            spec["stock"] = {"mesh": client.upload_file(options.stock)}
+        if options.continued:
+            spec["continue"] = {"job": options.continued, "rotation_rad": rotation_rad(options)}
+        else:
+            spec.update(placement_of(client, options))
         named = {field: getattr(options, field) for field in ("key", "priority", "not_before", "start_by", "max_runtime_s")
                  if getattr(options, field) is not None}
         reply, exit_code = client.submit(spec, **named), FINE
@@ -551,6 +550,20 @@ def run_submit(options):
         if options.json:
             print(json.dumps(reply))
         return exit_code
+
+
+def rotation_rad(options):
+    return [math.radians(degrees) for degrees in options.rotate or (0, 0, 0)]
+
+
+def placement_of(client, options):
+    """The fields of a spec that say where the mesh stands in which stock."""
+    placement = {"rotation_rad": rotation_rad(options), "offset_m": options.offset or [0, 0, 0], "margin_m": options.margin or 0}
+    if options.scale is not None:
+        placement["scale_m"] = options.scale
+    if options.stock_box:
+        return {"placement": placement, "stock": {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}}
+    return {"placement": placement, **({"stock": {"mesh": client.upload_file(options.stock)}} if options.stock else {})}
 
 
 def run_list(options):
@@ -806,7 +819,7 @@ def parse_command_line(arguments):
     fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
     fetch.add_argument("--format", choices=["ndjson", "binary", "csv"], help="form of the trajectory, default ndjson")
-    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "residue", "report"], default="trajectory")
+    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "stock", "residue", "report"], default="trajectory")
     command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
     options = parser.parse_args(joined_lists(sys.argv[1:] if arguments is None else arguments))
     options.server = getattr(options, "server", default)
@@ -827,12 +840,14 @@ def add_submit_options(submit):
     submit.add_argument("--key", metavar="KEY", help="your own name for this job: submitting it twice makes one job")
     submit.add_argument("--wait", action="store_true", help="wait for the end, with progress on stderr")
     submit.add_argument("--scale", type=float, metavar="METRES", help="metres per unit of the mesh file")
-    submit.add_argument("--rotate", type=numbers(3), default=[0, 0, 0], metavar="R,P,Y", help="degrees about x, y, z")
-    submit.add_argument("--offset", type=numbers(3), default=[0, 0, 0], metavar="X,Y,Z", help="metres")
-    submit.add_argument("--margin", type=float, default=0, metavar="METRES")
+    submit.add_argument("--rotate", type=numbers(3), metavar="R,P,Y", help="degrees about x, y, z")
+    submit.add_argument("--offset", type=numbers(3), metavar="X,Y,Z", help="metres")
+    submit.add_argument("--margin", type=float, metavar="METRES")
     stock = submit.add_mutually_exclusive_group()
     stock.add_argument("--stock-box", type=numbers(6), metavar="X0,Y0,Z0,X1,Y1,Z1", help="metres from the grid's corner")
     stock.add_argument("--stock", metavar="FILE", help="mesh or .binvox of the stock")
+    submit.add_argument("--continue", dest="continued", metavar="JOB",
+                        help="carve on in what this job left, with --rotate turning the block, by quarters")
 
 
 def main(arguments=None):
