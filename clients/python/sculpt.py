@@ -208,6 +208,10 @@ class Client:
         bundle = {"name": name, "cell": text, "files": {ref: {"blob": self.upload(data)} for ref, data in sorted(files.items())}}
         return {"cell": {"blob": self.upload(json.dumps(bundle).encode())}}
 
+    def check_cell(self, robot, resolution=64):
+        """What the server finds out about a cell: the name of one of its own, or what upload_cell gave."""
+        return self.call("cell.check", robot=robot, resolution=resolution)
+
     def submit(self, spec, **params):
         return self.call("job.submit", spec=spec, **params)
 
@@ -525,12 +529,10 @@ def run_submit(options):
     if options.continued and placed:
         raise Failure(USAGE, "usage", f"--continue excludes --{placed[0].replace('_', '-')}: the mesh stands as in job {options.continued}, in what that one left")
     read_input(options.mesh, "mesh")
-    is_path = "/" in options.robot or options.robot.endswith(".json")
-    if is_path:
-        read_cell_files(options.robot)
+    check_cell_files(options.robot)
     with Client(options.server) as client:
         spec = {"mesh": client.upload_file(options.mesh), "resolution": options.resolution, "seed": options.seed,
-                "robot": client.upload_cell(options.robot) if is_path else options.robot}
+                "robot": robot_of(client, options.robot)}
         if options.search:
             spec["search"] = options.search
         if options.allow_freed:
@@ -550,6 +552,38 @@ def run_submit(options):
         if options.json:
             print(json.dumps(reply))
         return exit_code
+
+
+def is_cell_path(robot):
+    return "/" in robot or robot.endswith(".json")
+
+
+def check_cell_files(robot):
+    """Before there is a connection: raises Failure where a cell of this disk cannot be read."""
+    if is_cell_path(robot):
+        read_cell_files(robot)
+
+
+def robot_of(client, robot):
+    """A name is the server's to resolve; a path is sent."""
+    return client.upload_cell(robot) if is_cell_path(robot) else robot
+
+
+def run_cell(options):
+    check_cell_files(options.cell)
+    with Client(options.server) as client:
+        found = client.check_cell(robot_of(client, options.cell), options.resolution)
+    if options.json:
+        print(json.dumps(found))
+    else:
+        errors = sum(fault["weight"] == "error" for fault in found["faults"])
+        print(f"cell {found['cell']}: " + ("ready to plan with" if found["plannable"] else
+                                           f"cannot be planned with, {errors} error{'' if errors == 1 else 's'}"))
+        for fault in found["faults"]:
+            print(f"{fault['weight']}: {fault['sentence']}\n  cure: {fault['cure']}")
+        if "better_home" in found:
+            print(f'a home that is free:\n  "home": {json.dumps(found["better_home"])}')
+    return FINE if found["plannable"] else FAILED
 
 
 def rotation_rad(options):
@@ -821,6 +855,9 @@ def parse_command_line(arguments):
     fetch.add_argument("--format", choices=["ndjson", "binary", "csv"], help="form of the trajectory, default ndjson")
     fetch.add_argument("--artifact", choices=["trajectory", "voxels", "stock", "residue", "report"], default="trajectory")
     command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
+    cell = command("cell", run_cell, "let the server say what is wrong with a cell, and the cure; exit 0 only if it can be planned with", job=False)
+    cell.add_argument("cell", metavar="CELL", help="name of a cell on the server, or a cell file here")
+    cell.add_argument("--resolution", type=int, default=64, metavar="N", help="for a tool that follows the voxels, default 64")
     options = parser.parse_args(joined_lists(sys.argv[1:] if arguments is None else arguments))
     options.server = getattr(options, "server", default)
     return options

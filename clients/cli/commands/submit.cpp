@@ -8,7 +8,7 @@
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/job_end.hpp"
 #include "clients/cli/job_options.hpp"
-#include "proto/cell_bundle.hpp"
+#include "clients/cli/uploads.hpp"
 
 namespace sculpt::cli {
 
@@ -23,17 +23,6 @@ struct SubmitOptions {
   bool wait = false;
   bool json = false;
 };
-
-Json upload_mesh(client::Client& client, const MeshFile& file) {
-  return {{"blob", client.upload(file.bytes)}, {"name", file.name}};
-}
-
-/// A name is the server's to resolve; a path is read here and sent, so that the server needs nothing of this disk.
-Json upload_cell(client::Client& client, const CellFiles& cell) {
-  proto::CellBundle bundle{cell.name, cell.cell_json, {}};
-  for (const auto& [reference, bytes] : cell.files) bundle.files[reference] = client.upload(bytes);
-  return {{"cell", {{"blob", client.upload(proto::write_cell_bundle(bundle))}}}};
-}
 
 Json triple(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
