@@ -143,6 +143,9 @@ class New(ClientTest):
         self.write_arm()
         done = self.with_xacro('#!/bin/sh\ncase "$ROS_PACKAGE_PATH" in *maker*) cat "$(dirname "$1")/arm.urdf";; *) echo lost >&2; exit 1;; esac\n')
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        # As ROS 2 looks for the package that the source lies in.
+        done = self.with_xacro('#!/bin/sh\np=${AMENT_PREFIX_PATH%%:*}\ntest -f $p/share/ament_index/resource_index/packages/maker && cat $p/share/maker/arm.urdf\n')
+        self.assertEqual(done.returncode, 0, done.stderr)
         done = self.with_xacro("#!/bin/sh\necho no such macro >&2\nexit 2\n")
         self.assertEqual((done.returncode, "xacro_failed" in done.stderr, "no such macro" in done.stderr), (2, True, True), done.stderr)
 
