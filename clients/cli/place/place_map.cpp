@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t most_maps = 24, maps_a_row = 3;
 constexpr double cell_width = 52, cell_height = 26, left = 56, top = 44, gap = 24;  // pixels
 constexpr double head = 76;                                                         // title and scale above all maps
+constexpr double widest_caption = 376;                                              // of a map, in pixels
 constexpr double least_left = 0.01, most_left = 100;                                // % at the ends of the scale
 constexpr std::array scale{0.0, 90.0, 99.0, 99.9, 99.99};                           // % reached
 
@@ -113,7 +114,7 @@ class Maps {
   }
 
   std::string draw() const {
-    const double width = left + cell_width * static_cast<double>(xs_.size()) + gap;
+    const double width = std::max(left + cell_width * static_cast<double>(xs_.size()), widest_caption) + gap;
     const double height = top + cell_height * static_cast<double>(ys_.size()) + gap;
     const std::size_t rows = (maps_.size() + maps_a_row - 1) / maps_a_row;
     const double columns = static_cast<double>(std::min(maps_.size(), maps_a_row));
