@@ -7,7 +7,7 @@ namespace {
 
 constexpr double huge = 1e6;  // metres or radians: beyond this a value is surely a mistake
 constexpr int max_threads = 256;
-constexpr std::size_t max_name_bytes = 200;
+constexpr std::size_t max_name_bytes = 200, max_job_bytes = 64;
 
 BlobRef read_blob_ref(Fields fields) {
   BlobRef ref{fields.sha256("blob"), fields.text("name", max_name_bytes)};
@@ -73,6 +73,28 @@ void read_stock(Fields fields, JobSpec& spec) {
   }
 }
 
+ContinueSpec read_continue(Fields fields) {
+  ContinueSpec spec{fields.text("job", max_job_bytes), {}};
+  if (fields.has("rotation_rad")) spec.rotation_rad = fields.triple("rotation_rad");
+  fields.done();
+  return spec;
+}
+
+Json to_json(const ContinueSpec& spec) {
+  Json json{{"job", spec.job}};
+  if (spec.rotation_rad != ContinueSpec{}.rotation_rad) json["rotation_rad"] = spec.rotation_rad;
+  return json;
+}
+
+// The other job has said where the target is and what is around it.
+void refuse_beside_continue(Fields& fields) {
+  for (const char* field : {"placement", "stock"})
+    if (fields.has(field))
+      fields.refuse(field,
+                    "must be left out beside continue: the mesh stands as in the job that is continued, in "
+                    "what that one leaves");
+}
+
 }  // namespace
 
 CellRef read_robot(Fields& fields) {
@@ -94,6 +116,10 @@ JobSpec read_job_spec(Fields fields) {
   if (fields.has("allow_freed")) spec.allow_freed = fields.flag("allow_freed");
   if (fields.has("placement")) spec.placement = read_placement(fields.object("placement"));
   if (fields.has("stock")) read_stock(fields.object("stock"), spec);
+  if (fields.has("continue")) {
+    spec.continued = read_continue(fields.object("continue"));
+    refuse_beside_continue(fields);
+  }
   fields.done();
   return spec;
 }
@@ -112,6 +138,7 @@ Json to_json(const JobSpec& spec) {
     json["stock"] = Json{{"box", {{"min_m", spec.stock_box->min_m}, {"max_m", spec.stock_box->max_m}}}};
   }
   if (spec.stock_mesh) json["stock"] = Json{{"mesh", to_json(*spec.stock_mesh)}};
+  if (spec.continued) json["continue"] = to_json(*spec.continued);
   return json;
 }
 

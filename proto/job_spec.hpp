@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "proto/fields.hpp"
 
@@ -27,6 +28,18 @@ struct BoxSpec {
   std::array<double, 3> min_m{}, max_m{};
 };
 
+/// The job that another one goes on with, and how its block is clamped for that.
+struct ContinueSpec {
+  std::string job;
+  std::array<double, 3> rotation_rad{};
+};
+
+/// A clamping behind the first, as in core/plan/job.hpp.
+struct ClampingSpec {
+  std::string left;  ///< hash of the .binvox
+  std::array<double, 3> rotation_rad{};
+};
+
 struct JobSpec {
   BlobRef mesh;
   std::string robot;        ///< name of a cell on the server; empty if `cell_bundle` is set
@@ -39,6 +52,8 @@ struct JobSpec {
   PlacementSpec placement;
   std::optional<BoxSpec> stock_box;
   std::optional<BlobRef> stock_mesh;
+  std::optional<ContinueSpec> continued;  ///< then neither placement nor stock was given
+  std::vector<ClampingSpec> clampings;    ///< no field of the wire: what the server finds out about `continued`
 };
 
 /// A cell on the server, or one that was sent: the other is empty.

@@ -116,8 +116,8 @@ struct Server::Impl {
     for (Handlers group :
          {server_handlers({answers, config, access, connections, *store, planner, workers, started}),
           blob_handlers({answers, blobs, disk}),
-          submit_handlers({answers, config, *store, blobs, scheduler, planner, job_defaults(config), isolation,
-                           admission, checks, passed}),
+          submit_handlers({answers, config, *store, blobs, artifacts, scheduler, planner, job_defaults(config),
+                           isolation, admission, checks, passed}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),

@@ -208,6 +208,10 @@ class Client:
         bundle = {"name": name, "cell": text, "files": {ref: {"blob": self.upload(data)} for ref, data in sorted(files.items())}}
         return {"cell": {"blob": self.upload(json.dumps(bundle).encode())}}
 
+    def check_cell(self, robot, resolution=64):
+        """What the server finds out about a cell: the name of one of its own, or what upload_cell gave."""
+        return self.call("cell.check", robot=robot, resolution=resolution)
+
     def submit(self, spec, **params):
         return self.call("job.submit", spec=spec, **params)
 
@@ -521,25 +525,22 @@ def read_column(numbers, count):
 # Commands: each gets the parsed options and gives the exit code
 
 def run_submit(options):
+    placed = [name for name in ("scale", "offset", "margin", "stock_box", "stock") if getattr(options, name) is not None]
+    if options.continued and placed:
+        raise Failure(USAGE, "usage", f"--continue excludes --{placed[0].replace('_', '-')}: the mesh stands as in job {options.continued}, in what that one left")
     read_input(options.mesh, "mesh")
-    is_path = "/" in options.robot or options.robot.endswith(".json")
-    if is_path:
-        read_cell_files(options.robot)
+    check_cell_files(options.robot)
     with Client(options.server) as client:
         spec = {"mesh": client.upload_file(options.mesh), "resolution": options.resolution, "seed": options.seed,
-                "robot": client.upload_cell(options.robot) if is_path else options.robot}
+                "robot": robot_of(client, options.robot)}
         if options.search:
             spec["search"] = options.search
         if options.allow_freed:
             spec["allow_freed"] = True
-        spec["placement"] = {"rotation_rad": [math.radians(degrees) for degrees in options.rotate],
-                             "offset_m": options.offset, "margin_m": options.margin}
-        if options.scale is not None:
-            spec["placement"]["scale_m"] = options.scale
-        if options.stock_box:
-            spec["stock"] = {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}
-        elif options.stock:
-            spec["stock"] = {"mesh": client.upload_file(options.stock)}
+        if options.continued:
+            spec["continue"] = {"job": options.continued, "rotation_rad": rotation_rad(options)}
+        else:
+            spec.update(placement_of(client, options))
         named = {field: getattr(options, field) for field in ("key", "priority", "not_before", "start_by", "max_runtime_s")
                  if getattr(options, field) is not None}
         reply, exit_code = client.submit(spec, **named), FINE
@@ -551,6 +552,52 @@ def run_submit(options):
         if options.json:
             print(json.dumps(reply))
         return exit_code
+
+
+def is_cell_path(robot):
+    return "/" in robot or robot.endswith(".json")
+
+
+def check_cell_files(robot):
+    """Before there is a connection: raises Failure where a cell of this disk cannot be read."""
+    if is_cell_path(robot):
+        read_cell_files(robot)
+
+
+def robot_of(client, robot):
+    """A name is the server's to resolve; a path is sent."""
+    return client.upload_cell(robot) if is_cell_path(robot) else robot
+
+
+def run_cell(options):
+    check_cell_files(options.cell)
+    with Client(options.server) as client:
+        found = client.check_cell(robot_of(client, options.cell), options.resolution)
+    if options.json:
+        print(json.dumps(found))
+    else:
+        errors = sum(fault["weight"] == "error" for fault in found["faults"])
+        print(f"cell {found['cell']}: " + ("ready to plan with" if found["plannable"] else
+                                           f"cannot be planned with, {errors} error{'' if errors == 1 else 's'}"))
+        for fault in found["faults"]:
+            print(f"{fault['weight']}: {fault['sentence']}\n  cure: {fault['cure']}")
+        if "better_home" in found:
+            print(f'a home that is free:\n  "home": {json.dumps(found["better_home"])}')
+    return FINE if found["plannable"] else FAILED
+
+
+def rotation_rad(options):
+    return [math.radians(degrees) for degrees in options.rotate or (0, 0, 0)]
+
+
+def placement_of(client, options):
+    """The fields of a spec that say where the mesh stands in which stock."""
+    placement = {"rotation_rad": rotation_rad(options), "offset_m": options.offset or [0, 0, 0], "margin_m": options.margin or 0}
+    if options.scale is not None:
+        placement["scale_m"] = options.scale
+    if options.stock_box:
+        return {"placement": placement, "stock": {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}}
+    return {"placement": placement, **({"stock": {"mesh": client.upload_file(options.stock)}} if options.stock else {})}
 
 
 def run_list(options):
@@ -806,8 +853,11 @@ def parse_command_line(arguments):
     fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
     fetch.add_argument("--format", choices=["ndjson", "binary", "csv"], help="form of the trajectory, default ndjson")
-    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "residue", "report"], default="trajectory")
+    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "stock", "residue", "report"], default="trajectory")
     command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
+    cell = command("cell", run_cell, "let the server say what is wrong with a cell, and the cure; exit 0 only if it can be planned with", job=False)
+    cell.add_argument("cell", metavar="CELL", help="name of a cell on the server, or a cell file here")
+    cell.add_argument("--resolution", type=int, default=64, metavar="N", help="for a tool that follows the voxels, default 64")
     options = parser.parse_args(joined_lists(sys.argv[1:] if arguments is None else arguments))
     options.server = getattr(options, "server", default)
     return options
@@ -827,12 +877,14 @@ def add_submit_options(submit):
     submit.add_argument("--key", metavar="KEY", help="your own name for this job: submitting it twice makes one job")
     submit.add_argument("--wait", action="store_true", help="wait for the end, with progress on stderr")
     submit.add_argument("--scale", type=float, metavar="METRES", help="metres per unit of the mesh file")
-    submit.add_argument("--rotate", type=numbers(3), default=[0, 0, 0], metavar="R,P,Y", help="degrees about x, y, z")
-    submit.add_argument("--offset", type=numbers(3), default=[0, 0, 0], metavar="X,Y,Z", help="metres")
-    submit.add_argument("--margin", type=float, default=0, metavar="METRES")
+    submit.add_argument("--rotate", type=numbers(3), metavar="R,P,Y", help="degrees about x, y, z")
+    submit.add_argument("--offset", type=numbers(3), metavar="X,Y,Z", help="metres")
+    submit.add_argument("--margin", type=float, metavar="METRES")
     stock = submit.add_mutually_exclusive_group()
     stock.add_argument("--stock-box", type=numbers(6), metavar="X0,Y0,Z0,X1,Y1,Z1", help="metres from the grid's corner")
     stock.add_argument("--stock", metavar="FILE", help="mesh or .binvox of the stock")
+    submit.add_argument("--continue", dest="continued", metavar="JOB",
+                        help="carve on in what this job left, with --rotate turning the block, by quarters")
 
 
 def main(arguments=None):

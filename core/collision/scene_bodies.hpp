@@ -105,10 +105,7 @@ class SceneBodies {
   Mover make_mover(int body, int from_link) const;
   Configuration grid_speed_from(int link) const;
   void add_pairs(const Cell& cell);
-  void add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked);
   void add_pair(int a, int b, double margin_m);
-  /// The body, or a new one that is a part of it.
-  int body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes);
   void find_free_ranges();
   bool never_touch(const Pair& pair) const;
   void add_free_ranges(Pair& pair, double low, double high) const;

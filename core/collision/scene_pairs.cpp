@@ -1,6 +1,7 @@
 // Which bodies of a scene must stay apart, and what is known of them once and for all.
 #include <map>
 
+#include "core/collision/body_pairs.hpp"
 #include "core/collision/margins.hpp"
 #include "core/collision/one_joint.hpp"
 #include "core/collision/scene_bodies.hpp"
@@ -12,21 +13,6 @@ namespace {
 constexpr double finest_part_m = 1e-3;
 /// Of a joint's range, to find pairs that touch before it is tried to prove that they do not.
 constexpr int places_tried = 16;
-/// Of a gap at home that is less than the margin. Edges that start there move on for the rest.
-constexpr double share_of_gap = 0.6;
-
-using Shapes = std::vector<std::size_t>;
-
-/// Shapes of the first link, and shapes of the second one that all of them must be kept apart from.
-std::vector<std::pair<Shapes, Shapes>> group_shapes(const CheckedLinks& checked) {
-  std::map<std::size_t, Shapes> partners;
-  for (const auto& [first, second] : checked.shapes) partners[first].push_back(second);
-  std::map<Shapes, Shapes> alike;
-  for (const auto& [first, seconds] : partners) alike[seconds].push_back(first);
-  std::vector<std::pair<Shapes, Shapes>> groups;
-  for (const auto& [seconds, firsts] : alike) groups.emplace_back(firsts, seconds);
-  return groups;
-}
 
 }  // namespace
 
@@ -47,21 +33,6 @@ void SceneBodies::add_pair(int a, int b, double margin_m) {
   Pair pair{a, b, margin_m, {make_mover(a, second.link), make_mover(b, first.link)}, {}};
   pair.of_links = !first.tool && !second.tool;
   if (!pair.movers[0].drives.empty()) pairs.push_back(std::move(pair));
-}
-
-int SceneBodies::body_of(int body, const std::vector<std::size_t>& shapes, std::size_t all_shapes) {
-  if (shapes.size() == all_shapes) return body;
-  bodies.push_back(part_of(bodies[static_cast<std::size_t>(body)], shapes));
-  return static_cast<int>(bodies.size()) - 1;
-}
-
-void SceneBodies::add_link_pairs(const Cell& cell, int a, int b, const CheckedLinks& checked) {
-  const auto& links = cell.robot.links;
-  const bool tight = checked.gap_m > 0 && checked.gap_m < link_margin_m;
-  for (const auto& [first, second] : group_shapes(checked))
-    add_pair(body_of(a, first, links[static_cast<std::size_t>(checked.links.first)].shapes.size()),
-             body_of(b, second, links[static_cast<std::size_t>(checked.links.second)].shapes.size()),
-             tight ? share_of_gap * checked.gap_m : link_margin_m);
 }
 
 void SceneBodies::add_pairs(const Cell& cell) {
@@ -90,7 +61,9 @@ void SceneBodies::add_pairs(const Cell& cell) {
         if (first.group != tool_group) add_pair(a, b, tool_margin_voxels * grid.voxel_m);
         if (pairs.size() > before) pairs.back().tool_and_fixed = first.group == stock_group;
       } else if (const auto at = checked.find({first.link, second.link}); at != checked.end()) {
-        add_link_pairs(cell, a, b, *at->second);
+        for (const BodyPair& pair :
+             pair_bodies(bodies, static_cast<std::size_t>(a), static_cast<std::size_t>(b), *at->second))
+          add_pair(static_cast<int>(pair.first), static_cast<int>(pair.second), pair.margin_m);
       }
     }
   }

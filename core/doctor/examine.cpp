@@ -4,6 +4,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/collision/link_pairs.hpp"
+#include "core/collision/wide_contacts.hpp"
 #include "core/doctor/body_names.hpp"
 #include "core/doctor/describe_cell.hpp"
 #include "core/doctor/find_faults.hpp"
@@ -51,6 +52,10 @@ void describe_pairs(const Cell& cell, CellFindings& found) {
   for (const UncheckedLinks& unchecked : pairs.unchecked) {
     found.unchecked_pairs.push_back(name_bodies(cell.robot, unchecked.links.first, unchecked.links.second));
     found.unchecked_pairs.back().why = unchecked.why;
+  }
+  for (const WideContact& wide : find_wide_contacts(cell, pairs.checked)) {
+    found.wide_pairs.push_back(name_bodies(cell.robot, wide.links.first, wide.links.second));
+    found.wide_pairs.back().why = describe(wide, cell.robot);
   }
 }
 

@@ -194,6 +194,12 @@ void find_faults_of_files(const CellDraft& draft, CellFindings& found) {
   check_bare_links(draft.cell, found.faults);
   check_idle_joints(found, found.faults);
   check_tool(draft.cell, found, found.faults);
+  for (const PairFinding& pair : found.wide_pairs)
+    found.faults.push_back({Weight::warning, "wide_contact",
+                            quoted(pair.first) + " and " + quoted(pair.second) + " " + pair.why +
+                                " and are kept apart: little of it is left to plan with",
+                            "if their shapes are thicker than the arm, which does not touch itself there, add [\"" +
+                                pair.first + "\", \"" + pair.second + "\"] to \"ignore_pairs\""});
   for (const PairFinding& pair : found.unchecked_pairs)
     if (pair.why == "touch at home and in every configuration tried")
       found.faults.push_back(

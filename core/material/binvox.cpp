@@ -39,11 +39,11 @@ int parse_dimensions(std::istringstream& words) {
   return depth;
 }
 
-/// Reads up to and with the line "data"; returns the edge.
-int take_header(std::string_view& bytes) {
+/// Reads up to and with the line "data".
+BinvoxHeader take_header(std::string_view& bytes) {
   if (!bytes.starts_with(magic)) refuse("it does not start with \"#binvox\"; is it another kind of file?");
   if (take_line(bytes) != "#binvox 1") refuse("it is not of version 1: write it with binvox version 1");
-  int n = 0;
+  BinvoxHeader header;
   for (;;) {
     const std::string line(take_line(bytes));
     std::istringstream words(line);
@@ -51,13 +51,15 @@ int take_header(std::string_view& bytes) {
     words >> word;
     if (word == "data") break;
     if (word == "dim") {
-      n = parse_dimensions(words);
-    } else if (word != "translate" && word != "scale") {
+      header.n = parse_dimensions(words);
+    } else if (word == "scale") {
+      if (double size_m = 0; words >> size_m) header.size_m = size_m;
+    } else if (word != "translate") {
       refuse("its header has an unknown line \"" + line.substr(0, 40) + "\"");
     }
   }
-  if (n == 0) refuse("its header has no line \"dim\"");
-  return n;
+  if (header.n == 0) refuse("its header has no line \"dim\"");
+  return header;
 }
 
 /// One slice of fixed i, bit j + n k, for each i of a chunk of rows.
@@ -127,7 +129,7 @@ std::string write_binvox(const VoxelSet& voxels, const Grid& grid) {
 }
 
 VoxelSet read_binvox(std::string_view bytes) {
-  const int n = take_header(bytes);
+  const int n = take_header(bytes).n;
   const std::size_t total = static_cast<std::size_t>(n) * n * n;
   if (bytes.size() % 2 != 0) refuse("its data end within a run: the file is cut short, send it again");
   VoxelSet voxels(n);
@@ -146,6 +148,10 @@ VoxelSet read_binvox(std::string_view bytes) {
     refuse("its runs hold " + std::to_string(at) + " voxels, its dimensions need " + std::to_string(total) +
            ": the file is cut short, send it again");
   return voxels;
+}
+
+BinvoxHeader read_binvox_header(std::string_view bytes) {
+  return take_header(bytes);
 }
 
 }  // namespace sculpt

@@ -1,6 +1,7 @@
 #include "core/material/cube_turn.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace sculpt {
 namespace {
@@ -33,12 +34,13 @@ VoxelSet CubeTurn::of(const VoxelSet& set) const {
   return to;
 }
 
-std::optional<CubeTurn> cube_turn(const Vec3& rotate_deg) {
+std::optional<CubeTurn> cube_turn(const Vec3& rotation_rad) {
+  constexpr double tolerance = 1e-6, most = 1000;
   CubeTurn turn = no_turn;
   for (int axis = 0; axis < 3; ++axis) {
-    const double quarters = rotate_deg[axis] / 90;
-    if (!(std::abs(quarters) <= 1000) || quarters != std::round(quarters)) return std::nullopt;
-    const int times = (static_cast<int>(quarters) % 4 + 4) % 4;
+    const double quarters = rotation_rad[axis] / (std::numbers::pi / 2), whole = std::round(quarters);
+    if (!(std::abs(quarters) <= most) || std::abs(quarters - whole) > tolerance) return std::nullopt;
+    const int times = (static_cast<int>(whole) % 4 + 4) % 4;
     for (Voxel& to : turn.axes)
       for (int time = 0; time < times; ++time) to = quarter(to, axis);
   }

@@ -19,9 +19,9 @@ struct CubeTurn {
 };
 inline constexpr CubeTurn no_turn{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
 
-/// Roll, pitch and yaw about the fixed x, y, z axes, as a mesh is turned by its placement; nothing unless all three are
-/// whole multiples of 90 degrees.
-std::optional<CubeTurn> cube_turn(const Vec3& rotate_deg);
+/// Roll, pitch and yaw (rad) about the fixed x, y, z axes, as a mesh is turned by its placement; nothing unless all
+/// three are whole quarter turns, to a millionth of one.
+std::optional<CubeTurn> cube_turn(const Vec3& rotation_rad);
 
 /// Down by so many layers; what would leave the grid is gone.
 VoxelSet lowered(const VoxelSet& set, int layers);

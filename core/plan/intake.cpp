@@ -1,9 +1,12 @@
 #include "core/plan/intake.hpp"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
+#include "core/material/clamping.hpp"
 #include "core/material/loose_pieces.hpp"
 #include "core/material/resolution.hpp"
 #include "core/mesh/mesh_file.hpp"
@@ -34,13 +37,37 @@ std::uint64_t predict_file_memory(const JobSizes::File& file) {
   return file.extension == "binvox" ? file.bytes : predict_mesh_memory(file.bytes, file.extension);
 }
 
-VoxelSet read_voxels(const MeshFile& file, int n) {
-  VoxelSet voxels = read_binvox(file.bytes);
-  if (voxels.n() != n)
-    throw InputError("resolution_invalid", "'" + file.name + "' holds " + std::to_string(voxels.n()) +
+void check_resolution(const MeshFile& voxels, int n) {
+  if (const int held = read_binvox_header(voxels.bytes).n; held != n)
+    throw InputError("resolution_invalid", "'" + voxels.name + "' holds " + std::to_string(held) +
                                                "^3 voxels, the job asks for " + std::to_string(n) +
-                                               "^3: pass --resolution " + std::to_string(voxels.n()));
-  return voxels;
+                                               "^3: pass --resolution " + std::to_string(held));
+}
+
+VoxelSet read_voxels(const MeshFile& file, int n) {
+  check_resolution(file, n);
+  return read_binvox(file.bytes);
+}
+
+/// What is left of a block of other voxels is none of this grid.
+void check_left(const MeshFile& left, const Grid& grid) {
+  constexpr double tolerance_m = 1e-9;
+  check_resolution(left, grid.n);
+  const double size_m = grid.n * grid.voxel_m;
+  const std::optional<double> left_m = read_binvox_header(left.bytes).size_m;
+  if (left_m && std::abs(*left_m - size_m) > tolerance_m)
+    throw InputError("cell_invalid", "the cell's stock.size_m is " + std::to_string(size_m) +
+                                         ", and what is to be carved on is of a cell where it is " +
+                                         std::to_string(*left_m) + ": take a cell with that size");
+}
+
+CubeTurn read_turn(const Vec3& rotation_rad) {
+  if (const std::optional<CubeTurn> turn = cube_turn(rotation_rad)) return *turn;
+  const Vec3 deg = rotation_rad * (180 / std::numbers::pi);
+  throw InputError("placement_invalid", "the block cannot be clamped turned by " + std::to_string(deg.x()) + ", " +
+                                            std::to_string(deg.y()) + ", " + std::to_string(deg.z()) +
+                                            " degrees: its voxels would not be voxels again. Give multiples of 90, "
+                                            "for example 180,0,0");
 }
 
 VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
@@ -103,12 +130,21 @@ Solid JobShapes::make_target(const Grid& grid, const Watch& watch) {
   return find_solid(place_mesh(mesh, job_.placement, grid), grid, watch);
 }
 
-const VoxelGrid& JobShapes::voxelize(const Grid& grid, const Watch& watch) {
-  if (voxels_ && voxels_->n() == grid.n) return *voxels_;
+VoxelGrid JobShapes::place(const Grid& grid, const Watch& watch) {
   VoxelSet stock = make_stock(grid, watch);
   Solid target = make_target(grid, watch);
-  voxels_ = {std::move(stock), std::move(target.inside), target.ambiguous};
-  for (std::size_t w = 0; w < voxels_->keep.words().size(); ++w) voxels_->keep.words()[w] &= voxels_->stock.words()[w];
+  VoxelGrid voxels{std::move(stock), std::move(target.inside), target.ambiguous};
+  for (std::size_t w = 0; w < voxels.keep.words().size(); ++w) voxels.keep.words()[w] &= voxels.stock.words()[w];
+  return voxels;
+}
+
+const VoxelGrid& JobShapes::voxelize(const Grid& grid, const Watch& watch) {
+  if (voxels_ && voxels_->n() == grid.n) return *voxels_;
+  for (const Clamping& clamping : job_.clampings) check_left(clamping.left, grid);
+  VoxelGrid voxels = place(grid, watch);
+  for (const Clamping& clamping : job_.clampings)
+    voxels = clamp_anew(voxels, read_binvox(clamping.left.bytes), read_turn(clamping.rotation_rad));
+  voxels_ = std::move(voxels);
   return *voxels_;
 }
 
@@ -133,6 +169,7 @@ Doubts find_doubts(const VoxelGrid& voxels, const Grid& grid) {
 JobSizes sizes_of(const Job& job) {
   JobSizes sizes{job.resolution, {job.mesh.bytes.size(), job.mesh.extension}, {}, job.cell.cell_json.size()};
   if (job.stock.mesh) sizes.stock = {job.stock.mesh->bytes.size(), job.stock.mesh->extension};
+  for (const Clamping& clamping : job.clampings) sizes.left_bytes += clamping.left.bytes.size();
   for (const auto& [name, bytes] : job.cell.files) sizes.cell_bytes += bytes.size();
   return sizes;
 }
@@ -140,7 +177,7 @@ JobSizes sizes_of(const Job& job) {
 std::uint64_t predict_memory(const JobSizes& sizes) {
   const double n = sizes.resolution;
   return static_cast<std::uint64_t>(bytes_a_voxel * n * n * n) + memory_a_cell_byte * sizes.cell_bytes +
-         predict_file_memory(sizes.mesh) + (sizes.stock ? predict_file_memory(*sizes.stock) : 0);
+         sizes.left_bytes + predict_file_memory(sizes.mesh) + (sizes.stock ? predict_file_memory(*sizes.stock) : 0);
 }
 
 void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes) {
@@ -162,8 +199,8 @@ CheckedJob check_job(const Job& job, const Watch& watch) {
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");
   check_reach(cell, grid);
-  const bool given_as_voxels =
-      job.mesh.extension == "binvox" || (job.stock.mesh && job.stock.mesh->extension == "binvox");
+  const bool given_as_voxels = job.mesh.extension == "binvox" || !job.clampings.empty() ||
+                               (job.stock.mesh && job.stock.mesh->extension == "binvox");
   JobShapes shapes(job);
   shapes.voxelize(given_as_voxels || job.resolution <= coarse_resolution ? grid : cell.grid(coarse_resolution), watch);
   return {std::move(cell), grid, std::move(shapes)};

@@ -24,6 +24,7 @@ struct JobSizes {
   File mesh;
   std::optional<File> stock;
   std::uint64_t cell_bytes = 0;  ///< of all files of the cell
+  std::uint64_t left_bytes = 0;  ///< of what the clampings before left
 };
 JobSizes sizes_of(const Job& job);
 
@@ -41,7 +42,8 @@ class JobShapes {
   explicit JobShapes(const Job& job) : job_(job) {}
 
   /// The labelled voxels of `grid`, which differs from call to call in nothing but its resolution; those made last are
-  /// kept. Throws InputError for files that are no shape, or none in this grid; Cancelled.
+  /// kept. Those of a job of several clampings are of the last one. Throws InputError for files that are no shape, or
+  /// none in this grid, and for clampings that do not fit; Cancelled.
   const VoxelGrid& voxelize(const Grid& grid, const Watch& watch);
   /// The same for the last time: what was read is given up.
   VoxelGrid take_voxels(const Grid& grid, const Watch& watch) &&;
@@ -49,6 +51,7 @@ class JobShapes {
  private:
   const Mesh& read(const MeshFile& file, std::optional<Mesh>& mesh, const Watch& watch) const;
   VoxelSet make_stock(const Grid& grid, const Watch& watch);
+  VoxelGrid place(const Grid& grid, const Watch& watch);
   Solid make_target(const Grid& grid, const Watch& watch);
 
   const Job& job_;
@@ -64,8 +67,8 @@ struct CheckedJob {
 };
 
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
-/// a solid at a coarse grid), predicted memory, stock within reach of the chain. Takes well under a second for usual
-/// meshes. `job` must outlive what it returns. Throws InputError, Cancelled.
+/// a solid at a coarse grid), clampings, predicted memory, stock within reach of the chain. Takes well under a second
+/// for usual meshes. `job` must outlive what it returns. Throws InputError, Cancelled.
 CheckedJob check_job(const Job& job, const Watch& watch);
 
 /// Mesh (or .binvox) to labelled voxels, of a job that needs no check: `voxelize` and `verify FILE`. Throws InputError,

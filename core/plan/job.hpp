@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/frame.hpp"
 #include "core/cell/cell.hpp"
@@ -28,6 +29,13 @@ struct Stock {
   std::optional<MeshFile> mesh;  ///< metres from the corner of voxel (0,0,0); or a .binvox of the same resolution
 };
 
+/// Another clamping of what the one before left.
+struct Clamping {
+  MeshFile left;                     ///< a .binvox of what stood at the end of the one before, in its grid
+  Vec3 rotation_rad = Vec3::Zero();  ///< of stock and target about the middle of the grid, as of a mesh by its
+                                     ///< placement, by quarter turns; then they are set down on the floor
+};
+
 struct Job {
   MeshFile mesh;
   CellFiles cell;
@@ -38,6 +46,8 @@ struct Job {
   bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do
   Placement placement;
   Stock stock;
+  std::vector<Clamping>
+      clampings;  ///< behind the first, which `placement` and `stock` are about; the last is this job's
   std::uint64_t memory_cap_bytes = 2ull << 30;
 };
 

@@ -76,6 +76,11 @@ std::string job_key(const Job& job) {
   }
   key.add(static_cast<std::uint64_t>(job.stock.mesh.has_value()));
   if (job.stock.mesh) key.add(*job.stock.mesh);
+  key.add(static_cast<std::uint64_t>(job.clampings.size()));
+  for (const Clamping& clamping : job.clampings) {
+    key.add(clamping.left);
+    key.add(clamping.rotation_rad);
+  }
   return key.hex();
 }
 

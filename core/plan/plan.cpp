@@ -178,6 +178,12 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
 
 }  // namespace
 
+VoxelSet find_left(const JobResult& result) {
+  VoxelSet left = result.voxels.keep;
+  for (const Residue& voxel : result.residue) left.insert(voxel.voxel);
+  return left;
+}
+
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
   return plan(job, trajectory, watch, form, {});
 }

@@ -21,6 +21,9 @@ struct JobResult {
   std::vector<Residue> residue;
 };
 
+/// What stands when the plan has been carried out: the target, and what was left.
+VoxelSet find_left(const JobResult& result);
+
 /// Plans, writing to `trajectory` what is final beside the planning, on a thread of its own (lines are flushed at least
 /// once per block or layer), then verifies the written file. Before anything is planned `watch` is told how much of the
 /// target hangs on nothing. Throws InputError (refused) or Cancelled; a plan with residue is a result, not an error.

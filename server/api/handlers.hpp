@@ -45,6 +45,7 @@ struct SubmitGroup {
   const Config& config;
   JobStore& store;
   Blobs& blobs;
+  const Artifacts& artifacts;  ///< of jobs that are continued
   Scheduler& scheduler;
   const Planner& planner;
   JobDefaults defaults;

@@ -2,6 +2,8 @@
 
 #include "server/api/handlers.hpp"
 #include "server/base/crash_point.hpp"
+#include "server/results/continuation.hpp"
+#include "server/run/inheritance.hpp"
 #include "server/run/isolated_check.hpp"
 
 namespace sculpt::server {
@@ -31,7 +33,11 @@ Answer store_job(const SubmitGroup& group, const Admission& admission) {
 bool prepare(const SubmitGroup& group, Admission& admission) {
   NewJob& job = admission.job;
   if (!job.key.empty() && group.store.find_key(job.key)) return true;
-  const proto::JobSpec& spec = admission.submit.spec;
+  proto::JobSpec& spec = admission.submit.spec;
+  if (spec.continued) {
+    job.inherited = inherit(*spec.continued, group.store, group.artifacts, group.blobs);
+    read_inherited(job.inherited, spec);
+  }
   if (job.cell_bundle.empty()) job.cell_bundle = store_cell(group.planner.read_cell(spec.robot), group.blobs);
   const JobSizes sizes = measure(spec, job.cell_bundle, group.blobs);
   check_sizes(sizes, group.defaults.memory_cap_bytes);
@@ -42,7 +48,8 @@ bool prepare(const SubmitGroup& group, Admission& admission) {
 
 void check(const SubmitGroup& group, const Admission& admission, const std::stop_token& stop) {
   if (group.passed.has(admission.check_key)) return;  // since it began to wait
-  check_in_child({admission.job.spec, admission.job.cell_bundle}, group.isolation, admission.check_time, stop);
+  const NewJob& job = admission.job;
+  check_in_child({job.spec, job.cell_bundle, {}, 0, job.inherited}, group.isolation, admission.check_time, stop);
   group.passed.add(admission.check_key);
 }
 

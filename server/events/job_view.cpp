@@ -36,6 +36,7 @@ Json job_view(const ViewSources& sources, const JobRecord& job) {
   if (!job.owner.empty()) view["owner"] = job.owner;
   view["priority"] = job.schedule.priority;
   view["mesh"] = spec.mesh.name;
+  if (spec.continued) view["continues"] = spec.continued->job;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);
   view["search"] = spec.search.value_or(name(Job{}.search));
   view["seed"] = spec.seed;

@@ -66,6 +66,7 @@ std::map<std::string, std::string> needed_blobs(JobStore& store, const Blobs& bl
       const proto::JobSpec spec = read_stored_spec(job);
       needed.emplace(spec.mesh.sha256, job.id);
       if (spec.stock_mesh) needed.emplace(spec.stock_mesh->sha256, job.id);
+      for (const proto::ClampingSpec& clamping : spec.clampings) needed.emplace(clamping.left, job.id);
       if (!needed.emplace(job.cell_bundle, job.id).second) continue;
       for (const std::string& file : bundle_files(blobs, job.cell_bundle)) needed.emplace(file, job.id);
     }

@@ -24,8 +24,8 @@ struct Kind {
 };
 
 constexpr std::array kinds{Kind{"trajectory", {"ndjson", "csv", "binary"}},
-                           Kind{"voxels", {"binvox", nullptr, nullptr}}, Kind{"residue", {"ndjson", nullptr, nullptr}},
-                           Kind{"report", {"json", nullptr, nullptr}}};
+                           Kind{"voxels", {"binvox", nullptr, nullptr}}, Kind{"stock", {"binvox", nullptr, nullptr}},
+                           Kind{"residue", {"ndjson", nullptr, nullptr}}, Kind{"report", {"json", nullptr, nullptr}}};
 
 std::string joined(const std::vector<std::string>& words) {
   std::string out;

@@ -92,6 +92,7 @@ std::set<std::string> Retention::needed_blobs() {
     const proto::JobSpec spec = read_stored_spec(job);
     needed.insert(spec.mesh.sha256);
     if (spec.stock_mesh) needed.insert(spec.stock_mesh->sha256);
+    for (const proto::ClampingSpec& clamping : spec.clampings) needed.insert(clamping.left);
     if (!needed.insert(job.cell_bundle).second) return;
     for (const auto& [reference, sha256] : proto::read_cell_bundle(blobs_.read(job.cell_bundle, "")).files)
       needed.insert(sha256);

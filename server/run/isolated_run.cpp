@@ -113,7 +113,7 @@ class Stopper {
 Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watch& watch) {
   prepare_job_folder(isolation.jobs / job.id);
   ChildProcess child(isolation.worker, run_job_option);
-  child.send(describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s}, isolation));
+  child.send(describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s, job.inherited}, isolation));
   Conversation heard;
   Stopper stopper(watch.stop, isolation.cancel_grace);
   for (bool open = true; open;) {

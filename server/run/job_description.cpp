@@ -33,6 +33,7 @@ std::string describe(const StoredSpec& stored, const Isolation& isolation) {
                             {"job", stored.job},
                             {"spec", stored.spec},
                             {"cell_bundle", stored.cell_bundle},
+                            {"inherited", stored.inherited},
                             {"time_s", stored.time_s},
                             {"blobs", isolation.blobs.string()},
                             {"jobs", isolation.jobs.string()},
@@ -51,6 +52,7 @@ std::optional<DescribedJob> take_description(std::istream& in) try {
   described.job.id = told.at("job");
   described.job.spec = told.at("spec");
   described.job.cell_bundle = told.at("cell_bundle");
+  described.job.inherited = told.at("inherited");
   described.time_s = told.at("time_s");
   described.defaults = {told.at("threads"), told.at("memory_cap_bytes")};
   return described;

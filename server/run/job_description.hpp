@@ -26,11 +26,12 @@ struct StoredSpec {
   std::string spec, cell_bundle;
   std::string job = {};     ///< its id, if it has one yet
   std::int64_t time_s = 0;  ///< each of its threads may compute so long; 0: no limit
+  std::string inherited = {};
 };
 std::string describe(const StoredSpec& stored, const Isolation& isolation);
 
 struct DescribedJob {
-  JobRecord job;  ///< id, spec and cell_bundle
+  JobRecord job;  ///< id, spec, cell_bundle and inherited
   std::int64_t time_s = 0;
   std::filesystem::path blobs, jobs;
   JobDefaults defaults;

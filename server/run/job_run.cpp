@@ -8,6 +8,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/run/inheritance.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -53,12 +54,14 @@ Ending run_in_folder(const JobRecord& record, const Job& job, const fs::path& fo
   crash_point(CrashPoint::trajectory_planned);
   Ending ending = judged(files);
   write_durably(folder / "voxels.binvox", files.voxels_binvox);
+  write_durably(folder / "stock.binvox", files.stock_binvox);
   write_durably(folder / "residue.ndjson", files.residue_ndjson);
   write_durably(folder / "report.json", finished_report(record, ending, files.report_json));
   sync_to_disk(trajectory);
   sync_to_disk(folder);
   crash_point(CrashPoint::artifacts_synced);
   ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
+                      stored(folder / "stock.binvox", "stock", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
                       stored(folder / "report.json", "report", "json")};
   remove_checkpoints(folder);
@@ -80,7 +83,9 @@ void prepare_job_folder(const fs::path& folder) {
 proto::JobSpec read_stored_spec(const JobRecord& job) {
   try {
     const Json json = proto::parse_json(job.spec);
-    return proto::read_job_spec(proto::Fields(json, "/params/spec"));
+    proto::JobSpec spec = proto::read_job_spec(proto::Fields(json, "/params/spec"));
+    if (!job.inherited.empty()) read_inherited(job.inherited, spec);
+    return spec;
   } catch (const std::runtime_error& error) {
     throw StorageError("the stored spec of job " + job.id + " cannot be read: " + error.what());
   }

@@ -19,6 +19,7 @@ PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
   files.report_json = report_json(result.report);
   files.residue_ndjson = residue_ndjson(result.residue);
   files.voxels_binvox = write_binvox(result.voxels.keep, result.grid);
+  files.stock_binvox = write_binvox(find_left(result), result.grid);
   files.clean = result.report.verify.clean;
   files.collisions = result.report.verify.collisions;
   if (!result.report.findings.empty()) files.first_finding = result.report.findings.front();

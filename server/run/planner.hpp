@@ -15,7 +15,8 @@ namespace sculpt::server {
 
 /// A finished plan, besides the trajectory file: the content of its other artifacts, and whether the replay was clean.
 struct PlanFiles {
-  std::string report_json, residue_ndjson, voxels_binvox;
+  std::string report_json, residue_ndjson;
+  std::string voxels_binvox, stock_binvox;  ///< the target, and what stands at the end
   bool clean = false;
   std::uint64_t collisions = 0;
   std::string first_finding;

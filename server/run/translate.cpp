@@ -10,7 +10,7 @@ Vec3 to_vector(const std::array<double, 3>& values) {
 }
 
 const std::string cell_pointer = "/params/spec/robot/cell/blob", mesh_pointer = "/params/spec/mesh",
-                  stock_pointer = "/params/spec/stock/mesh";
+                  stock_pointer = "/params/spec/stock/mesh", continue_pointer = "/params/spec/continue/job";
 
 std::string require_kind(const proto::BlobRef& ref, const std::string& pointer) {
   std::string kind = mesh_kind(ref.name);
@@ -69,6 +69,8 @@ JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, con
   sizes.mesh = measure(spec.mesh, blobs, mesh_pointer);
   if (spec.stock_mesh) sizes.stock = measure(*spec.stock_mesh, blobs, stock_pointer);
   sizes.cell_bytes = measure_cell(cell_bundle, blobs, cell_pointer);
+  for (const proto::ClampingSpec& clamping : spec.clampings)
+    sizes.left_bytes += blobs.size(clamping.left, continue_pointer);
   return sizes;
 }
 
@@ -88,6 +90,9 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
   job.placement.margin_m = spec.placement.margin_m;
   if (spec.stock_box) job.stock.box = Stock::Box{to_vector(spec.stock_box->min_m), to_vector(spec.stock_box->max_m)};
   if (spec.stock_mesh) job.stock.mesh = read_mesh(*spec.stock_mesh, blobs, stock_pointer);
+  for (const proto::ClampingSpec& clamping : spec.clampings)
+    job.clampings.push_back({{blobs.read(clamping.left, continue_pointer), "binvox", "what the job before left"},
+                             to_vector(clamping.rotation_rad)});
   job.memory_cap_bytes = defaults.memory_cap_bytes;
   return job;
 }

@@ -25,6 +25,7 @@ struct NewJob {
   std::string cell_bundle;         ///< hash of the bundle that was valid when the job was submitted
   std::uint64_t memory_bytes = 0;  ///< predicted
   std::string owner{};             ///< who submits it; empty: nobody has a name
+  std::string inherited{};         ///< from the job that it continues (inheritance.hpp); empty: it continues none
 };
 
 struct JobRecord {
@@ -35,6 +36,7 @@ struct JobRecord {
   Schedule schedule;
   std::string spec;
   std::string cell_bundle;
+  std::string inherited;
   std::uint64_t memory_bytes = 0;
   std::int64_t rank = 0;  ///< the lowest is next; see StoreRules::ageing_ms
   int attempt = 0;   ///< how often it was claimed; also the fence: a worker's writes count only under its own number

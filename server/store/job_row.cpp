@@ -6,7 +6,7 @@ namespace {
 constexpr const char* columns =
     "number, id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, memory_bytes, rank, "
     "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence, "
-    "pinned, owner";
+    "pinned, owner, inherited";
 
 Statement query(Database& database, const std::string& rest, const std::vector<std::string>& values) {
   Statement statement(database, std::string("SELECT ") + columns + " FROM job WHERE " + rest);
@@ -51,6 +51,7 @@ JobRow read_row(const Statement& row) {
   job.error_sentence = text();
   job.pinned = number() != 0;
   job.owner = text();
+  job.inherited = text();
   return read;
 }
 

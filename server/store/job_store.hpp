@@ -137,8 +137,8 @@ class JobStore {
   virtual const Histogram& commit_times() = 0;
 };
 
-/// Throws ProtocolError `not_found`, or `gone` for one that was removed.
-JobRecord find_job(JobStore& store, const std::string& job);
+/// Throws ProtocolError `not_found`, or `gone` for one that was removed, with the pointer of what names it.
+JobRecord find_job(JobStore& store, const std::string& job, const std::string& pointer = "/params/job");
 
 /// Throws StorageError (unreadable, no database, made by a newer version).
 std::unique_ptr<JobStore> open_sqlite_store(const std::filesystem::path& file, StoreRules rules = {});

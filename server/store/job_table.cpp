@@ -15,13 +15,14 @@ void describe(const JobRecord& job, Json& data) {
 JobRow JobTable::insert(const JobRecord& job) {
   Statement insert(database_,
                    "INSERT INTO job(id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, "
-                   "memory_bytes, rank, wake_at, submitted_at, owner) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+                   "memory_bytes, rank, wake_at, submitted_at, owner, inherited) "
+                   "VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   insert.bind(job.id).bind(name(job.state));
   job.key.empty() ? insert.bind_null() : insert.bind(job.key);
   insert.bind(job.schedule.priority).bind(job.schedule.not_before).bind(job.schedule.start_by);
   insert.bind(job.schedule.max_runtime_s).bind(job.spec).bind(job.cell_bundle);
   insert.bind(static_cast<std::int64_t>(job.memory_bytes)).bind(job.rank).bind(job.wake_at).bind(job.submitted_at);
-  insert.bind(job.owner).run();
+  insert.bind(job.owner).bind(job.inherited).run();
   JobRow row = *find(job.id);
   Json data{{"to", name(job.state)}, {"reason", "submitted"}};
   describe(job, data);

@@ -239,6 +239,7 @@ class SqliteStore : public JobStore {
     job.schedule = wanted.schedule;
     job.spec = wanted.spec;
     job.cell_bundle = wanted.cell_bundle;
+    job.inherited = wanted.inherited;
     job.memory_bytes = wanted.memory_bytes;
     job.rank = last_rank_ms_ - ageing() * wanted.schedule.priority;
     job.submitted_at = utc_text(now_ms);

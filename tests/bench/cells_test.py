@@ -1,110 +1,34 @@
 """bench/cells: its rows, its page, its limit of time, going on where it was stopped, and each fault that it must find."""
 
-import importlib.machinery
-import importlib.util
+import importlib
 import json
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
+from bench_kit import BenchTest
 from harness import PATIENCE_S, SCULPT, SOURCE, environment, shared_data
 
-PROGRAM = SOURCE / "bench/cells"
 
-# Stands in for `sculpt plan`: a report by its arguments, with the changes of the file CHANGES by "cell size threads" or
-# "cell threads". The changes "sleep" and "replay" take that many seconds, "refuse" prints its words and makes no plan.
-PLANNER = """#!{python}
-import json, pathlib, sys, time
-option = lambda name: sys.argv[sys.argv.index(name) + 1]
-size, threads, cell = int(option("--resolution")), int(option("--threads")), pathlib.Path(option("--robot")).stem
-calls = pathlib.Path({calls!r})
-with calls.open("a") as out:
-    out.write(f"{{pathlib.Path(sys.argv[2]).stem}} {{cell}} {{size}} {{threads}}\\n")
-run = calls.read_text().count(f" {{cell}} {{size}} {{threads}}\\n")
-pathlib.Path(option("-o")).write_bytes(b"x" * size)
-report = {{"voxels": {{"remove": 1000, "removed": 990, "residue": 10}}, "residue": [{{"reason": "enclosed", "voxels": 10}}], "threads": threads,
-          "path": {{"transits": 3}}, "quality": {{"moves_per_voxel": 1.25, "ompl_calls": 12, "ompl_solved": 9}}, "sweep": {{"cut": 985, "left": 5}},
-          "seconds": {{"plan": size / 64, "verify": 0.5}}, "peak_memory_bytes": 300 << 20,
-          "plan_sha256": cell + "-plan-of-any-number-of-threads", "verify": {{"clean": True, "collisions": 0}}}}
-changes = json.loads(pathlib.Path({changes!r}).read_text())
-for key in (f"{{cell}} {{threads}}", f"{{cell}} {{size}} {{threads}}", f"{{cell}} {{size}} {{threads}} {{run}}"):
-    for name, value in changes.get(key, {{}}).items():
-        if name == "replay":
-            print("plan 9/9\\nverify 0/9", file=sys.stderr, flush=True)
-        if name in ("sleep", "replay"):
-            time.sleep(value)
-        if name == "refuse":
-            sys.exit(f"sculpt: {{value}}")
-        report[name] = {{**report[name], **value}} if isinstance(value, dict) and value else value
-print(json.dumps(report))
-sys.exit(0 if report["verify"]["clean"] else 1)
-"""
+class CellsTest(BenchTest):
+    """Changes are by "cell threads", "cell size threads", or "cell size threads run" for one of several runs."""
 
-sys.path.insert(0, str(PROGRAM.parent))  # as Python does for the program itself
-
-
-def load_program():
-    loader = importlib.machinery.SourceFileLoader("cells", str(PROGRAM))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("cells", loader))
-    loader.exec_module(module)
-    return module
-
-
-class CellsTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
-        self.addCleanup(folder.cleanup)
-        self.scratch = pathlib.Path(folder.name)
-        self.out, self.calls, self.changes = self.scratch / "out", self.scratch / "calls", self.scratch / "changes"
-        self.program = self.scratch / "sculpt"
-        self.program.write_text(PLANNER.format(python=sys.executable, calls=str(self.calls), changes=str(self.changes)))
-        self.program.chmod(0o755)
-        self.change({})
-        self.shared = self.scratch / "shared"
-
-    def change(self, changes):
-        self.changes.write_text(json.dumps(changes))
-
-    def run_program(self, *options, program=None, shared=None):
-        command = [sys.executable, "-B", PROGRAM, "--sculpt", program or self.program, "--out", self.out, *options]
-        return subprocess.run([str(word) for word in command], env={**environment(), "SCULPT_SHARED_DATA": str(shared or self.shared)},
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE_S)
-
-    def fine(self, *options, **named):
-        result = self.run_program(*options, **named)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
-
-    def fault(self, words, *options):
-        result = self.run_program(*options)
-        self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn(words, result.stderr)
-        self.assertTrue(any(words in fault for fault in self.document()["faults"]))
-        self.assertIn(f"**Faults**\n\n- {self.document()['faults'][0]}\n", self.page())
-
-    def document(self):
-        return json.loads((self.out / "cells.json").read_text())
-
-    def page(self):
-        return (self.out / "cells.md").read_text()
-
-    def called(self):
-        return sorted(set(self.calls.read_text().splitlines()))
+    name = "cells"
+    what = 'pathlib.Path(option("--robot")).stem'
+    report = """"path": {"transits": 3}, "quality": {"moves_per_voxel": 1.25, "ompl_calls": 12, "ompl_solved": 9},
+          "sweep": {"cut": 985, "left": 5}, "seconds": {"plan": size / 64, "verify": 0.5}"""
+    keys = 'f"{what} {threads}", f"{what} {size} {threads}", f"{what} {size} {threads} {run}"'
 
 
 class Rows(CellsTest):
     def test_a_row_is_both_numbers_of_threads_and_takes_the_bust_where_david_is_not(self):
         self.fine("--rows", "scara:16")
         self.assertEqual(self.called(), ["bust scara 16 1", "bust scara 16 2"])
-        (self.shared / "meshes").mkdir(parents=True)
-        (self.shared / "meshes/david.stl").write_text("stands in for David")
+        self.add_david()
         self.fine("--rows", "rail:16")
         self.assertEqual(self.called()[2:], ["david rail 16 1", "david rail 16 2"])
 
     def test_what_is_chosen(self):
-        cells = load_program()
+        cells = self.load_program()
         some = {name: cells.CELLS[name] for name in ("ur10e", "ur10e-6mm", "scara")}
         self.assertEqual(cells.choose_rows(["all"], some), ["ur10e:16", "ur10e:32", "ur10e:64", "ur10e-6mm:16", "ur10e-6mm:32", "scara:16", "scara:32", "scara:64"])
         self.assertEqual(cells.choose_rows(["64", "ur10e-6mm"], some), ["ur10e:64", "ur10e-6mm:16", "ur10e-6mm:32", "scara:64"])
@@ -164,7 +88,7 @@ class ItsOwnCells(CellsTest):
                 self.assertGreater(voxels["removed"], 0.9 * voxels["remove"])
 
     def test_each_cell_of_the_folder_is_in_a_row(self):
-        cells = load_program().CELLS
+        cells = self.load_program().CELLS
         self.assertEqual({path.stem for path in (SOURCE / "bench/cells_data/cells").glob("*.json")}, {name for name, cell in cells.items() if "cells_data" in str(cell.path)})
 
     def test_the_panda_with_meshes_has_all_its_links_but_the_hand(self):
@@ -254,13 +178,6 @@ class Faults(CellsTest):
 
 
 class Refusals(CellsTest):
-    def refused(self, words, *options, **named):
-        result = self.run_program(*options, **named)
-        self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
-        self.assertRegex(result.stderr, r"\Abench/cells: .*\n\Z")
-        for word in words:
-            self.assertIn(word, result.stderr)
-
     def test_an_unknown_row_names_those_there_are(self):
         self.refused(["'scara:48'", "ur10e", "64"], "--rows", "scara:48")
         self.refused(["'ur10e-6mm:64'", "if the cell has that size"], "--rows", "ur10e-6mm:64")

@@ -1,94 +1,24 @@
 """bench/planner: its rows, its page, going on where it was stopped, and each fault that it must find."""
 
-import importlib.machinery
-import importlib.util
-import json
-import pathlib
-import subprocess
-import sys
-import tempfile
+import importlib
 import unittest
 
-from harness import PATIENCE_S, SCULPT, SOURCE, environment
-
-PROGRAM = SOURCE / "bench/planner"
-
-# Stands in for `sculpt plan`: a report by its arguments, with the changes of the file CHANGES, and a trajectory of as
-# many bytes as the size. Changes are by "search threads", or by "search threads run" for one of several runs.
-PLANNER = """#!{python}
-import json, pathlib, sys
-option = lambda name: sys.argv[sys.argv.index(name) + 1]
-size, threads, search = int(option("--resolution")), int(option("--threads")), option("--search")
-calls = pathlib.Path({calls!r})
-with calls.open("a") as out:
-    out.write(f"{{pathlib.Path(sys.argv[2]).stem}} {{search}} {{size}} {{threads}}\\n")
-run = calls.read_text().count(f" {{search}} {{size}} {{threads}}\\n")
-pathlib.Path(option("-o")).write_bytes(b"x" * size)
-plan = size / 16 * (200 if search == "octree" else 2 if threads == 1 else 1)
-report = {{"voxels": {{"remove": 1000, "removed": 990, "residue": 10}}, "residue": [{{"reason": "enclosed", "voxels": 10}}], "threads": threads,
-          "path": {{"keyframes": 50, "rows": 7, "transits": 3, "cut_m": 8.0, "travel_m": 2.0}},
-          "seconds": {{"load": 0, "voxelize": 0, "octree": 0, "plan": plan, "verify": 0}}, "peak_memory_bytes": 300 << 20,
-          "plan_sha256": search + "-plan-of-any-number-of-threads", "verify": {{"clean": True, "collisions": 0}}}}
-changes = json.loads(pathlib.Path({changes!r}).read_text())
-for key in (f"{{search}} {{threads}}", f"{{search}} {{threads}} {{run}}"):
-    for name, value in changes.get(key, {{}}).items():
-        report[name] = {{**report[name], **value}} if isinstance(value, dict) else value
-print(json.dumps(report))
-sys.exit(0 if report["verify"]["clean"] else 1)
-"""
-
-sys.path.insert(0, str(PROGRAM.parent))  # as Python does for the program itself
+from bench_kit import BenchTest
+from harness import SCULPT
 
 
-def load_program():
-    loader = importlib.machinery.SourceFileLoader("planner", str(PROGRAM))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("planner", loader))
-    loader.exec_module(module)
-    return module
+class PlannerTest(BenchTest):
+    """Changes are by "search threads", or by "search threads run" for one of several runs."""
 
+    name = "planner"
+    what = 'option("--search")'
+    report = """"path": {"keyframes": 50, "rows": 7, "transits": 3, "cut_m": 8.0, "travel_m": 2.0},
+          "seconds": {"load": 0, "voxelize": 0, "octree": 0, "plan": size / 16 * (200 if what == "octree" else 2 if threads == 1 else 1), "verify": 0}"""
+    keys = 'f"{what} {threads}", f"{what} {threads} {run}"'
 
-class PlannerTest(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="sculpt-test-")
-        self.addCleanup(folder.cleanup)
-        self.scratch = pathlib.Path(folder.name)
-        self.out, self.calls, self.changes = self.scratch / "out", self.scratch / "calls", self.scratch / "changes"
-        self.program = self.scratch / "sculpt"
-        self.program.write_text(PLANNER.format(python=sys.executable, calls=str(self.calls), changes=str(self.changes)))
-        self.program.chmod(0o755)
-        self.change({})
-        meshes = self.scratch / "shared/meshes"
-        meshes.mkdir(parents=True)
-        (meshes / "david.stl").write_text("stands in for David")
-
-    def change(self, changes):
-        self.changes.write_text(json.dumps(changes))
-
-    def run_program(self, *options, program=None):
-        command = [sys.executable, "-B", PROGRAM, "--sculpt", program or self.program, "--out", self.out, *options]
-        return subprocess.run([str(word) for word in command], env={**environment(), "SCULPT_SHARED_DATA": str(self.scratch / "shared")},
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE_S)
-
-    def fine(self, *options, **named):
-        result = self.run_program(*options, **named)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
-
-    def fault(self, words, *options):
-        result = self.run_program(*options)
-        self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn(words, result.stderr)
-        self.assertTrue(any(words in fault for fault in self.document()["faults"]))
-        self.assertIn(f"**Faults**\n\n- {self.document()['faults'][0]}\n", self.page())
-
-    def document(self):
-        return json.loads((self.out / "planner.json").read_text())
-
-    def page(self):
-        return (self.out / "planner.md").read_text()
-
-    def called(self):
-        return sorted(set(self.calls.read_text().splitlines()))
+        super().setUp()
+        self.add_david()
 
 
 class Rows(PlannerTest):
@@ -97,7 +27,7 @@ class Rows(PlannerTest):
         self.assertEqual(self.called(), ["bust octree 64 2", "bust sweep 128 1", "bust sweep 128 2", "bust sweep 64 1", "bust sweep 64 2"])
 
     def test_what_is_chosen(self):
-        planner = load_program()
+        planner = self.load_program()
         here = {mesh: path for mesh, path in planner.MESHES.items() if mesh != "bunny"}
         self.assertEqual(planner.choose_rows([], {"bust": 0, "dish": 0}), [f"{mesh}:{n}" for mesh in ("bust", "dish") for n in (16, 32, 64, 128)])
         self.assertEqual(planner.choose_rows(["256", "vase", "dish:64"], here), ["david:256", "bust:256", *(f"vase:{n}" for n in (16, 32, 64, 128, 256, 512)),
@@ -193,13 +123,6 @@ class Faults(PlannerTest):
 
 
 class Refusals(PlannerTest):
-    def refused(self, words, *options, **named):
-        result = self.run_program(*options, **named)
-        self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
-        self.assertRegex(result.stderr, r"\Abench/planner: .*\n\Z")
-        for word in words:
-            self.assertIn(word, result.stderr)
-
     def test_an_unknown_row_names_those_there_are(self):
         self.refused(["'bust:48'", "vase", "512"], "--rows", "bust:48")
         self.refused(["'head'"], "--rows", "head")

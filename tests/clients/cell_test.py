@@ -9,7 +9,7 @@ import unittest
 import zlib
 
 import shapes
-from harness import SCULPT, ClientTest, shared_data
+from harness import SCULPT, SCULPT_PY, ClientTest, DaemonTest, shared_data
 
 ARM = """<robot name="maker">
   <link name="base"><collision><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.1" length="0.2"/></geometry></collision></link>
@@ -49,17 +49,18 @@ def pixels(path):
     return width, height, zlib.decompress(packed)
 
 
-class Cell(ClientTest):
-    def copy_of_the_shipped_cell(self, **changes):
-        """The panda with its turntable, in a file of its own."""
-        config = pathlib.Path(os.environ["SCULPT_SOURCE"]) / "config"
-        cell = json.loads((config / "cells/panda-turntable.json").read_text())
-        cell["urdf"] = str(config / "robots/panda-turntable.urdf")
-        cell.update(changes)
-        path = self.scratch / "cell.json"
-        path.write_text(json.dumps(cell))
-        return path
+def copy_of_the_shipped_cell(folder, **changes):
+    """The panda with its turntable, in a file of its own."""
+    config = pathlib.Path(os.environ["SCULPT_SOURCE"]) / "config"
+    cell = json.loads((config / "cells/panda-turntable.json").read_text())
+    cell["urdf"] = str(config / "robots/panda-turntable.urdf")
+    cell.update(changes)
+    path = folder / "cell.json"
+    path.write_text(json.dumps(cell))
+    return path
 
+
+class Cell(ClientTest):
     def test_shipped_cells_are_ready(self):
         for name in ("panda-turntable", "gantry"):
             found = json.loads(self.fine("cell", name, "--json"))
@@ -70,7 +71,7 @@ class Cell(ClientTest):
             self.assertIn(word, text)
 
     def test_a_home_that_plan_refuses_is_found_with_one_that_it_takes(self):
-        cell = self.copy_of_the_shipped_cell(home={"joint2": 1.2})
+        cell = copy_of_the_shipped_cell(self.scratch, home={"joint2": 1.2})
         self.refused(4, "cell_invalid", "plan", shapes.write_stl(self.scratch / "m.stl", shapes.steps()), "--resolution", 8, "--robot", cell, "-o", "p.ndjson")
         done = self.run_client("cell", cell, "--json", "--picture", "home.png")
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -78,11 +79,11 @@ class Cell(ClientTest):
         self.assertEqual(found["faults"][0]["code"], "home_blocked")
         self.assertFalse(found["home"]["free"])
         self.assertEqual(pixels(self.scratch / "home.png")[:2], (1920, 640))
-        cell = self.copy_of_the_shipped_cell(home=found["better_home"])
+        cell = copy_of_the_shipped_cell(self.scratch, home=found["better_home"])
         self.assertIn("ready to plan with", self.fine("cell", cell))
 
     def test_what_cannot_be_read_is_a_fault_too(self):
-        cell = self.copy_of_the_shipped_cell(stock={"link": "nowhere", "size_m": 0.2, "origin_m": [0, 0, 0]})
+        cell = copy_of_the_shipped_cell(self.scratch, stock={"link": "nowhere", "size_m": 0.2, "origin_m": [0, 0, 0]})
         done = self.run_client("cell", cell)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, "cannot be planned with, 1 error\n(?s:.*)no link 'nowhere'")
@@ -142,6 +143,9 @@ class New(ClientTest):
         self.write_arm()
         done = self.with_xacro('#!/bin/sh\ncase "$ROS_PACKAGE_PATH" in *maker*) cat "$(dirname "$1")/arm.urdf";; *) echo lost >&2; exit 1;; esac\n')
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        # As ROS 2 looks for the package that the source lies in.
+        done = self.with_xacro('#!/bin/sh\np=${AMENT_PREFIX_PATH%%:*}\ntest -f $p/share/ament_index/resource_index/packages/maker && cat $p/share/maker/arm.urdf\n')
+        self.assertEqual(done.returncode, 0, done.stderr)
         done = self.with_xacro("#!/bin/sh\necho no such macro >&2\nexit 2\n")
         self.assertEqual((done.returncode, "xacro_failed" in done.stderr, "no such macro" in done.stderr), (2, True, True), done.stderr)
 
@@ -163,6 +167,44 @@ class New(ClientTest):
                 found = json.loads(self.fine("cell", "cell.json", "--json"))
                 self.assertTrue(found["plannable"])
                 self.assertGreater(found["reached"], 0.99)
+
+
+class RemoteCell(DaemonTest):
+    """The same from a server."""
+
+    def found(self, *options):
+        done = self.run_client("cell", *options)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        found = json.loads(done.stdout)
+        del found["seconds"]
+        return done.returncode, found
+
+    def test_a_server_finds_what_is_found_here(self):
+        broken = copy_of_the_shipped_cell(self.scratch, home={"joint2": 1.2})
+        for cell in ("gantry", "panda-turntable", broken):
+            here = self.found(cell, "--resolution", 16, "--json")
+            self.assertEqual(self.found(cell, "--resolution", 16, "--json", "--server", self.server), here)
+            self.client = SCULPT_PY
+            self.assertEqual(self.found(cell, "--resolution", 16, "--json"), here)
+            self.client = SCULPT
+        self.assertEqual(here[0], 1)
+        table = self.run_client("cell", broken, "--server", self.server).stdout
+        self.assertIn("cannot be planned with, 1 error", table)
+        self.assertIn("home: not free", table)
+        self.client = SCULPT_PY
+        self.assertIn("error: at home ", self.run_client("cell", broken).stdout)
+
+    def test_the_environment_alone_asks_no_server(self):
+        self.fine("cell", "gantry", "--resolution", 8, server="127.0.0.1:1")
+        self.refused(3, "unreachable", "cell", "gantry", "--server", "127.0.0.1:1")
+        self.refused(3, "unreachable", "--server", "127.0.0.1:1", "cell", "gantry")
+
+    def test_what_cannot_be_asked_is_refused(self):
+        self.refused(2, "usage", "cell", "gantry", "--server", self.server, "--picture", "home.png")
+        self.refused(4, "cell_unknown", "cell", "nosuch", "--server", self.server)
+        self.client = SCULPT_PY
+        self.refused(4, "cell_unknown", "cell", "nosuch")
+        self.refused(2, "file_missing", "cell", "./nosuch.json")
 
 
 if __name__ == "__main__":

@@ -105,6 +105,10 @@ class Place(ClientTest):
         self.place("--map", "map.svg")
         picture = xml.etree.ElementTree.parse(self.scratch / "map.svg")
         self.assertEqual(picture.getroot().tag, "{http://www.w3.org/2000/svg}svg")
+        words = [text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+        for said in ("as the cell stands", "the best", "z 0.100 m, block at 0.000 m, tool 0.270 m, turn 0°"):
+            self.assertIn(said, words)
+        self.assertIn("white", {text.get("fill") for text in picture.iter("{http://www.w3.org/2000/svg}text")}, "on the dark end of the scale")
 
     def test_what_makes_no_sense_is_refused(self):
         mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())

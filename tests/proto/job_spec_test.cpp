@@ -43,6 +43,8 @@ TEST(JobSpec, AFullSpecComesBackAsItWas) {
   EXPECT_EQ(write_json(to_json(read(full))), write_json(full));
   const Json mesh_stock = with("/stock", {{"mesh", {{"blob", hash}, {"name", "rest.binvox"}}}});
   EXPECT_EQ(write_json(to_json(read(mesh_stock))), write_json(mesh_stock));
+  const Json next = with("/continue", {{"job", "j"}, {"rotation_rad", {0.5, 0.0, 0.0}}});
+  EXPECT_EQ(write_json(to_json(read(next))), write_json(next));
 }
 
 TEST(JobSpec, SpellingOutDefaultsOrAnotherOrderGivesTheSameText) {
@@ -70,6 +72,14 @@ TEST(JobSpec, EveryFieldToBlameIsNamed) {
   EXPECT_EQ(pointer_of(with("/placement", {{"offset_m", {0, 0}}})), "/params/spec/placement/offset_m");
   EXPECT_EQ(pointer_of(with("/placement", {{"offset_m", {0, 0, "0"}}})), "/params/spec/placement/offset_m");
   EXPECT_EQ(pointer_of(with("/stock", Json::object())), "/params/spec/stock/box");
+  EXPECT_EQ(pointer_of(with("/continue", Json::object())), "/params/spec/continue/job");
+  EXPECT_EQ(pointer_of(with("/continue", {{"job", "j"}, {"rotation_rad", {0, 0}}})),
+            "/params/spec/continue/rotation_rad");
+  for (const char* field : {"placement", "stock"}) {
+    Json beside = with("/continue", {{"job", "j"}});
+    beside[field] = Json::object();
+    EXPECT_NE(pointer_of(beside), "accepted") << field;
+  }
   EXPECT_EQ(pointer_of(with("/stock", {{"box", {{"min_m", {0, 0, 0}}}}})), "/params/spec/stock/box/max_m");
 }
 

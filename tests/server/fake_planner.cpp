@@ -14,6 +14,8 @@
 #include <ostream>
 #include <thread>
 
+#include "proto/json.hpp"
+
 namespace sculpt::server {
 
 void Gate::open() {
@@ -51,6 +53,14 @@ std::string spy(const std::filesystem::path& trajectory) {
   return found.empty() ? "nothing" : found;
 }
 
+// Where its target stands in which stock.
+std::string seen(const Job& job) {
+  Json clampings = Json::array();
+  for (const Clamping& clamping : job.clampings) clampings.push_back(clamping.left.bytes);
+  return proto::write_json(
+      {{"margin_m", job.placement.margin_m}, {"box", job.stock.box.has_value()}, {"clampings", std::move(clampings)}});
+}
+
 }  // namespace
 
 PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajectory, const Watch& watch) {
@@ -80,9 +90,10 @@ PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajecto
   watch.step(Stage::verify, 2, 2);
   PlanFiles files;
   files.report_json = "{\"mesh\":\"" + job.mesh.name + "\",\"robot\":\"" + job.cell.name +
-                      "\",\"threads\":" + std::to_string(job.threads) + "}";
+                      "\",\"threads\":" + std::to_string(job.threads) + ",\"seen\":" + seen(job) + "}";
   files.residue_ndjson = "{\"voxel\":[0,0,0],\"reason\":\"enclosed\"}\n";
   files.voxels_binvox = "#binvox 1\n";
+  files.stock_binvox = "left of " + wish + " 1";
   files.clean = wish != "unclean";
   files.collisions = files.clean ? 0 : 3;
   if (!files.clean) files.first_finding = "tool touches keep";

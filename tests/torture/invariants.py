@@ -155,8 +155,9 @@ def check_acked(database, acked):
 
 def check_blobs(database, data):
     """What a job was submitted with is there as long as the job."""
-    for row in database.execute("SELECT id, cell_bundle, spec ->> '$.mesh.blob' AS mesh FROM job"):
-        for blob in (row["mesh"], row["cell_bundle"]):
+    for row in database.execute("SELECT id, cell_bundle, spec ->> '$.mesh.blob' AS mesh, inherited FROM job"):
+        left = [clamping["left"] for clamping in json.loads(row["inherited"] or "{}").get("clampings", [])]
+        for blob in (row["mesh"], row["cell_bundle"], *left):
             if not (data / "blobs" / blob[:2] / blob).is_file():
                 yield f"job {row['id']}: its blob {blob} is missing"
 

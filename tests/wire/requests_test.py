@@ -117,11 +117,13 @@ def with_fraction(moment):
 
 
 def breaks_a_rule_between_fields(request):
-    """What the schema does not say: a piece ends within its blob, a job may start before it must have, days are those of the calendar."""
+    """What the schema does not say: a piece ends within its blob, a job may start before it must have, days are those of the calendar, a job has the resolution of the one that it continues."""
     params = request.get("params", {})
     if request["method"] == "blob.put":
         return params["offset"] + params["bytes"] > params["size"]
     if request["method"] == "job.submit":
+        if "continue" in params["spec"] and params["spec"]["resolution"] != 8:
+            return True
         moments = [params[field] for field in ("not_before", "start_by") if field in params]
         return not all(map(exists, moments)) or (len(moments) == 2 and with_fraction(moments[0]) >= with_fraction(moments[1]))
     return False
@@ -140,6 +142,8 @@ class Requests(unittest.TestCase):
         with Client(self.daemon.address) as client:
             self.mesh = client.upload_file(shapes.write_stl(f"{folder.name}/mesh.stl", shapes.steps()))
             self.bundle = client.upload_cell(SOURCE / "config/cells/gantry.json")
+            self.done = client.call("job.submit", spec={"mesh": self.mesh, "robot": "gantry", "resolution": 8})["job"]
+            client.wait(self.done)
             self.job = client.call("job.submit", not_before="2100-01-31T12:00:00Z", spec={"mesh": self.mesh, "robot": "gantry", "resolution": 8})["job"]
 
     def samples(self):
@@ -159,6 +163,7 @@ class Requests(unittest.TestCase):
         yield "job.submit", {"key": "k", "priority": 1, **times, "max_runtime_s": 60, "spec": {
             **spec, "robot": "gantry", "placement": placement, "stock": {"box": {"min_m": [0, 0, 0], "max_m": [0.1, 0.1, 0.1]}}}}
         yield "job.submit", {**times, "spec": {**spec, "robot": self.bundle, "stock": {"mesh": self.mesh}}}
+        yield "job.submit", {**times, "spec": {**spec, "robot": "gantry", "continue": {"job": self.done, "rotation_rad": [0, 0, 0]}}}
         for method in ("get", "cancel", "pause", "resume", "retry", "report", "verify"):
             yield f"job.{method}", {"job": nobody}
         yield "job.list", {"order": "newest", "after": nobody, "before": nobody, "limit": 10}
@@ -166,7 +171,7 @@ class Requests(unittest.TestCase):
         yield "events.subscribe", {"job": nobody, "after": 1}
         yield "events.unsubscribe", {"job": nobody}
         yield "artifact.list", {"job": nobody}
-        for artifact, format in (("trajectory", "csv"), ("voxels", "binvox"), ("residue", "ndjson"), ("report", "json")):
+        for artifact, format in (("trajectory", "csv"), ("voxels", "binvox"), ("stock", "binvox"), ("residue", "ndjson"), ("report", "json")):
             yield "artifact.read", {"job": self.job, "artifact": artifact, "format": format, "offset": 0, "bytes": 8}
         yield "artifact.pin", {"job": nobody, "pinned": False}
 

@@ -1,6 +1,7 @@
 #include "clients/cli/cell/cell_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -25,148 +26,176 @@ double settled(double value) {
   return std::abs(value) < 5e-4 ? 0 : value;
 }
 
-std::string joint_value(JointKind kind, double value) {
-  return kind == JointKind::prismatic ? format("%.3f m", settled(value))
-                                      : format("%.1f deg", settled(value) * 180 / std::numbers::pi);
+std::string text_of(const Json& json, const char* field) {
+  return json.at(field).get<std::string>();
 }
 
-std::string size_text(const Vec3& size_m) {
-  return format("%.3g x %.3g x %.3g m", size_m.x(), size_m.y(), size_m.z());
+double number_of(const Json& json, const char* field) {
+  return json.at(field).get<double>();
 }
 
-template <typename All, typename Name>
-std::size_t widest(const All& all, const Name& name) {
+bool shifts(const Json& joint) {
+  return joint.at("kind") == "shifts";
+}
+
+std::string joint_value(const Json& joint, const char* field) {
+  const double value = settled(number_of(joint, field));
+  return shifts(joint) ? format("%.3f m", value) : format("%.1f deg", value * 180 / std::numbers::pi);
+}
+
+std::string size_text(const Json& size_m) {
+  return format("%.3g x %.3g x %.3g m", size_m.at(0).get<double>(), size_m.at(1).get<double>(),
+                size_m.at(2).get<double>());
+}
+
+std::size_t widest(const Json& all, const char* field) {
   std::size_t width = 0;
-  for (const auto& each : all) width = std::max(width, name(each).size());
+  for (const Json& each : all) width = std::max(width, text_of(each, field).size());
   return width + 2;
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined(const Json& names) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
   return text;
 }
 
-std::string chain_lines(const CellFindings& found) {
-  std::string text = format("chain: %zu joints from the stock on '%s' to the tool in '%s'\n", found.chain.size(),
-                            found.stock_link.c_str(), found.tool_link.c_str());
-  const std::size_t width = widest(found.chain, [](const JointFinding& joint) { return joint.name; });
-  for (const JointFinding& joint : found.chain) {
-    text += "  " + padded(joint.name, width) + (joint.kind == JointKind::prismatic ? "shifts  " : "turns   ") +
-            padded(joint_value(joint.kind, joint.lower) + " to " + joint_value(joint.kind, joint.upper), 26) + "home " +
-            joint_value(joint.kind, joint.home);
-    if (joint.carries_stock) text += ", carries the stock";
-    if (!joint.followers.empty()) text += ", followed by " + joined(joint.followers);
+std::string two(const Json& pair, const char* between) {
+  return pair.at(0).get<std::string>() + between + pair.at(1).get<std::string>();
+}
+
+std::string chain_lines(const Json& found) {
+  const Json& chain = found.at("chain");
+  std::string text = "chain: " + std::to_string(chain.size()) + " joints from the stock on '" +
+                     text_of(found, "stock_link") + "' to the tool in '" + text_of(found, "tool_link") + "'\n";
+  const std::size_t width = widest(chain, "name");
+  for (const Json& joint : chain) {
+    text += "  " + padded(text_of(joint, "name"), width) + (shifts(joint) ? "shifts  " : "turns   ") +
+            padded(joint_value(joint, "lower") + " to " + joint_value(joint, "upper"), 26) + "home " +
+            joint_value(joint, "home");
+    if (joint.at("carries") == "stock") text += ", carries the stock";
+    if (!joint.at("followers").empty()) text += ", followed by " + joined(joint.at("followers"));
     text += "\n";
   }
-  for (const IdleJoint& joint : found.idle_joints)
-    text += "  " + joint.name + " lies beside it and stays at " + joint_value(joint.kind, joint.at) + "\n";
+  for (const Json& joint : found.at("idle_joints"))
+    text += "  " + text_of(joint, "name") + " lies beside it and stays at " + joint_value(joint, "at") + "\n";
   return text;
 }
 
-std::string body_lines(const CellFindings& found) {
+std::string body_lines(const Json& found) {
   std::string text = "bodies\n";
-  const std::size_t width = widest(found.bodies, [](const BodyFinding& body) { return body.link; });
-  for (const BodyFinding& body : found.bodies) {
-    std::string what = format("%zu shape%s", body.shapes, body.shapes == 1 ? "" : "s");
-    if (body.facets > 0) what += format(", %zu facets", body.facets);
-    text += "  " + padded(body.link, width) + padded(what, 24) + padded(size_text(body.size_m), 26) +
-            (body.moved_by.empty() ? "stands still" : "moved by " + body.moved_by) + "\n";
+  const std::size_t width = widest(found.at("bodies"), "link");
+  for (const Json& body : found.at("bodies")) {
+    const auto shapes = body.at("shapes").get<std::size_t>(), facets = body.at("facets").get<std::size_t>();
+    std::string what = format("%zu shape%s", shapes, shapes == 1 ? "" : "s");
+    if (facets > 0) what += format(", %zu facets", facets);
+    const std::string moved_by = text_of(body, "moved_by");
+    text += "  " + padded(text_of(body, "link"), width) + padded(what, 24) + padded(size_text(body.at("size_m")), 26) +
+            (moved_by.empty() ? "stands still" : "moved by " + moved_by) + "\n";
   }
   return text;
 }
 
-std::string pair_lines(const CellFindings& found) {
+std::string pair_lines(const Json& found) {
+  const Json& unchecked = found.at("unchecked_links");
   std::string text = format("kept apart: %zu pairs of links, and all that moves from the stock; not kept apart%s\n",
-                            found.checked_pairs.size(), found.unchecked_pairs.empty() ? ": none" : "");
-  for (const PairFinding& pair : found.unchecked_pairs)
-    text += "  " + pair.first + ", " + pair.second + ": " + pair.why + "\n";
+                            found.at("checked_pairs").size(), unchecked.empty() ? ": none" : "");
+  for (const Json& pair : unchecked) text += "  " + two(pair.at("links"), ", ") + ": " + text_of(pair, "why") + "\n";
   return text;
 }
 
-std::string home_lines(const CellFindings& found) {
-  const HomeFinding& home = found.home;
-  const double above = home.ball_m.z() - found.stock_size_m;
-  std::string text = std::string("home: ") + (home.blocking.empty() ? "free" : "not free") +
-                     format("; tool axis %.2f, %.2f, %.2f%s\n", settled(home.axis.x()), settled(home.axis.y()),
-                            settled(home.axis.z()), home.axis.z() > 0.999 ? " (straight down)" : "") +
-                     format("  the ball is at %.3f, %.3f, %.3f m from the stock's corner, %.3f m %s its top\n",
-                            settled(home.ball_m.x()), settled(home.ball_m.y()), settled(home.ball_m.z()),
-                            std::abs(above), above < 0 ? "below" : "above");
-  for (const PairFinding& pair : home.blocking)
-    text += "  in the way: " + pair.first + " and " + pair.second + format(", %.1f mm apart\n", 1000 * pair.gap_m);
-  if (home.nearest)
-    text += "  nearest: " + home.nearest->first + " and " + home.nearest->second +
-            format(", %.1f mm apart\n", 1000 * home.nearest->gap_m);
+std::string gap_line(const char* what, const Json& near) {
+  return std::string("  ") + what + ": " + two(near.at("bodies"), " and ") +
+         format(", %.1f mm apart\n", 1000 * number_of(near, "gap_m"));
+}
+
+std::string home_lines(const Json& found) {
+  const Json& home = found.at("home");
+  const auto ball_m = home.at("ball_m").get<std::array<double, 3>>();
+  const auto axis = home.at("axis").get<std::array<double, 3>>();
+  const double above = ball_m[2] - number_of(found, "stock_size_m");
+  std::string text =
+      std::string("home: ") + (home.at("free").get<bool>() ? "free" : "not free") +
+      format("; tool axis %.2f, %.2f, %.2f%s\n", settled(axis[0]), settled(axis[1]), settled(axis[2]),
+             axis[2] > 0.999 ? " (straight down)" : "") +
+      format("  the ball is at %.3f, %.3f, %.3f m from the stock's corner, %.3f m %s its top\n", settled(ball_m[0]),
+             settled(ball_m[1]), settled(ball_m[2]), std::abs(above), above < 0 ? "below" : "above");
+  for (const Json& pair : home.at("blocking")) text += gap_line("in the way", pair);
+  if (home.contains("nearest")) text += gap_line("nearest", home.at("nearest"));
   return text;
 }
 
-std::string share_of(int places, const DirectionFinding& direction) {
-  return format("%4.0f %%", 100.0 * places / std::max(1, direction.places));
+std::string share_of(const Json& direction, const char* field) {
+  return format("%4.0f %%", 100 * number_of(direction, field) / std::max(1.0, number_of(direction, "places")));
 }
 
-std::string reach_lines(const CellFindings& found) {
-  if (found.directions.empty()) return "";
+std::string reach_lines(const Json& found) {
+  const Json& directions = found.at("directions");
+  if (directions.empty()) return "";
   std::string text = format(
       "reach, of %d places in the full stock (sampled; certified: the share that the sweep planner has postures for)\n"
       "  from    free   blocked  limits  too far  certified  most in the way\n",
-      found.directions.front().places);
-  for (const DirectionFinding& direction : found.directions) {
-    text += "  " + padded(direction.name, 6) + share_of(direction.free, direction) + "   " +
-            share_of(direction.blocked, direction) + "  " + share_of(direction.beyond_limits, direction) + "   " +
-            share_of(direction.out_of_reach, direction) + format("     %4.0f %%", 100 * direction.field);
-    if (!direction.blockers.empty())
-      text += "    " + direction.blockers.front().first.first + " and " + direction.blockers.front().first.second;
+      directions.at(0).at("places").get<int>());
+  for (const Json& direction : directions) {
+    text += "  " + padded(text_of(direction, "name"), 6) + share_of(direction, "free") + "   " +
+            share_of(direction, "blocked") + "  " + share_of(direction, "beyond_limits") + "   " +
+            share_of(direction, "out_of_reach") + format("     %4.0f %%", 100 * number_of(direction, "field"));
+    if (const Json& blockers = direction.at("blockers"); !blockers.empty())
+      text += "    " + two(blockers.at(0).at("bodies"), " and ");
     text += "\n";
   }
-  return text + format("  any  %5.1f %%\n", 100 * found.reached);
+  return text + format("  any  %5.1f %%\n", 100 * number_of(found, "reached"));
+}
+
+std::string tool_line(const Json& found) {
+  const Json& tool = found.at("tool");
+  return format("tool: %.3f m from '", number_of(tool, "stickout_m")) + text_of(found, "tool_link") +
+         format("' to the ball, %.3f m of it free; stock %.3f m; ball radius %.2f mm at %d^3\n",
+                number_of(tool, "free_m"), number_of(found, "stock_size_m"), 1000 * number_of(tool, "ball_radius_m"),
+                found.at("resolution").get<int>());
 }
 
 /// As a cell file writes it, four joints a line.
-std::string home_text(const JointValues& home) {
+std::string home_text(const Json& home) {
   constexpr int joints_a_line = 4;
   std::string text = "  \"home\": {";
   int joints = 0;
-  for (const auto& [joint, value] : home) {
+  for (const auto& [joint, value] : home.items()) {
     if (joints > 0) text += joints % joints_a_line == 0 ? ",\n           " : ", ";
-    text += "\"" + joint + "\": " + format("%.4f", value);
+    text += "\"" + joint + "\": " + format("%.4f", value.get<double>());
     ++joints;
   }
   return text + "}\n";
 }
 
-const char* word(Fault::Weight weight) {
-  return weight == Fault::Weight::error ? "error" : weight == Fault::Weight::warning ? "warning" : "note";
-}
-
 }  // namespace
 
-std::string fault_lines(const CellFindings& found) {
+std::string fault_lines(const Json& found) {
   std::string text;
-  for (const Fault& fault : found.faults)
-    text += std::string(word(fault.weight)) + ": " + fault.sentence + "\n  cure: " + fault.cure + "\n";
-  if (found.better_home) text += "a home that is free:\n" + home_text(*found.better_home);
+  for (const Json& fault : found.at("faults"))
+    text += text_of(fault, "weight") + ": " + text_of(fault, "sentence") + "\n  cure: " + text_of(fault, "cure") + "\n";
+  if (found.contains("better_home")) text += "a home that is free:\n" + home_text(found.at("better_home"));
   return text;
 }
 
-std::string cell_line(const CellFindings& found) {
-  const auto errors = std::count_if(found.faults.begin(), found.faults.end(),
-                                    [](const Fault& fault) { return fault.weight == Fault::Weight::error; });
-  return "cell " + found.name + ": " +
-         (found.plannable() ? "ready to plan with"
-                            : format("cannot be planned with, %zd error%s", errors, errors == 1 ? "" : "s")) +
+std::string cell_line(const Json& found) {
+  const auto errors =
+      std::ranges::count(found.at("faults"), "error", [](const Json& fault) { return text_of(fault, "weight"); });
+  return "cell " + text_of(found, "cell") + ": " +
+         (found.at("plannable").get<bool>()
+              ? "ready to plan with"
+              : format("cannot be planned with, %zd error%s", errors, errors == 1 ? "" : "s")) +
          "\n";
 }
 
-std::string cell_table(const CellFindings& found) {
+std::string cell_table(const Json& found) {
   std::string text = cell_line(found);
-  if (found.chain.empty()) return text + fault_lines(found);
-  text += chain_lines(found) + body_lines(found) + pair_lines(found) + home_lines(found) + reach_lines(found);
-  text += format("tool: %.3f m from '%s' to the ball, %.3f m of it free; stock %.3f m; ball radius %.2f mm at %d^3\n",
-                 found.stickout_m, found.tool_link.c_str(), found.free_length_m, found.stock_size_m,
-                 1000 * found.ball_radius_m, found.resolution);
-  text +=
-      format("time before a plan begins: %.2f s for the scene, %.2f s for the fields\n", found.scene_s, found.fields_s);
+  if (found.at("chain").empty()) return text + fault_lines(found);
+  text += chain_lines(found) + body_lines(found) + pair_lines(found) + home_lines(found) + reach_lines(found) +
+          tool_line(found);
+  const Json& seconds = found.at("seconds");
+  text += format("time before a plan begins: %.2f s for the scene, %.2f s for the fields\n",
+                 number_of(seconds, "scene"), number_of(seconds, "fields"));
   return text + fault_lines(found);
 }
 

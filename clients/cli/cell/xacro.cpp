@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <vector>
 
 #include "clients/cli/exit_code.hpp"
@@ -41,29 +42,80 @@ class Said {
   std::FILE* file_;
 };
 
-/// Of this process, with the folders in which `$(find PACKAGE)` should look first.
-std::vector<std::string> environment_with(const std::string& package_path) {
-  std::vector<std::string> environment;
-  const std::string name = "ROS_PACKAGE_PATH=";
-  std::string value = package_path;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string text = *entry;
-    if (text.starts_with(name))
-      value += (value.empty() ? "" : ":") + text.substr(name.size());
-    else
-      environment.push_back(text);
-  }
-  environment.push_back(name + value);
-  return environment;
+using Packages = std::map<std::string, fs::path>;
+
+/// The folders above the source, the nearest first.
+std::vector<fs::path> folders_above(const fs::path& path) {
+  std::vector<fs::path> folders;
+  fs::path above = fs::absolute(path).lexically_normal().parent_path();
+  for (int levels = 0; levels < 4 && above.has_relative_path(); ++levels, above = above.parent_path())
+    folders.push_back(above);
+  return folders;
 }
 
-std::string package_path(const fs::path& path, const std::map<std::string, fs::path>& packages) {
+/// What may be a package: those that are named, the folders above the source, and what lies beside these.
+Packages find_packages(const fs::path& path, const Packages& named) {
+  Packages packages;
+  for (const auto& [name, folder] : named) packages[name] = fs::absolute(folder).lexically_normal();
+  for (const fs::path& above : folders_above(path)) {
+    packages.emplace(above.filename(), above);
+    std::error_code unreadable;
+    for (const fs::directory_entry& beside : fs::directory_iterator(above, unreadable))
+      if (beside.is_directory(unreadable)) packages.emplace(beside.path().filename(), beside.path());
+  }
+  return packages;
+}
+
+/// Packages as ROS 2 finds them: a folder with an entry and a link for each. Gone with this object.
+class AmentPrefix {
+ public:
+  explicit AmentPrefix(const Packages& packages) {
+    std::string pattern = (fs::temp_directory_path() / "sculpt-xacro-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw Failure(exit_failed, "file_unwritable", "no temporary folder can be made in " + pattern);
+    folder_ = pattern;
+    const fs::path index = folder_ / "share/ament_index/resource_index/packages";
+    fs::create_directories(index);
+    for (const auto& [name, package] : packages) {
+      std::ofstream(index / name).flush();
+      fs::create_directory_symlink(package, folder_ / "share" / name);
+    }
+  }
+  ~AmentPrefix() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  AmentPrefix(const AmentPrefix&) = delete;
+  AmentPrefix& operator=(const AmentPrefix&) = delete;
+
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+/// For ROS 1: where it looks for packages.
+std::string package_path(const fs::path& path, const Packages& named) {
   std::string list;
   const auto add = [&](const fs::path& folder) { list += (list.empty() ? "" : ":") + folder.string(); };
-  for (const auto& [name, folder] : packages) add(fs::absolute(folder).lexically_normal());
-  fs::path above = fs::absolute(path).lexically_normal().parent_path();
-  for (int levels = 0; levels < 4 && above.has_relative_path(); ++levels, above = above.parent_path()) add(above);
+  for (const auto& [name, folder] : named) add(fs::absolute(folder).lexically_normal());
+  for (const fs::path& above : folders_above(path)) add(above);
   return list;
+}
+
+/// Of this process, with these lists of folders before what it has there.
+std::vector<std::string> environment_with(std::map<std::string, std::string> lists) {
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry, name = text.substr(0, text.find('='));
+    const auto list = lists.find(name);
+    if (list == lists.end())
+      environment.push_back(text);
+    else if (text.size() > name.size() + 1)
+      list->second += (list->second.empty() ? "" : ":") + text.substr(name.size() + 1);
+  }
+  for (const auto& [name, value] : lists) environment.push_back(name + "=" + value);
+  return environment;
 }
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -89,7 +141,10 @@ bool is_xacro(const fs::path& path, const std::string& text) {
 
 std::string run_xacro(const fs::path& path, const std::map<std::string, fs::path>& packages) {
   const Said out, wrong;
-  std::vector<std::string> words{"xacro", path.string()}, settings = environment_with(package_path(path, packages));
+  const AmentPrefix prefix(find_packages(path, packages));
+  std::vector<std::string> words{"xacro", path.string()};
+  std::vector<std::string> settings = environment_with(
+      {{"ROS_PACKAGE_PATH", package_path(path, packages)}, {"AMENT_PREFIX_PATH", prefix.folder().string()}});
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "clients/cli/cell/cell_table.hpp"
@@ -13,6 +14,7 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
+#include "clients/cli/uploads.hpp"
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
 #include "core/doctor/picture/draw_cell.hpp"
@@ -27,7 +29,7 @@ struct CellOptions {
   bool json = false;
 };
 
-CellFindings examine(const CellOptions& options) {
+CellFindings examine_here(const CellOptions& options) {
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
   const Watch watch{stop.get_token(), {}};
@@ -44,23 +46,40 @@ CellFindings examine(const CellOptions& options) {
   }
 }
 
-int run_cell(const CellOptions& options) {
+/// A name is the server's to resolve; a path is read here and sent.
+Json examine_there(const std::string& server, const CellOptions& options) {
+  if (!options.picture.empty())
+    throw Failure(exit_usage, "usage", "a picture is drawn here, not by a server: leave out --server or --picture");
+  std::optional<CellFiles> files;
+  if (is_cell_path(options.cell)) files = read_cell(options.cell);
+  client::Client client = connect(server);
+  const Json robot = files ? upload_cell(client, *files) : Json(options.cell);
+  return client.call("cell.check", {{"robot", robot}, {"resolution", options.resolution}});
+}
+
+int run_cell(const std::optional<std::string>& server, const CellOptions& options) {
   if (options.cell.empty())
     throw Failure(exit_usage, "usage", "name a cell, or `new` and a URDF (see sculpt cell --help)");
   check_resolution(options.resolution);
-  const CellFindings found = examine(options);
-  std::cout << (options.json ? findings_json(found) + "\n" : cell_table(found));
-  return found.plannable() ? exit_fine : exit_failed;
+  const Json found = server ? examine_there(*server, options) : proto::parse_json(findings_json(examine_here(options)));
+  std::cout << (options.json ? proto::write_json(found) + "\n" : cell_table(found));
+  return found.at("plannable").get<bool>() ? exit_fine : exit_failed;
 }
 
 }  // namespace
 
 void add_cell(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<CellOptions>();
-  CLI::App& command =
-      add_command(app, invocation, "cell", "Say what a cell is made of, what is wrong with it, and the cure", {});
-  command.final_callback([&command, &invocation, options] {
-    if (command.get_subcommands().empty()) invocation.run = [options] { return run_cell(*options); };
+  CLI::App& command = add_command(
+      app, invocation, "cell",
+      "Say what a cell is made of, what is wrong with it, and the cure: here, or with --server there, where "
+      "a name is one of the server's cells",
+      {});
+  command.final_callback([&app, &command, &invocation, options] {
+    if (!command.get_subcommands().empty()) return;
+    std::optional<std::string> server;
+    if (app.count("--server") + command.count("--server") > 0) server = invocation.server;
+    invocation.run = [server, options] { return run_cell(server, *options); };
   });
   command.require_subcommand(0, 1);
   command.add_option("cell", options->cell, "The cell: a name under config/cells, or the path of a cell file")

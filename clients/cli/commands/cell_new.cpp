@@ -12,6 +12,7 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "core/doctor/examine.hpp"
+#include "core/doctor/findings_json.hpp"
 
 namespace sculpt::cli {
 
@@ -78,11 +79,12 @@ int run_new(const NewCellOptions& options) {
   // Read back as everybody will.
   ExamineSettings quick;
   quick.fields = false;
-  const CellFindings found = examine_cell(draft_cell(read_cell_files(cell_file)), quick, {0, helpers, watch});
+  const CellFindings read = examine_cell(draft_cell(read_cell_files(cell_file)), quick, {0, helpers, watch});
+  const Json found = proto::parse_json(findings_json(read));
   std::cout << cell_file.string() << " and " << urdf_file.string() << " written\n";
   for (const std::string& remark : made.remarks) std::cout << "  " << remark << "\n";
   std::cout << cell_line(found) << fault_lines(found);
-  return found.plannable() ? exit_fine : exit_failed;
+  return read.plannable() ? exit_fine : exit_failed;
 }
 
 }  // namespace

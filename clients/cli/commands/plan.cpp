@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -19,7 +20,7 @@
 #include "clients/cli/report_table.hpp"
 #include "core/base/extension.hpp"
 #include "core/material/binvox.hpp"
-#include "core/material/cube_turn.hpp"
+#include "core/material/clamping.hpp"
 #include "core/trajectory/export.hpp"
 
 namespace sculpt::cli {
@@ -38,21 +39,19 @@ struct PlanOptions {
 std::optional<CubeTurn> read_turn_over(const PlanOptions& options) {
   if (options.turn_over_deg.empty()) return std::nullopt;
   const std::vector<double>& deg = options.turn_over_deg;
-  const auto turn = cube_turn({deg[0], deg[1], deg[2]});
+  const auto turn = cube_turn(Vec3(deg[0], deg[1], deg[2]) * (std::numbers::pi / 180));
   if (!turn)
     throw Failure(exit_usage, "usage", "--turn-over turns by quarters: give multiples of 90, for example 180,0,0");
   return turn;
 }
 
-/// What is left stands on the floor, turned, and the target is where it is in it.
+/// What the next clamping begins with.
 void write_turned_over(const JobResult& result, const CubeTurn& turn, const std::string& output) {
-  VoxelSet standing = result.voxels.keep;
-  for (const Residue& left : result.residue) standing.insert(left.voxel);
-  const VoxelSet stock = turn.of(standing), target = turn.of(result.voxels.keep);
-  const int down = lowest_layer(stock);
-  for (const auto& [name, voxels] : {std::pair(".target.binvox", &target), std::pair(".stock.binvox", &stock)}) {
+  const VoxelGrid next = clamp_anew(result.voxels, find_left(result), turn);
+  for (const auto& [name, voxels] :
+       {std::pair(".target.binvox", &next.keep), std::pair(".stock.binvox", &next.stock)}) {
     PartFile file(output + name);
-    file.stream() << write_binvox(lowered(*voxels, down), result.grid);
+    file.stream() << write_binvox(*voxels, result.grid);
     file.finish();
   }
 }

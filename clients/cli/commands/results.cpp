@@ -91,8 +91,9 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
   command.add_option("--format", options->format, "Form of the trajectory: ndjson (default), binary or csv")
       ->check(CLI::IsMember({"ndjson", "binary", "csv"}));
   command
-      .add_option("--artifact", options->artifact, "trajectory, voxels (.binvox), residue (ndjson) or report (json)")
-      ->check(CLI::IsMember({"trajectory", "voxels", "residue", "report"}))
+      .add_option("--artifact", options->artifact,
+                  "trajectory, voxels (.binvox), stock (what was left, .binvox), residue (ndjson) or report (json)")
+      ->check(CLI::IsMember({"trajectory", "voxels", "stock", "residue", "report"}))
       ->capture_default_str();
 }
 

@@ -8,7 +8,7 @@
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/job_end.hpp"
 #include "clients/cli/job_options.hpp"
-#include "proto/cell_bundle.hpp"
+#include "clients/cli/uploads.hpp"
 
 namespace sculpt::cli {
 
@@ -16,23 +16,13 @@ namespace {
 
 struct SubmitOptions {
   JobOptions job;
+  std::string continued;  ///< the job that left its stock; empty: none
   std::optional<int> priority;
   std::string key, not_before, start_by;
   std::optional<std::int64_t> max_runtime_s;
   bool wait = false;
   bool json = false;
 };
-
-Json upload_mesh(client::Client& client, const MeshFile& file) {
-  return {{"blob", client.upload(file.bytes)}, {"name", file.name}};
-}
-
-/// A name is the server's to resolve; a path is read here and sent, so that the server needs nothing of this disk.
-Json upload_cell(client::Client& client, const CellFiles& cell) {
-  proto::CellBundle bundle{cell.name, cell.cell_json, {}};
-  for (const auto& [reference, bytes] : cell.files) bundle.files[reference] = client.upload(bytes);
-  return {{"cell", {{"blob", client.upload(proto::write_cell_bundle(bundle))}}}};
-}
 
 Json triple(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
@@ -67,11 +57,21 @@ Json make_spec(client::Client& client, const JobOptions& options, const Inputs& 
   if (!options.search.empty()) spec["search"] = options.search;
   spec["seed"] = options.seed;
   if (options.allow_freed) spec["allow_freed"] = true;
-  spec["placement"] = placement_of(options.placement);
+  return spec;
+}
+
+/// Where the mesh stands in which stock.
+void add_placement(client::Client& client, const PlacementOptions& options, const Inputs& inputs, Json& spec) {
+  spec["placement"] = placement_of(options);
   if (inputs.stock.box)
     spec["stock"]["box"] = {{"min_m", triple(inputs.stock.box->min_m)}, {"max_m", triple(inputs.stock.box->max_m)}};
   if (inputs.stock.mesh) spec["stock"]["mesh"] = upload_mesh(client, *inputs.stock.mesh);
-  return spec;
+}
+
+/// The other job says all of it but how the block is turned.
+void add_continue(const SubmitOptions& options, Json& spec) {
+  spec["continue"] = {{"job", options.continued},
+                      {"rotation_rad", triple(to_placement(options.job.placement).rotation_rad)}};
 }
 
 int run_submit(const std::string& server, const SubmitOptions& options) {
@@ -83,7 +83,11 @@ int run_submit(const std::string& server, const SubmitOptions& options) {
   if (!options.not_before.empty()) params["not_before"] = options.not_before;
   if (!options.start_by.empty()) params["start_by"] = options.start_by;
   if (options.max_runtime_s) params["max_runtime_s"] = *options.max_runtime_s;
-  params["spec"] = make_spec(client, options.job, inputs);
+  Json& spec = params["spec"] = make_spec(client, options.job, inputs);
+  if (options.continued.empty())
+    add_placement(client, options.job.placement, inputs, spec);
+  else
+    add_continue(options, spec);
   Json reply = client.call("job.submit", params);
   const std::string job = reply.at("job");
 
@@ -107,6 +111,14 @@ void add_submit(CLI::App& app, Invocation& invocation) {
   CLI::App& command = add_command(app, invocation, "submit", "Send a mesh and queue a job; prints the job's id",
                                   [&invocation, options] { return run_submit(invocation.server, *options); });
   add_job_options(command, options->job);
+  CLI::Option* continued =
+      command
+          .add_option(
+              "--continue", options->continued,
+              "Carve on in what this job left, clamped another time: --rotate turns the block, by quarters; the "
+              "mesh stands in it as in that job")
+          ->type_name("JOB");
+  for (const char* placed : {"--scale", "--offset", "--margin", "--stock-box", "--stock"}) continued->excludes(placed);
   command
       .add_option("--priority", options->priority,
                   "Higher runs first, -100 to 100; a step is worth a minute of waiting")

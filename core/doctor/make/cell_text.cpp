@@ -42,6 +42,8 @@ std::string cell_text(const Cell& cell, const std::string& urdf, const std::map<
     const Joint& joint = cell.robot.joints[j];
     if (joint.kind != JointKind::fixed && joint.mimic < 0) json["home"][joint.name] = brief(cell.rest[j]);
   }
+  const auto link = [&](int number) { return cell.robot.links[static_cast<std::size_t>(number)].name; };
+  for (const auto& [first, second] : cell.ignore_pairs) json["ignore_pairs"].push_back({link(first), link(second)});
   return json.dump(2) + "\n";
 }
 

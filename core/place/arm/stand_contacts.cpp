@@ -4,23 +4,14 @@
 #include <memory>
 
 #include "core/cell/link_tree.hpp"
+#include "core/collision/body_pairs.hpp"
 #include "core/collision/clearance.hpp"
-#include "core/collision/link_pairs.hpp"
 #include "core/collision/margins.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr double touching_m = 1e-4;  // nearer to each other, things that stand still count as touching
-
-/// Of a body, what covers shapes of its link that are kept apart from some of another's.
-std::vector<std::size_t> first_shapes(const CheckedLinks& checked, bool of_first) {
-  std::vector<std::size_t> shapes;
-  for (const auto& [first, second] : checked.shapes) shapes.push_back(of_first ? first : second);
-  std::sort(shapes.begin(), shapes.end());
-  shapes.erase(std::unique(shapes.begin(), shapes.end()), shapes.end());
-  return shapes;
-}
 
 }  // namespace
 
@@ -51,30 +42,10 @@ StandContacts::StandContacts(const Cell& cell, int joint, const Grid& grid)
                                                  [&](const Body& body) { return body.link == link && !body.tool; }) -
                                     bodies_.begin());
   };
-  const auto part = [&](std::size_t body, const std::vector<std::size_t>& shapes, std::size_t all) {
-    if (shapes.size() == all) return body;
-    bodies_.push_back(part_of(bodies_[body], shapes));
-    return bodies_.size() - 1;
-  };
-  for (const CheckedLinks& checked : find_link_pairs(cell).checked) {
-    const std::size_t all_first = cell.robot.links[static_cast<std::size_t>(checked.links.first)].shapes.size();
-    const std::size_t all_second = cell.robot.links[static_cast<std::size_t>(checked.links.second)].shapes.size();
-    const double margin_m = std::min(link_margin_m, checked.gap_m / 2);
-    // All shapes of one against those of the other that are kept apart from them: one by one where they differ.
-    const std::vector<std::size_t> firsts = first_shapes(checked, true), seconds = first_shapes(checked, false);
-    if (checked.shapes.size() == firsts.size() * seconds.size()) {
-      const std::size_t first = part(body_of(checked.links.first), firsts, all_first);
-      pairs_.push_back({first, part(body_of(checked.links.second), seconds, all_second), margin_m, {}});
-      continue;
-    }
-    for (const std::size_t shape : firsts) {
-      std::vector<std::size_t> partners;
-      for (const auto& [one, other] : checked.shapes)
-        if (one == shape) partners.push_back(other);
-      const std::size_t first = part(body_of(checked.links.first), {shape}, all_first);
-      pairs_.push_back({first, part(body_of(checked.links.second), partners, all_second), margin_m, {}});
-    }
-  }
+  for (const CheckedLinks& checked : find_link_pairs(cell).checked)
+    for (const auto& [first, second, margin_m] :
+         pair_bodies(bodies_, body_of(checked.links.first), body_of(checked.links.second), checked))
+      pairs_.push_back({first, second, margin_m, {}});
   find_cells(cell, joint);
   find_standing(cell, joint, grid, whole);
 }

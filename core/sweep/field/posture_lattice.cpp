@@ -16,8 +16,13 @@ constexpr double max_midpoint_deviation = 0.02;  // rad or m: of a node from the
 constexpr int node_steps = 3;                    // from one node to the next
 constexpr int between_steps = 2;                 // from what is interpolated between them
 constexpr double close_m = 1e-6;
+constexpr double along_m = 1e-3;      // of a point high up on the tool: there are chains that cannot hold its direction
 constexpr double headroom_cells = 2;  // beyond the grid, on the sides that the axis leans to: where the tool comes in
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+
+bool is_solved(const PostureBatch& batch, std::size_t lane) {
+  return batch.ball_off_m[lane] < close_m && batch.top_off_m[lane] < along_m;
+}
 
 }  // namespace
 
@@ -98,7 +103,7 @@ void PostureLattice::spread(std::deque<Visit> queue, int stride, const Watch& wa
       const auto& [node, guess] = visits[at];
       const int lane = static_cast<int>(at);
       std::optional<Configuration> q;
-      if (batch.ball_off_m[at] < close_m) {
+      if (is_solved(batch, at)) {
         q = batch.q.get(lane, chain_.dof());
       } else {  // it keeps off joint limits
         q = solve_ik(chain_, {ball_m(corner_cell(node * parts)), view_.axis()}, guess);
@@ -169,7 +174,7 @@ std::vector<Configuration> PostureLattice::find_corners(Voxel lowest, int size) 
   if (size < parts) {
     lanes_.solve(between, between_steps);
     for (int lane = 0; lane < 8; ++lane) {
-      if (!(between.ball_off_m[static_cast<std::size_t>(lane)] < close_m)) return {};
+      if (!is_solved(between, static_cast<std::size_t>(lane))) return {};
       corners[static_cast<std::size_t>(lane)] = between.q.get(lane, chain_.dof());
     }
   }

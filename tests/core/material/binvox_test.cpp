@@ -49,6 +49,13 @@ TEST(Binvox, HeaderSaysWhereTheGridIs) {
   EXPECT_NE(bytes.find("\nscale 0.25\ndata\n"), std::string::npos) << bytes.substr(0, 90);
 }
 
+TEST(Binvox, HeaderMaySayHowLargeTheGridIs) {
+  const BinvoxHeader header = read_binvox_header(write_binvox(VoxelSet(16), grid_of(16)));
+  EXPECT_EQ(header.n, 16);
+  EXPECT_EQ(header.size_m, 0.25);
+  EXPECT_EQ(read_binvox_header("#binvox 1\ndim 8 8 8\ndata\n").size_m, std::nullopt);
+}
+
 TEST(Binvox, LinesMayEndInCarriageReturnAndComeInAnyOrder) {
   const std::string bytes = "#binvox 1\r\nscale 1\r\ndim 8 8 8\r\ndata\r\n" + empty_data();
   EXPECT_EQ(read_binvox(bytes).size(), 0u);

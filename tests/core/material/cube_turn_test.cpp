@@ -18,7 +18,7 @@ TEST(CubeTurn, IsTheTurnOfAMeshByTheSameAngles) {
             (Eigen::AngleAxisd(rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rad.y(), Vec3::UnitY()) *
              Eigen::AngleAxisd(rad.x(), Vec3::UnitX()))
                 .toRotationMatrix();
-        const auto turn = cube_turn({roll, pitch, yaw});
+        const auto turn = cube_turn(rad);
         ASSERT_TRUE(turn);
         for (int axis = 0; axis < 3; ++axis) {
           const Voxel to = turn->axes[static_cast<std::size_t>(axis)];
@@ -28,23 +28,24 @@ TEST(CubeTurn, IsTheTurnOfAMeshByTheSameAngles) {
 }
 
 TEST(CubeTurn, OnlyQuartersAreOne) {
-  EXPECT_FALSE(cube_turn({45, 0, 0}));
-  EXPECT_FALSE(cube_turn({0, 1e-9, 0}));
+  EXPECT_FALSE(cube_turn({std::numbers::pi / 4, 0, 0}));
+  EXPECT_FALSE(cube_turn({0, 1e-5, 0}));
+  EXPECT_TRUE(cube_turn({0, 1e-9, 1.5707963})) << "a quarter as somebody writes it";
   EXPECT_FALSE(cube_turn({0, 0, std::numeric_limits<double>::quiet_NaN()}));
 }
 
 TEST(CubeTurn, FourQuartersAreNone) {
   VoxelSet set(n);
   for (const Voxel v : {Voxel{0, 1, 2}, Voxel{7, 7, 0}, Voxel{3, 4, 6}}) set.insert(v);
-  for (const Vec3& quarter : {Vec3(90, 0, 0), Vec3(0, 90, 0), Vec3(0, 0, 90)}) {
+  for (const Vec3& quarter : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
     VoxelSet turned = set;
     for (int time = 0; time < 4; ++time) {
-      turned = cube_turn(quarter)->of(turned);
+      turned = cube_turn(quarter * (std::numbers::pi / 2))->of(turned);
       EXPECT_EQ(turned.size(), set.size());
     }
     EXPECT_EQ(turned, set);
   }
-  EXPECT_EQ(cube_turn({180, 0, 0})->of(Voxel{1, 2, 3}, n), (Voxel{1, n - 3, n - 4}));
+  EXPECT_EQ(cube_turn({std::numbers::pi, 0, 0})->of(Voxel{1, 2, 3}, n), (Voxel{1, n - 3, n - 4}));
 }
 
 TEST(CubeTurn, WhatIsLoweredStandsOnTheFloor) {

@@ -241,5 +241,45 @@ TEST(StandStudy, TheEstimateIsNearToWhatIsCertified) {
   }
 }
 
+Cell bench_cell(const std::string& name) {
+  return parse_cell(read_cell_files(SOURCE_DIR "/bench/cells_data/cells/" + name + ".json"));
+}
+
+/// Voxels to be removed with nothing that is kept above them.
+std::uint64_t count_open_to_the_sky(const VoxelGrid& voxels) {
+  std::uint64_t open = 0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      for (int k = n - 1; k >= 0 && voxels.label({i, j, k}) == Label::remove; --k) ++open;
+  return open;
+}
+
+// Postures for other directions than its own were said to be certified.
+TEST(StandStudy, AScaraReachesWhatIsOpenToTheSkyAndNothingElse) {
+  const Cell cell = bench_cell("scara");
+  const int joint = find_moved_joint(cell, Moved::table);
+  const VoxelGrid voxels = ball();
+  const ArmReach reach = make_study(cell, joint).find(stand_of(cell, joint));
+  const Share estimate = find_share(find_demand(voxels, {no_turn}, Access::along_views, run), {&reach});
+  EXPECT_EQ(estimate.held, count_open_to_the_sky(voxels));
+  EXPECT_EQ(certify_stand(cell, voxels, run).held, count_open_to_the_sky(voxels));
+}
+
+TEST(StandStudy, ARobotAtTheCeilingIsLookedAtLikeAnyOther) {
+  const Cell cell = bench_cell("iiwa-ceiling");
+  const VoxelGrid voxels = ball();
+  const Demand demand = find_demand(voxels, {no_turn}, Access::along_views, run);
+  for (const Moved moved : {Moved::table, Moved::base}) {
+    const int joint = find_moved_joint(cell, moved);
+    Stand stand = stand_of(cell, joint);
+    const ArmReach reach = make_study(cell, joint).find(stand);
+    EXPECT_TRUE(reach.home_is_free);
+    EXPECT_NEAR(find_share(demand, {&reach}).of_removable(), certify_stand(cell, voxels, run).of_removable(), 0.05);
+    stand.at_m = moved == Moved::base ? Vec3(0.5, 0, 0.3) : Vec3(0, 0, 1.2);  // each where the other is
+    const ArmReach jammed = make_study(cell, joint).find(stand);
+    EXPECT_EQ(find_share(demand, {&jammed}).held, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace sculpt

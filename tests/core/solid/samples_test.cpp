@@ -22,7 +22,7 @@ VoxelGrid sample(const std::string& name, int n) {
 }
 
 TEST(Samples, EachIsASolidOnTheFloorWithNothingEnclosed) {
-  for (const char* name : {"bust.stl", "vase.stl", "dish.stl"})
+  for (const char* name : {"bust.stl", "vase.stl", "dish.stl", "bell.stl"})
     for (int n : {16, 64}) {
       SCOPED_TRACE(std::string(name) + " at " + std::to_string(n));
       const VoxelGrid voxels = sample(name, n);

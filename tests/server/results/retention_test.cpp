@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "proto/cell_bundle.hpp"
+#include "server/run/inheritance.hpp"
 #include "tests/server/live_server.hpp"
 #include "tests/server/temp_folder.hpp"
 
@@ -128,6 +129,26 @@ TEST_F(RetentionTest, BlobsStayWhileAJobNeedsThemOrTheyWereJustUsed) {
   sweep(at_once);
   EXPECT_FALSE(blobs.state(meshes[0]).complete);
   EXPECT_FALSE(blobs.state(cell).complete);
+}
+
+TEST_F(RetentionTest, WhatAJobInheritedStaysAsLongAsTheJob) {
+  const std::string left = blobs.add("what another left");
+  proto::JobSpec spec;
+  spec.mesh = {blobs.add("mesh"), "a.stl"};
+  spec.robot = "gantry";
+  NewJob job;
+  job.inherited = inherited_text(spec, {left, {}});
+  spec.continued = proto::ContinueSpec{"j", {}};
+  job.spec = proto::write_json(to_json(spec));
+  job.cell_bundle = cell;
+  const std::string id = store->submit(job).job.id;
+  const RetentionRules at_once{std::chrono::hours(1), 1000, std::chrono::seconds(-1)};
+  sweep(at_once);
+  EXPECT_TRUE(blobs.state(left).complete);
+  store->cancel(id);
+  ASSERT_TRUE(store->remove(id));
+  sweep(at_once);
+  EXPECT_FALSE(blobs.state(left).complete);
 }
 
 TEST(Retention, ARemovedJobIsGoneAndAPinnedOneSaysSo) {

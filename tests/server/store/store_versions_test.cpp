@@ -84,6 +84,20 @@ TEST_F(StoreVersions, ADatabaseOfVersion3IsBroughtUpToDate) {
   EXPECT_EQ(store->last_event({}), 10u);
 }
 
+TEST_F(StoreVersions, ADatabaseOfVersion4IsBroughtUpToDate) {
+  load("store_version_4.sql");
+  for (int opened = 0; opened < 2; ++opened) {
+    reopen();
+    EXPECT_EQ(store->epoch(), "01M82FQJD15P426HDHGW3E8Q3B");
+    EXPECT_EQ(store->list({}).jobs.size(), 3u);
+  }
+  EXPECT_EQ(store->find_key("order 1")->inherited, "");
+  NewJob job;
+  job.spec = "{}";
+  job.inherited = "from another";
+  EXPECT_EQ(store->find(store->submit(job).job.id)->inherited, "from another");
+}
+
 TEST_F(StoreVersions, ADatabaseOfANewerVersionIsRefused) {
   store.reset();
   Database(file()).run("PRAGMA user_version=99");

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/collision/scene.hpp"
+#include "core/doctor/examine.hpp"
 #include "core/doctor/make/find_tool.hpp"
 #include "core/doctor/make/urdf_text.hpp"
 #include "tests/core/cell/sample_robots.hpp"
@@ -89,6 +92,49 @@ TEST(NewCell, AGripperInTheWayIsNamed) {
   const NewCell made = make({}, maker(makers_arm));
   const auto named = [](const std::string& remark) { return remark.find("'hand' hangs on") != std::string::npos; };
   EXPECT_TRUE(std::any_of(made.remarks.begin(), made.remarks.end(), named));
+}
+
+/// The arm with a bar beside its wrist, and before it two jaws that the bar is clear of near 0 only.
+std::string jawed_arm() {
+  std::string urdf = without_branch(makers_arm, "hand");
+  const auto put = [&](const std::string& text, const std::string& before) { urdf.insert(urdf.find(before), text); };
+  for (const char* z : {"0.06", "-0.06"})
+    put("<collision><origin xyz='0.14 0.1 " + std::string(z) +
+            "'/><geometry><box size='0.1 0.03 0.04'/></geometry></collision>",
+        "</link>\n  <joint name=\"j4\"");
+  const std::string bare = "<link name=\"l5\"/>";
+  urdf.replace(urdf.find(bare), bare.size(),
+               "<link name='l5'><collision><origin xyz='0.06 0.1 0'/><geometry><box size='0.1 0.03 0.03'/></geometry>"
+               "</collision></link>");
+  return urdf;
+}
+
+TEST(NewCell, NeighboursThatTouchAlongMostOfTheirTravelMayAndAreNamed) {
+  const NewCell made = make({}, maker(jawed_arm()));
+  EXPECT_TRUE(made.has_home);
+  const Cell cell = read_back(made);
+  const LinkPair jaws = std::minmax(cell.robot.find_link("l4"), cell.robot.find_link("l5"));
+  EXPECT_EQ(cell.ignore_pairs, std::vector{jaws});
+  const auto named = [](const std::string& remark) {
+    return remark.find("'l4' and 'l5' touch along ") != std::string::npos && remark.find("'j5'") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(made.remarks, named), 1);
+}
+
+TEST(NewCell, TheDoctorNamesNeighboursThatLeaveTheirJointLittleRoom) {
+  Cell cell = make({}, maker(jawed_arm())).cell;
+  cell.ignore_pairs.clear();
+  cell.rest[static_cast<std::size_t>(cell.robot.find_joint("j5"))] = 0;
+  const QuietRun run;
+  const CellFindings found = examine_cell({cell, {}}, {16, 3, false}, run.context());
+  const auto fault = std::ranges::find(found.faults, "wide_contact", &Fault::code);
+  ASSERT_NE(fault, found.faults.end());
+  EXPECT_NE(fault->sentence.find("'l4' and 'l5' touch along "), std::string::npos) << fault->sentence;
+  EXPECT_NE(fault->cure.find("[\"l4\", \"l5\"] to \"ignore_pairs\""), std::string::npos) << fault->cure;
+}
+
+TEST(NewCell, NeighboursWithRoomAreKeptApart) {
+  EXPECT_TRUE(make({}).cell.ignore_pairs.empty());
 }
 
 TEST(NewCell, LinksThatAreNotThereAreRefused) {

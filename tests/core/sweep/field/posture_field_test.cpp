@@ -53,6 +53,20 @@ TEST(PostureField, OfWhichNothingCanBeReachedTurnsNowhere) {
     for (const double by : {-1e-3, 0.0, 1e-3}) EXPECT_FALSE(field.can_turn(coordinate, by));
 }
 
+// It was grown from home, with the ball where it should be and the tool along another direction, and said to be usable.
+TEST(PostureField, OfADirectionThatTheChainCannotHoldIsUsableNowhere) {
+  const Cell scara = parse_cell(read_cell_files(SOURCE_DIR "/bench/cells_data/cells/scara.json"));
+  const Scene scene(scara, scara.grid(16), VoxelSet(16, true));
+  const Configuration home = scara.home(scene.chain());
+  EXPECT_EQ(make_field(scene, home, tool_views(16)[0]).usable_cells(), PostureField::all_cells());
+  std::vector<ToolView> views;
+  for (const ToolView& view : tool_views(16)) views.push_back(view);
+  for (const ToolView& view : tilted_views(16)) views.push_back(view);
+  for (std::size_t view = 1; view < views.size(); ++view)
+    for (const auto& field : find_fields(scene, views[view], home, {}, {view, 1, {}}))
+      EXPECT_EQ(field->usable_cells(), 0u) << views[view].axis().transpose();
+}
+
 TEST(PostureField, IsAsGoodForAGridThatNeedsMoreNodes) {
   const Cell& cell = PandaField::get().cell;
   const Grid grid = cell.grid(64);
