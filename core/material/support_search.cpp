@@ -7,8 +7,9 @@
 namespace sculpt {
 namespace {
 
-/// Voxels and cubes that a search looks at before the whole grid is flooded, a row of words at a time.
-constexpr std::size_t max_looked_at = 8192;
+/// Voxels and cubes that a search looks at before the whole grid is flooded, a row of words at a time: as many as cost
+/// about as much as that.
+constexpr std::size_t fewest_looked_at = 8192, voxels_flooded_for_one = 16384;
 constexpr int cube_edge = 8;
 
 }  // namespace
@@ -19,7 +20,8 @@ SupportSearch::SupportSearch(const VoxelSet& standing, const VoxelSet& may_fall,
       may_fall_(may_fall),
       rooted_(std::move(rooted)),
       gone_(gone),
-      edge_(std::min(cube_edge, standing.n())) {}
+      edge_(std::min(cube_edge, standing.n())),
+      max_looked_at_(std::max(fewest_looked_at, 64 * standing.words().size() / voxels_flooded_for_one)) {}
 
 SupportSearch::Way SupportSearch::follow(Voxel from, std::vector<Voxel>& others, bool any_held) {
   seen_.clear();
@@ -33,7 +35,7 @@ SupportSearch::Way SupportSearch::follow(Voxel from, std::vector<Voxel>& others,
     const Node node = open_.top();
     open_.pop();
     if (look_around(node) == Found::held) return Way::held;
-    if (seen_.size() + seen_cubes_.size() > max_looked_at) return Way::long_;
+    if (seen_.size() + seen_cubes_.size() > max_looked_at_) return Way::long_;
   }
   return foreseen_ ? Way::falls : Way::none;
 }

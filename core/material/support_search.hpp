@@ -52,6 +52,7 @@ class SupportSearch {
   std::function<int(int, int)> rooted_;
   Voxel gone_;
   int edge_;  ///< of a cube
+  std::size_t max_looked_at_;
   std::unordered_map<std::size_t, bool> whole_;
   std::unordered_set<std::size_t> seen_, seen_cubes_;
   std::priority_queue<Node> open_;

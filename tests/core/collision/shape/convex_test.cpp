@@ -28,12 +28,12 @@ TEST(Convex, ThePlaneOfASeparationLiesBetweenAllPointsOfTheTwo) {
       }
     }
   }
-  EXPECT_GT(apart, 1000);
+  EXPECT_GT(apart, cases(1000));
 }
 
 TEST(Convex, ShapesThatAreApartAreSeparatedByNearlyAllOfTheirDistance) {
   int compared = 0;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(3000u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Convex first = random_convex(random), second = random_convex(random);
