@@ -19,6 +19,7 @@ std::vector<std::pair<Shapes, Shapes>> group_shapes(const CheckedLinks& checked)
   std::map<Shapes, Shapes> alike;
   for (const auto& [first, seconds] : partners) alike[seconds].push_back(first);
   std::vector<std::pair<Shapes, Shapes>> groups;
+  groups.reserve(alike.size());
   for (const auto& [seconds, firsts] : alike) groups.emplace_back(firsts, seconds);
   return groups;
 }

@@ -112,8 +112,9 @@ std::vector<std::string> environment_with(std::map<std::string, std::string> lis
     if (list == lists.end())
       environment.push_back(text);
     else if (text.size() > name.size() + 1)
-      list->second += (list->second.empty() ? "" : ":") + text.substr(name.size() + 1);
+      list->second.append(list->second.empty() ? "" : ":").append(text, name.size() + 1);
   }
+  environment.reserve(environment.size() + lists.size());
   for (const auto& [name, value] : lists) environment.push_back(name + "=" + value);
   return environment;
 }
