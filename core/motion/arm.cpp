@@ -138,6 +138,7 @@ std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int e
     const std::size_t most = effort == 0 ? 3 : max_hubs;
     seeds.insert(seeds.end(), hubs.begin(), hubs.begin() + static_cast<std::ptrdiff_t>(std::min(most, hubs.size())));
   }
+  seeds.push_back(home_);
   seeds.insert(seeds.end(), known.begin(), known.end());
   return seeds;
 }
