@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "server/access/access.hpp"
+#include "server/access/tickets.hpp"
 #include "server/api/answers.hpp"
 #include "server/api/dispatcher.hpp"
 #include "server/base/config.hpp"
@@ -101,14 +102,15 @@ struct EventGroup {
 };
 Handlers event_handlers(const EventGroup& group);
 
-/// artifact.list, artifact.read, artifact.pin.
+/// artifact.list, artifact.read, artifact.link, artifact.pin.
 struct ArtifactGroup {
   const Answers& answers;
   JobStore& store;
   Artifacts& artifacts;
+  Tickets& tickets;
   TaskQueue& changes;
   TaskQueue& disk;
-  TaskQueue& exports;  ///< for csv and binary trajectories
+  TaskQueue& exports;  ///< for other forms than an artifact's own
 };
 Handlers artifact_handlers(const ArtifactGroup& group);
 
