@@ -117,7 +117,7 @@ struct Server::Impl {
          {server_handlers({answers, config, access, connections, *store, planner, workers, started}),
           blob_handlers({answers, blobs, disk}),
           submit_handlers({answers, config, *store, blobs, scheduler, planner, job_defaults(config), isolation,
-                           admission, checks, passed}),
+                           admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),

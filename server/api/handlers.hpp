@@ -53,6 +53,7 @@ struct SubmitGroup {
   TaskQueue& admission;  ///< for all but what takes long
   CheckDesk& checks;     ///< for that: the check of those that are not known to pass it
   PassedChecks& passed;
+  std::function<void(const std::string& job)> changed;  ///< tells everybody who waits for a change of its state
 };
 Handlers submit_handlers(const SubmitGroup& group);
 
