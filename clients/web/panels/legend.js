@@ -4,8 +4,8 @@ import {by_id, fill, make} from '../dom.js';
 import {RAMP, SIDES} from '../stock/material.js';
 
 const WORDS = {
-  plain: [['#9a8f80', 'raw stock'], ['#e9e2d4', 'cut surface'], ['#d1495b', 'residue']],
-  classes: [['#9a8f80', 'still to cut'], ['#e9e2d4', 'target'], ['#d1495b', 'residue']],
+  plain: [['#9a8f80', 'raw stock'], ['#e9e2d4', 'cut surface'], ['#d1495b', 'residue'], ['#ffb000', 'pointed out']],
+  classes: [['#9a8f80', 'still to cut'], ['#e9e2d4', 'target'], ['#d1495b', 'residue'], ['#ffb000', 'pointed out']],
   side: [...['\u2212x', '+x', '\u2212y', '+y', '\u2212z', '+z'].map((text, at) => [SIDES[at], text]), ['#9a8f80', 'raw stock']],
 };
 

@@ -204,7 +204,7 @@ export class View extends EventTarget {
     const target = new Vector3(...cell).addScalar(0.5).applyMatrix4(this.grid_frame.matrixWorld);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(direction, (this.size_m || 0.2) * 0.9);
+    this.camera.position.copy(target).addScaledVector(direction, (this.size_m || 0.2) * 2);
     this.controls.update();
     this.draw();
   }
