@@ -17,7 +17,7 @@ from harness import PATIENCE_S
 
 NAMES = "chromium", "chromium-browser", "google-chrome"
 FLAGS = ["--headless=new", "--remote-debugging-port=0", "--no-first-run", "--no-default-browser-check", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--disable-extensions", "--mute-audio", "--hide-scrollbars",
+         "--disable-component-update", "--disable-dev-shm-usage", "--disable-sync", "--disable-extensions", "--mute-audio", "--hide-scrollbars",
          # The picture is made by SwiftShader, the same everywhere.
          "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
