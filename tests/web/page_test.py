@@ -8,6 +8,7 @@ import tempfile
 import unittest
 import urllib.parse
 
+import rays
 import shapes
 from browser import Browser, find_chromium
 from harness import PATIENCE_S, SOURCE, Daemon, environment
@@ -81,6 +82,23 @@ class Finished(PageTest):
             self.assertEqual(page.app("app.stage.shown"), page.app("app.time.cut"))
         self.assertLess(page.bytes, 600_000)
         self.assert_well_behaved(page)
+
+    def test_more_voxels_than_are_drawn_go_as_blocks_with_their_last_voxel(self):
+        with sculpt.Client(self.daemon.address) as client:
+            lines = [json.loads(line) for line in b"".join(client.read_artifact(self.job)).splitlines()]
+        n, m = 32, 16
+        order, _ = rays.orders_of(lines, n)
+        blocks = [0] * m ** 3
+        for at, ordinal in enumerate(order):
+            i, j, k = at % n, at // n % n, at // (n * n)
+            block = i // 2 + m * (j // 2 + m * (k // 2))
+            blocks[block] = max(blocks[block], min(ordinal, 2**32 - 1))
+        page = self.open()
+        page.settled()
+        self.assertEqual(page.run(f"""import('/ui/plan/timeline.js').then(async ({{Timeline}}) => {{
+            const timeline = new Timeline({m}), bytes = new Uint8Array(await (await fetch('/v1/artifacts/{self.job}/timeline')).arrayBuffer());
+            for (let at = 0; at < bytes.length; at += 997) timeline.add(bytes.slice(at, at + 997), () => {{}});
+            return [...timeline.order]; }})"""), blocks)
 
     def test_the_robot_stands_where_the_trajectory_says(self):
         page = self.open()

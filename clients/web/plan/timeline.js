@@ -6,7 +6,7 @@ const AIR = 0, KEEP = 1, REMOVE = 2;
 const SEGMENT = 4096;
 const LINE_END = 10;
 export const NEVER = 0xffffffff;
-export const FINEST = 256;
+const FINEST = 256;
 
 /** A list of numbers that grows. */
 class Growing {
@@ -33,7 +33,9 @@ class Growing {
  * `order[cell]`: 0 = nothing was there, else it stands until so many voxels are cut, NEVER = as long as is known.
  */
 export class Timeline {
-  constructor() {
+  /** @param {number} [finest] cells along an edge, at most */
+  constructor(finest = FINEST) {
+    this.finest = finest;
     this.unread = new Uint8Array(0);
     /** @type {any} the header line, once it is there */
     this.header = null;
@@ -75,7 +77,7 @@ export class Timeline {
     this.header = JSON.parse(new TextDecoder().decode(numbers.bytes.subarray(0, end)));
     numbers.at = end + 1;
     this.n = this.header.resolution;
-    this.edge = Math.min(this.n, FINEST);
+    this.edge = Math.min(this.n, this.finest);
     this.block = this.n / this.edge;
     this.order = new Uint32Array(this.edge ** 3);
     this.label = new Uint8Array(this.edge ** 3);
