@@ -5,7 +5,7 @@ import json
 import unittest
 
 import rays
-from page_test import SAMPLES, PageTest
+from page_kit import SAMPLES, PageTest
 
 import sculpt
 
