@@ -144,6 +144,14 @@ ArtifactReadParams read_artifact_read(const Json& params) {
   return read;
 }
 
+ArtifactReadParams read_artifact_link(const Json& params) {
+  Fields fields = params_of(params);
+  ArtifactReadParams wanted{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
+  if (fields.has("format")) wanted.format = fields.text("format", max_text_bytes);
+  fields.done();
+  return wanted;
+}
+
 PinParams read_pin(const Json& params) {
   Fields fields = params_of(params);
   PinParams pin{fields.text("job", max_id_bytes), true};

@@ -77,6 +77,9 @@ struct ArtifactReadParams {
 };
 ArtifactReadParams read_artifact_read(const Json& params);
 
+/// artifact.link: the whole of a file.
+ArtifactReadParams read_artifact_link(const Json& params);
+
 struct PinParams {
   std::string job;
   bool pinned = true;

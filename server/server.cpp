@@ -117,11 +117,11 @@ struct Server::Impl {
          {server_handlers({answers, config, access, connections, *store, planner, workers, started}),
           blob_handlers({answers, blobs, disk}),
           submit_handlers({answers, config, *store, blobs, artifacts, scheduler, planner, job_defaults(config),
-                           isolation, admission, checks, passed}),
+                           isolation, admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
-          artifact_handlers({answers, *store, artifacts, changes, disk, exports})})
+          artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports})})
       all.merge(group);
     return all;
   }
@@ -211,6 +211,7 @@ struct Server::Impl {
   Waits waits;
   Retention retention;
   Access access{config};
+  Tickets tickets;
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};
@@ -218,7 +219,8 @@ struct Server::Impl {
   Answers answers{io, reads};
   Dispatcher dispatcher;
   ConnectionContext context{io, config, connections, counters, dispatcher};
-  HttpSources http{access, *store, artifacts, {*store, counters, workers, started}, reads, disk, exports};
+  HttpSources http{access, tickets, *store, blobs, artifacts, {*store, counters, workers, started},
+                   reads,  disk,    exports};
   Listener listener;
   std::optional<Listener> unix_listener;
   net::steady_timer timer{io};

@@ -458,6 +458,27 @@ class SctReader:
             yield {"type": "cut", "q": list(q), "voxels": voxels} if voxels else {"type": "move", "q": list(q)}
 
 
+# Timelines; docs/trajectory.md describes the bytes
+
+LABELS = "air", "keep", "remove"
+
+
+def read_timeline(data):
+    """(header, runs, cuts) of the tokens of a timeline, which may still grow: runs are (label, number of voxels), i changing fastest,
+    then j, then k; cuts are one entry a keyframe, [first, last] voxel or None where nothing is cut."""
+    head, _, body = data.partition(b"\n")
+    header, numbers = json.loads(head), varints(body)
+    runs, left = [], header["resolution"] ** 3
+    while left > 0:
+        length, label = divmod(next(numbers), len(LABELS))
+        runs.append((LABELS[label], length + 1))
+        left -= length + 1
+    cuts = []
+    while segment := read_tokens(numbers, 4096, header["resolution"], growing=True):
+        cuts += segment
+    return header, runs, cuts
+
+
 def varints(body):
     value = shift = 0
     for byte in body:
@@ -476,11 +497,13 @@ def signed(varint):
     return varint >> 1 ^ -(varint & 1)
 
 
-def read_tokens(numbers, count, resolution):
-    """First and last voxel of each cut, None of each move."""
+def read_tokens(numbers, count, resolution, growing=False):
+    """First and last voxel of each cut, None of each move. A growing list may have fewer."""
     end, direction, length, cuts = [0, 0, 0], 0, 1, []
     for _ in range(count):
-        token = next(numbers)
+        token = next(numbers, None) if growing else next(numbers)
+        if token is None:
+            break
         if token == 0:
             cuts.append(None)
             continue
@@ -673,7 +696,7 @@ def run_report(options):
 
 def run_fetch(options):
     form = {"format": options.format} if options.format else {}
-    grows = options.artifact == "trajectory" and options.format in (None, "ndjson")
+    grows = (options.artifact, options.format) in (("trajectory", None), ("trajectory", "ndjson"), ("timeline", None), ("timeline", "tokens"))
     with Client(options.server) as client:
         end = client.call("job.get", job=options.job) if grows else client.wait(options.job)
         if end["state"] in FINAL and not is_whole(end):
@@ -852,8 +875,10 @@ def parse_command_line(arguments):
     command("report", run_report, "the figures of a finished job")
     fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
-    fetch.add_argument("--format", choices=["ndjson", "binary", "csv"], help="form of the trajectory, default ndjson")
-    fetch.add_argument("--artifact", choices=["trajectory", "voxels", "stock", "residue", "report"], default="trajectory")
+    fetch.add_argument("--format", choices=["ndjson", "binary", "csv", "tokens", "gzip"],
+                       help="form of the trajectory, default ndjson, or of the timeline, default tokens")
+    fetch.add_argument("--artifact", choices=["trajectory", "timeline", "voxels", "stock", "residue", "report"],
+                       default="trajectory")
     command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
     cell = command("cell", run_cell, "let the server say what is wrong with a cell, and the cure; exit 0 only if it can be planned with", job=False)
     cell.add_argument("cell", metavar="CELL", help="name of a cell on the server, or a cell file here")

@@ -18,17 +18,21 @@ constexpr std::uint64_t bytes_between_starts = 8 << 20;
 }  // namespace
 
 Output::Output(const OutputTask& task, std::ios::openmode mode, bool lines, const Watch& watch)
-    : path_(task.path),
-      file_(task.path, std::ios::binary | mode),
+    : path_(task.place.trajectory),
+      file_(path_, std::ios::binary | mode),
       lines_(lines ? file_.rdbuf() : nullptr),
       text_(lines_, task.header),
       figures_(task.chain, task.header.grid, task.header.home),
       remove_(task.remove),
-      watch_(watch) {}
+      watch_(watch) {
+  if (task.place.timeline.empty()) return;
+  timeline_file_.open(task.place.timeline, std::ios::binary | std::ios::trunc);
+  timeline_.emplace(timeline_file_, task.header, task.voxels);
+}
 
-Output::Output(const OutputTask& task, TrajectoryForm form, const Watch& watch)
-    : Output(task, std::ios::trunc, form == TrajectoryForm::text, watch) {
-  if (form == TrajectoryForm::binary) binary_.emplace(file_, task.header);
+Output::Output(const OutputTask& task, const Watch& watch)
+    : Output(task, std::ios::trunc, task.place.form == TrajectoryForm::text, watch) {
+  if (task.place.form == TrajectoryForm::binary) binary_.emplace(file_, task.header);
   start_writing(task.threads);
 }
 
@@ -40,7 +44,7 @@ Output::Output(const OutputTask& task, const TrajectoryStart& start, const std::
   for (std::uint64_t at = 0; at < start.keyframes; ++at) {
     const Keyframe keyframe = reader.next().value();
     count(keyframe);
-    write({keyframe});
+    write(keyframe);
     visit(keyframe);
   }
   if (text_.so_far() != start) throw std::logic_error("a trajectory file is not what its checkpoint says");
@@ -52,8 +56,7 @@ Output::Output(const OutputTask& task, const TrajectoryStart& start, const std::
 }
 
 void Output::start_writing(int threads) {
-  file_.flush();
-  check();
+  send();
   if (threads > 1)
     beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); }, [this] { take_mark(); });
 }
@@ -101,8 +104,7 @@ TrajectoryEnd Output::finish() {
   if (beside_) beside_->finish();
   const TrajectoryEnd end = text_.finish();
   if (binary_) binary_->finish();
-  file_.flush();
-  check();
+  send();
   return end;
 }
 
@@ -113,13 +115,22 @@ void Output::hand_over(std::vector<Keyframe> batch) {
     write(batch);
 }
 
+void Output::write(const Keyframe& keyframe) {
+  text_.add(keyframe);
+  if (binary_) binary_->add(keyframe);
+  if (timeline_) timeline_->add(keyframe);
+  figures_.add(keyframe);
+}
+
 void Output::write(const std::vector<Keyframe>& batch) {
-  for (const Keyframe& keyframe : batch) {
-    text_.add(keyframe);
-    if (binary_) binary_->add(keyframe);
-    figures_.add(keyframe);
-  }
+  for (const Keyframe& keyframe : batch) write(keyframe);
+  send();
+}
+
+// What was written so far can be read in the files.
+void Output::send() {
   file_.flush();
+  if (timeline_) timeline_->flush();
   check();
 }
 
@@ -131,9 +142,9 @@ void Output::take_mark() {
 }
 
 void Output::check() const {
-  if (!file_ || (lines_.rdbuf() != nullptr && !lines_))
-    throw InputError("file_unwritable",
-                     "cannot write '" + path_.string() + "': check the folder, its rights and the free space");
+  if (!file_ || (lines_.rdbuf() != nullptr && !lines_) || (timeline_ && !timeline_file_))
+    throw InputError("file_unwritable", "cannot write '" + path_.string() +
+                                            "' or its timeline: check the folder, its rights and the free space");
 }
 
 }  // namespace sculpt

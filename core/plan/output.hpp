@@ -12,15 +12,24 @@
 #include "core/plan/path_figures.hpp"
 #include "core/trajectory/binary/binary.hpp"
 #include "core/trajectory/form.hpp"
+#include "core/trajectory/timeline.hpp"
 #include "core/trajectory/writer.hpp"
 
 namespace sculpt {
 
-/// Which trajectory is written where; it must outlive the call.
+/// The files of a run.
+struct OutputPlace {
+  std::filesystem::path trajectory;
+  TrajectoryForm form = TrajectoryForm::text;
+  std::filesystem::path timeline = {};  ///< empty: none
+};
+
+/// Which trajectory, of which voxels, is written where; it must outlive the call.
 struct OutputTask {
-  const std::filesystem::path& path;
+  const OutputPlace& place;
   const TrajectoryHeader& header;
   const Chain& chain;
+  const VoxelGrid& voxels;
   std::uint64_t remove = 0;  ///< voxels to come, for the watch
   int threads = 1;           ///< with more than one, writing is done on one of its own
 };
@@ -28,9 +37,9 @@ struct OutputTask {
 /// All calls from one thread. Throws InputError `file_unwritable`; what tells the watch, `add`, Cancelled too.
 class Output {
  public:
-  Output(const OutputTask& task, TrajectoryForm form, const Watch& watch);
+  Output(const OutputTask& task, const Watch& watch);
   /// Goes on with a file in the text form that begins with `start` and the same header: what follows is cut off, and
-  /// `visit` gets the keyframes that stay.
+  /// `visit` gets the keyframes that stay. The timeline is written anew.
   Output(const OutputTask& task, const TrajectoryStart& start, const std::function<void(const Keyframe&)>& visit,
          const Watch& watch);
 
@@ -54,7 +63,9 @@ class Output {
   void start_writing(int threads);
   void count(const Keyframe& keyframe);
   void hand_over(std::vector<Keyframe> batch);
+  void write(const Keyframe& keyframe);
   void write(const std::vector<Keyframe>& batch);
+  void send();
   void take_mark();
   void check() const;
 
@@ -63,6 +74,8 @@ class Output {
   std::ostream lines_;     ///< into the file, or nowhere
   TrajectoryWriter text_;  ///< makes the hash in either form
   std::optional<BinaryWriter> binary_;
+  std::ofstream timeline_file_;
+  std::optional<TimelineWriter> timeline_;
   PathFigures figures_;
   TrajectoryStart marked_;           ///< set where lines are written, read when that waits
   std::uint64_t started_bytes_ = 0;  ///< that the disk was told of

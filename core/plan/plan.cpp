@@ -51,9 +51,8 @@ TrajectoryHeader make_header(const Job& job, Search search, const Cell& cell, co
 }
 
 /// Goes on with the file where the checkpoint was; what an arm needs to know of it goes to `carved`.
-Output open_output(const OutputTask& task, TrajectoryForm form, const Checkpoint& at, Carved& carved,
-                   const Watch& watch) {
-  if (at.file.bytes == 0) return {task, form, watch};
+Output open_output(const OutputTask& task, const Checkpoint& at, Carved& carved, const Watch& watch) {
+  if (at.file.bytes == 0) return {task, watch};
   const bool is_needed = !task.chain.translating() && !at.residue;
   const std::uint64_t by_sweep = at.sweeping ? at.file.keyframes : at.swept ? at.swept->keyframes : 0;
   const auto visit = [&, swept = by_sweep](const Keyframe& keyframe) mutable {
@@ -130,8 +129,7 @@ const std::vector<Residue>& explain(const Scene& scene, const CarveTask& task, R
   return *log.now().residue;
 }
 
-JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Watch& told, TrajectoryForm form,
-               CheckpointFolder kept) {
+JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, CheckpointFolder kept) {
   const Stopwatch total;
   const Helpers helpers(job.threads);
   Watch watch = told;
@@ -151,8 +149,8 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
   const VoxelSet may_fall = find_unheld(result.voxels);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});
   Carved carved{result.voxels.stock, header.home, {}};
-  Output output =
-      open_output({trajectory, header, scene.chain(), report.voxels.remove, job.threads}, form, now, carved, watch);
+  const OutputTask written{place, header, scene.chain(), result.voxels, report.voxels.remove, job.threads};
+  Output output = open_output(written, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
     const CarveTask task{result.voxels, octree, may_fall, header, search};
@@ -165,7 +163,7 @@ JobResult plan(const Job& job, const std::filesystem::path& trajectory, const Wa
     report.seconds.plan = planning.seconds();
 
     const Stopwatch verifying;
-    count_replay(report, replay(trajectory, cell, result, log, watch));
+    count_replay(report, replay(place.trajectory, cell, result, log, watch));
     report.seconds.verify = verifying.seconds();
   } catch (const Cancelled&) {
     log.save_at_stop();
@@ -185,12 +183,13 @@ VoxelSet find_left(const JobResult& result) {
 }
 
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
-  return plan(job, trajectory, watch, form, {});
+  return plan(job, {trajectory, form}, watch, {});
 }
 
 JobResult resume_job(const Job& job, const std::filesystem::path& trajectory, const CheckpointPlace& place,
                      const Watch& watch) {
-  return plan(job, trajectory, watch, TrajectoryForm::text, {place.folder, trajectory, job_key(job), place.interval});
+  return plan(job, {trajectory, TrajectoryForm::text, place.timeline}, watch,
+              {place.folder, trajectory, job_key(job), place.interval});
 }
 
 }  // namespace sculpt

@@ -31,11 +31,12 @@ VoxelSet find_left(const JobResult& result);
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
                   TrajectoryForm form = TrajectoryForm::text);
 
-/// Where a run keeps checkpoints, and how old the last one is when the next is due, after the unit then in work. At a
-/// stop it keeps what units had finished, whatever the time.
+/// Where a run keeps checkpoints and its timeline, and how old the last one is when the next is due, after the unit
+/// then in work. At a stop it keeps what units had finished, whatever the time.
 struct CheckpointPlace {
   std::filesystem::path folder;
   std::chrono::duration<double> interval = std::chrono::seconds(5);
+  std::filesystem::path timeline = {};  ///< also written as it grows; empty: none
 };
 
 /// run_job in the text form that goes on where a run of the same job with the same place and trajectory file was

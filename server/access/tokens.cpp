@@ -1,7 +1,6 @@
 #include "server/access/tokens.hpp"
 
 #include <openssl/crypto.h>
-#include <openssl/rand.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "core/base/sha256.hpp"
 #include "proto/fields.hpp"
+#include "server/access/secret.hpp"
 #include "server/base/config.hpp"
 #include "server/files/durable.hpp"
 
@@ -21,20 +21,6 @@ constexpr std::array scopes{Scope::read, Scope::submit, Scope::admin};
 constexpr int secret_bytes = 32;
 constexpr int salt_bytes = 16;
 constexpr std::size_t max_name_bytes = 64;
-
-std::string random_hex(int bytes) {
-  std::string raw(static_cast<std::size_t>(bytes), '\0');
-  if (::RAND_bytes(reinterpret_cast<unsigned char*>(raw.data()), bytes) != 1) {
-    throw std::runtime_error("the system gives no random bytes for a token");
-  }
-  constexpr char digits[] = "0123456789abcdef";
-  std::string hex;
-  for (const char byte : raw) {
-    hex += digits[static_cast<unsigned char>(byte) >> 4];
-    hex += digits[static_cast<unsigned char>(byte) & 15];
-  }
-  return hex;
-}
 
 std::string salted_hash(const std::string& salt, const std::string& secret) {
   return sha256_hex(salt + secret);

@@ -1,5 +1,6 @@
 #include "proto/crc32.hpp"
 #include "server/api/handlers.hpp"
+#include "server/base/time_stamp.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -37,6 +38,26 @@ void on_artifact_pin(const ArtifactGroup& group, Call call) {
   });
 }
 
+// The ticket is made on the I/O thread, where it will be looked for.
+void on_artifact_link(const ArtifactGroup& group, Call call) {
+  const proto::ArtifactReadParams wanted = proto::read_artifact_link(call.params);
+  group.answers.read_then(
+      std::move(call),
+      [group, wanted] {
+        find_job(group.store, wanted.job);
+        return group.artifacts.file_name_of(wanted);
+      },
+      [group, wanted](const Call& known, const std::string& name) {
+        const std::string ticket =
+            group.tickets.issue(wanted.job, wanted.artifact, wanted.format, Tickets::Clock::now());
+        const auto end_ms = unix_ms() + std::chrono::duration_cast<std::chrono::milliseconds>(ticket_time).count();
+        answer(known, {{"job", wanted.job},
+                       {"artifact", wanted.artifact},
+                       {"path", links_path + ticket + "/" + name},
+                       {"expires_at", utc_text(end_ms)}});
+      });
+}
+
 void on_artifact_read(const ArtifactGroup& group, Call call) {
   const proto::ArtifactReadParams wanted = proto::read_artifact_read(call.params);
   call.session->hold();  // so that nobody else goes on with so_far
@@ -63,6 +84,7 @@ Handlers artifact_handlers(const ArtifactGroup& group) {
   return {
       {"artifact.list", [group](Call call) { on_artifact_list(group, std::move(call)); }},
       {"artifact.read", [group](Call call) { on_artifact_read(group, std::move(call)); }},
+      {"artifact.link", [group](Call call) { on_artifact_link(group, std::move(call)); }},
       {"artifact.pin", [group](Call call) { on_artifact_pin(group, std::move(call)); }},
   };
 }

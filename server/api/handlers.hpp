@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "server/access/access.hpp"
+#include "server/access/tickets.hpp"
 #include "server/api/answers.hpp"
 #include "server/api/dispatcher.hpp"
 #include "server/base/config.hpp"
@@ -53,6 +54,7 @@ struct SubmitGroup {
   TaskQueue& admission;  ///< for all but what takes long
   CheckDesk& checks;     ///< for that: the check of those that are not known to pass it
   PassedChecks& passed;
+  std::function<void(const std::string& job)> changed;  ///< tells everybody who waits for a change of its state
 };
 Handlers submit_handlers(const SubmitGroup& group);
 
@@ -102,14 +104,15 @@ struct EventGroup {
 };
 Handlers event_handlers(const EventGroup& group);
 
-/// artifact.list, artifact.read, artifact.pin.
+/// artifact.list, artifact.read, artifact.link, artifact.pin.
 struct ArtifactGroup {
   const Answers& answers;
   JobStore& store;
   Artifacts& artifacts;
+  Tickets& tickets;
   TaskQueue& changes;
   TaskQueue& disk;
-  TaskQueue& exports;  ///< for csv and binary trajectories
+  TaskQueue& exports;  ///< for other forms than an artifact's own
 };
 Handlers artifact_handlers(const ArtifactGroup& group);
 

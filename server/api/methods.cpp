@@ -32,6 +32,7 @@ constexpr std::array table{
     Method{"events.unsubscribe", Scope::read},
     Method{"artifact.list", Scope::read},
     Method{"artifact.read", Scope::read},
+    Method{"artifact.link", Scope::read},
     Method{"artifact.pin", Scope::submit},
 };
 

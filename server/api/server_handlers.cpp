@@ -44,6 +44,8 @@ void on_hello(const ServerGroup& group, Call call) {
   answer(call, {{"protocol", {proto::protocol_major, proto::protocol_minor}},
                 {"server", proto::server_name},
                 {"epoch", group.store.epoch()},
+                {"owner", call.session->owner()},
+                {"scope", name(call.session->identity()->scope)},
                 {"features", {"chunk", "events", "verify"}},
                 {"limits",
                  {{"line", call.session->line_limit()},

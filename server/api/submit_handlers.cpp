@@ -24,6 +24,7 @@ Answer store_job(const SubmitGroup& group, const Admission& admission) {
   spdlog::info("job={} {} mesh={} resolution={}", submitted.job.id, name(submitted.job.state),
                admission.submit.spec.mesh.name, admission.submit.spec.resolution);
   group.scheduler.wake();
+  if (!submitted.duplicate) group.changed(submitted.job.id);
   return {{{"job", submitted.job.id}, {"state", name(submitted.job.state)}, {"duplicate", submitted.duplicate}},
           std::nullopt};
 }

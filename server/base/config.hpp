@@ -46,6 +46,7 @@ struct Config {
   std::filesystem::path unix_socket;                              ///< empty: none
   std::filesystem::path tokens;                                   ///< empty: none
   std::filesystem::path tls_certificate, tls_key, tls_client_ca;  ///< PEM; empty: none
+  std::filesystem::path web;            ///< folder of the page instead of the one in the program; empty: none
   std::vector<std::string> host_names;  ///< by which HTTP may call this server, besides addresses and localhost
   std::vector<std::string> origins;     ///< of other web pages that may call it, "https://HOST[:PORT]"
 };

@@ -206,6 +206,8 @@ const std::vector<Setting>& settings() {
       path("tls_key", &Config::tls_key, at_start, "PEM file of its key; none by default"),
       path("tls_client_ca", &Config::tls_client_ca, at_start,
            "PEM file of the authority whose client certificates are taken; none by default"),
+      path("web", &Config::web, at_reload,
+           "folder to read the page's files from instead of those in the program; none by default"),
       list("host_names", &Config::host_names, at_reload, "names by which HTTP may call the server"),
       list("origins", &Config::origins, at_reload, "web pages that may call it, https://HOST[:PORT]"),
       seconds("drain_s", &Config::drain, at_reload,

@@ -27,10 +27,11 @@ std::string text_of(boost::beast::string_view text) {
 
 HttpRequest read_head(const http::request<http::empty_body>& head) {
   const auto field = [&](http::field name) { return text_of(head[name]); };
-  return {text_of(head.method_string()),     text_of(head.target()),
-          field(http::field::host),          field(http::field::origin),
-          field(http::field::authorization), field(http::field::range),
-          field(http::field::if_range),      field(http::field::if_none_match)};
+  return {text_of(head.method_string()),      text_of(head.target()),
+          field(http::field::host),           field(http::field::origin),
+          field(http::field::authorization),  field(http::field::range),
+          field(http::field::if_range),       field(http::field::if_none_match),
+          field(http::field::accept_encoding)};
 }
 
 // Content-Length of the reply.

@@ -17,7 +17,7 @@ struct WholeRead;
 /// What of a request its answer hangs on.
 struct HttpRequest {
   std::string method, target;
-  std::string host, origin, authorization, range, if_range, if_none_match;
+  std::string host, origin, authorization, range, if_range, if_none_match, accept_encoding;
 };
 
 /// Bytes of an artifact, read while they are sent: from `at.offset` on, `bytes` in all.
@@ -34,6 +34,9 @@ struct HttpReply {
   std::optional<FilePart> part = {};  ///< instead of a body
   std::vector<std::pair<std::string, std::string>> headers = {};
 };
+
+/// Whether the client has what the entity tag stands for: then the status is 304.
+bool is_known(const HttpRequest& request, const std::string& tag);
 
 /// The error of the catalogue as the body, under the status that fits it.
 HttpReply error_reply(const Json& error_object);

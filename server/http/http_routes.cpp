@@ -9,12 +9,14 @@
 #include "server/http/byte_range.hpp"
 #include "server/http/health.hpp"
 #include "server/http/http_guard.hpp"
+#include "server/http/job_cell.hpp"
+#include "server/http/page.hpp"
 
 namespace sculpt::server {
 namespace {
 
 constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
-constexpr std::string_view artifacts_path = "/v1/artifacts/";
+constexpr std::string_view artifacts_path = "/v1/artifacts/", jobs_path = "/v1/jobs/";
 constexpr std::string_view schema_path = "/schema.json";
 constexpr std::size_t piece_bytes = 1 << 20;
 
@@ -48,6 +50,7 @@ proto::ArtifactReadParams read_artifact_path(std::string_view path) {
 }
 
 const char* media_type(const std::string& format) {
+  if (format == "gzip") return "application/gzip";
   if (format == "json") return "application/json";
   if (format == "ndjson") return "application/x-ndjson";
   return format == "csv" ? "text/csv; charset=utf-8" : "application/octet-stream";
@@ -65,10 +68,6 @@ std::string entity_tag(const std::vector<StoredArtifact>& stored, const proto::A
   return "\"" + found->sha256 + (format == found->format ? "" : "-" + format) + "\"";
 }
 
-bool names_tag(const std::string& header, const std::string& tag) {
-  return header == "*" || header.find(tag) != std::string::npos;
-}
-
 HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams wanted, const HttpRequest& request) {
   wanted.bytes = 0;
   const auto so_far = std::make_shared<WholeRead>();
@@ -77,7 +76,7 @@ HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams w
   wanted.bytes = piece_bytes;
   const std::string tag = entity_tag(sources.store.artifacts(wanted.job), wanted, now.format);
   HttpReply reply{200, media_type(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
-  if (!request.if_none_match.empty() && names_tag(request.if_none_match, tag)) {
+  if (is_known(request, tag)) {
     reply.status = 304;
     return reply;
   }
@@ -104,9 +103,7 @@ HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams w
   return reply;
 }
 
-Route artifact_route(const HttpSources& sources, const HttpRequest& request) {
-  const proto::ArtifactReadParams wanted =
-      read_artifact_path(std::string_view(request.target).substr(artifacts_path.size()));
+Route artifact_route(const HttpSources& sources, const proto::ArtifactReadParams& wanted, const HttpRequest& request) {
   return {nullptr,
           [sources, wanted, request] {
             sources.artifacts.make_export(wanted);
@@ -115,6 +112,25 @@ Route artifact_route(const HttpSources& sources, const HttpRequest& request) {
           [sources, wanted] {
             find_job(sources.store, wanted.job);
             return sources.artifacts.needs_export(wanted) ? &sources.exports : &sources.disk;
+          }};
+}
+
+// TICKET/NAME: the name is what a browser calls the file.
+Route link_route(const HttpSources& sources, const HttpRequest& request) {
+  const std::string rest = request.target.substr(links_path.size());
+  const std::string ticket = rest.substr(0, rest.find('/'));
+  return artifact_route(sources, sources.tickets.redeem(ticket, Tickets::Clock::now()), request);
+}
+
+// JOB/cell/[HASH]
+Route cell_route(const HttpSources& sources, const HttpRequest& request) {
+  constexpr std::string_view cell = "/cell/";
+  const std::string path = request.target.substr(jobs_path.size());
+  const std::size_t middle = path.find(cell);
+  if (middle == std::string::npos)
+    throw proto::ProtocolError("not_found", "of a job there is /v1/jobs/JOB/cell/, and /v1/jobs/JOB/cell/HASH");
+  return {&sources.disk, [sources, request, job = path.substr(0, middle), file = path.substr(middle + cell.size())] {
+            return job_cell_reply(sources.store, sources.blobs, {job, file}, request);
           }};
 }
 
@@ -139,6 +155,11 @@ unsigned status_of(std::string_view code) {
 }
 
 }  // namespace
+
+bool is_known(const HttpRequest& request, const std::string& tag) {
+  const std::string& known = request.if_none_match;
+  return !known.empty() && (known == "*" || known.find(tag) != std::string::npos);
+}
 
 HttpReply error_reply(const Json& error) {
   HttpReply reply{status_of(error["data"]["code"].get<std::string>()), "application/json",
@@ -181,6 +202,9 @@ Route find_route(const HttpSources& sources, const ConnectionContext& context, c
               return ready_reply(why_not_ready(data, floor, store));
             }};
   }
+  if (is_page(request.target))
+    return {&sources.disk, [folder = context.config.web, request] { return page_reply(folder, request); }};
+  if (request.target.starts_with(links_path)) return link_route(sources, request);
   authorize(sources, peer, request);
   if (request.target == "/metrics") {
     return {&sources.reads,
@@ -191,10 +215,14 @@ Route find_route(const HttpSources& sources, const ConnectionContext& context, c
   if (request.target == schema_path) {
     return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(proto::schema_text())}; }};
   }
-  if (request.target.starts_with(artifacts_path)) return artifact_route(sources, request);
+  if (request.target.starts_with(artifacts_path))
+    return artifact_route(sources, read_artifact_path(std::string_view(request.target).substr(artifacts_path.size())),
+                          request);
+  if (request.target.starts_with(jobs_path)) return cell_route(sources, request);
   throw proto::ProtocolError("not_found",
-                             "there is nothing at this path: there are /livez, /readyz, /metrics, /schema.json, "
-                             "/v1/artifacts/JOB/NAME[?format=FORMAT] and the WebSocket " +
+                             "there is nothing at this path: there are the page at /, /livez, /readyz, /metrics, "
+                             "/schema.json, /v1/artifacts/JOB/NAME[?format=FORMAT], /v1/jobs/JOB/cell/, "
+                             "/v1/links/TICKET/NAME and the WebSocket " +
                                  std::string(web_socket_path));
 }
 

@@ -4,7 +4,9 @@
 #include <functional>
 
 #include "server/access/access.hpp"
+#include "server/access/tickets.hpp"
 #include "server/base/task_queue.hpp"
+#include "server/files/blobs.hpp"
 #include "server/http/http_reply.hpp"
 #include "server/http/metrics.hpp"
 #include "server/net/connection_context.hpp"
@@ -17,12 +19,14 @@ inline constexpr const char* web_socket_path = "/v1/ws";
 /// What requests are answered from. All of it outlives the connections.
 struct HttpSources {
   Access& access;
+  const Tickets& tickets;
   JobStore& store;
+  const Blobs& blobs;
   Artifacts& artifacts;
   MetricSources metrics;
   TaskQueue& reads;    ///< questions to the store
   TaskQueue& disk;     ///< pieces of files
-  TaskQueue& exports;  ///< csv and binary trajectories
+  TaskQueue& exports;  ///< other forms than an artifact's own
 };
 
 /// Work that gives the reply, and may throw as a handler does.
@@ -38,7 +42,7 @@ void check_page(const Config& config, const Peer& peer, const HttpRequest& reque
 /// A full server tells its health and nothing else. Throws ProtocolError `too_many_connections`.
 void check_room(const Peer& peer, const HttpRequest& request);
 
-/// Throws ProtocolError: `not_found`, `method_refused`, `auth_required`, `forbidden`, `params_invalid`.
+/// Throws ProtocolError: `not_found`, `gone`, `method_refused`, `auth_required`, `forbidden`, `params_invalid`.
 Route find_route(const HttpSources& sources, const ConnectionContext& context, const Peer& peer,
                  const HttpRequest& request);
 

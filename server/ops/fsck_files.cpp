@@ -37,7 +37,7 @@ Fault damaged_artifact(JobStore& store, const std::string& job, const std::strin
           }};
 }
 
-// What was made of a trajectory can be made again.
+// What was made of an artifact can be made again.
 void check_export(const fs::path& jobs, const std::string& job, const std::string& file, std::vector<Fault>& faults) {
   const std::optional<FileSeal> seal = read_seal(jobs, job, file);
   if (!seal) return;
@@ -104,6 +104,7 @@ std::vector<Fault> find_artifact_faults(const FolderPaths& folder, Database& dat
     const FileSeal seal{static_cast<std::uint64_t>(stored.number(2)), stored.text(3)};
     const std::string fault = fault_of(StoredFile::open(folder.jobs(), job, file), seal);
     if (!fault.empty()) faults.push_back(damaged_artifact(store, job, file, fault));
+    if (file == "timeline.tokens") check_export(folder.jobs(), job, "timeline.gz", faults);
     if (file != "trajectory.ndjson") continue;
     for (const char* made : {"trajectory.csv", "trajectory.sct"}) check_export(folder.jobs(), job, made, faults);
   }

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"
+#include "server/files/gzip.hpp"
 #include "server/files/orphans.hpp"
 #include "server/results/exported_file.hpp"
 
@@ -21,9 +23,11 @@ namespace fs = std::filesystem;
 struct Kind {
   const char* artifact;
   std::array<const char*, 3> formats;  // the first is the artifact's own; nullptr: none
+  bool grows = false;                  // its own form, while the job runs
 };
 
-constexpr std::array kinds{Kind{"trajectory", {"ndjson", "csv", "binary"}},
+constexpr std::array kinds{Kind{"trajectory", {"ndjson", "csv", "binary"}, true},
+                           Kind{"timeline", {"tokens", "gzip", nullptr}, true},
                            Kind{"voxels", {"binvox", nullptr, nullptr}}, Kind{"stock", {"binvox", nullptr, nullptr}},
                            Kind{"residue", {"ndjson", nullptr, nullptr}}, Kind{"report", {"json", nullptr, nullptr}}};
 
@@ -63,12 +67,26 @@ std::string choose_format(const proto::ArtifactReadParams& wanted) {
   return wanted.format;
 }
 
-std::string file_name(const std::string& artifact, const std::string& format) {
-  return artifact + "." + (format == "binary" ? "sct" : format);
+bool is_own(const Kind& kind, const std::string& format) {
+  return format == kind.formats.front();
 }
 
-bool is_export(const std::string& file) {
-  return file == "trajectory.csv" || file == "trajectory.sct";
+// The own name of the form, where it has another one than files end in.
+std::string file_name(const std::string& artifact, const std::string& format) {
+  return artifact + "." + (format == "binary" ? "sct" : format == "gzip" ? "gz" : format);
+}
+
+bool is_export(const std::string& artifact, const std::string& file) {
+  const Kind& kind = find_kind(artifact);
+  return file != file_name(artifact, kind.formats.front());
+}
+
+using Rewrite = std::function<void(std::istream&, std::ostream&)>;
+
+// How an artifact's own form becomes another.
+Rewrite rewrite_to(const std::string& format, const Planner& planner) {
+  if (format == "gzip") return write_gzip;
+  return format == "csv" ? planner.to_csv : planner.to_binary;
 }
 
 // Those that were made of a final artifact, with their seals.
@@ -122,9 +140,8 @@ Json Artifacts::list(const JobRecord& job) const {
       entry.update({{"size", artifact->size}, {"final", true}, {"sha256", artifact->sha256}});
       if (Json made = list_exports(folder_, job.id, kind); !made.empty()) entry["made"] = std::move(made);
     } else {
-      const bool grows = entry["artifact"] == "trajectory";
-      entry.update(
-          {{"size", grows ? size_now(StoredFile::open(folder_, job.id, "trajectory.ndjson")) : 0}, {"final", false}});
+      const std::string own = file_name(kind.artifact, kind.formats.front());
+      entry.update({{"size", kind.grows ? size_now(StoredFile::open(folder_, job.id, own)) : 0}, {"final", false}});
     }
     list.push_back(std::move(entry));
   }
@@ -145,12 +162,13 @@ ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead
   const JobRecord job = find_job(store_, wanted.job);
   const std::optional<FileSeal> seal = seal_of(job, wanted.artifact, chunk.format);
   chunk.final = seal.has_value();
-  const bool grows = wanted.artifact == "trajectory" && chunk.format == "ndjson" && !is_final(job.state);
+  const Kind& kind = find_kind(wanted.artifact);
+  const bool grows = kind.grows && is_own(kind, chunk.format) && !is_final(job.state);
   if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
   const std::string name = file_name(wanted.artifact, chunk.format);
   const std::optional<StoredFile> file = StoredFile::open(folder_, job.id, name);
   if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
-    refuse_damaged(job.id, name, fault);
+    refuse_damaged(job.id, wanted.artifact, name, fault);
   chunk.size = size_now(file);
   if (chunk.final && wanted.offset > chunk.size) {
     throw proto::ProtocolError("params_invalid",
@@ -174,15 +192,16 @@ void Artifacts::follow(const proto::ArtifactReadParams& wanted, const ArtifactCh
   if (!chunk.final || so_far.next < chunk.size || so_far.hash.hex() == seal.sha256) return;
   const std::string name = file_name(wanted.artifact, chunk.format);
   const std::string fault = fault_of(StoredFile::open(folder_, wanted.job, name), seal);
-  if (!fault.empty()) refuse_damaged(wanted.job, name, fault);
+  if (!fault.empty()) refuse_damaged(wanted.job, wanted.artifact, name, fault);
   throw StorageError("the " + wanted.artifact + " of job " + wanted.job + " changed while it was read: read it again");
 }
 
-void Artifacts::refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const {
+void Artifacts::refuse_damaged(const std::string& job, const std::string& artifact, const std::string& file,
+                               const std::string& fault) const {
   find_job(store_, job);  // it may be gone by now, and its files with it
   const std::string sentence = "the file " + file + " of job " + job + " is damaged: it " + fault;
   spdlog::error("job={} {}", job, sentence);
-  if (is_export(file)) {
+  if (is_export(artifact, file)) {
     break_seal(folder_, job, file);
     throw proto::ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
   }
@@ -192,7 +211,7 @@ void Artifacts::refuse_damaged(const std::string& job, const std::string& file, 
 
 bool Artifacts::needs_export(const proto::ArtifactReadParams& wanted) const {
   const std::string format = choose_format(wanted);
-  if (wanted.artifact != "trajectory" || format == "ndjson") return false;
+  if (is_own(find_kind(wanted.artifact), format)) return false;
   return !read_seal(folder_, wanted.job, file_name(wanted.artifact, format));
 }
 
@@ -200,15 +219,17 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   if (!needs_export(wanted)) return;
   const JobRecord job = find_job(store_, wanted.job);
   if (!find_stored(store_.artifacts(job.id), wanted.artifact)) {
-    refuse_missing(job, "final trajectory to make " + wanted.format + " from; ndjson can be read while it grows");
+    refuse_missing(job, "final " + wanted.artifact + " to make " + wanted.format + " from; " +
+                            find_kind(wanted.artifact).formats.front() + " can be read while it grows");
   }
   check_whole(job, wanted.artifact);
   const std::string name = file_name(wanted.artifact, wanted.format);
   const fs::path file = job_folder(job.id) / name;
   const fs::path draft = file.string() + ".draft";
-  std::ifstream in(trajectory(job.id), std::ios::binary);
+  const Kind& kind = find_kind(wanted.artifact);
+  std::ifstream in(job_folder(job.id) / file_name(kind.artifact, kind.formats.front()), std::ios::binary);
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-  (wanted.format == "csv" ? planner_.to_csv : planner_.to_binary)(in, out);
+  rewrite_to(wanted.format, planner_)(in, out);
   out.close();
   if (!out) throw StorageError("cannot write '" + draft.string() + "': check the free space");
   sync_to_disk(draft);
@@ -231,7 +252,11 @@ void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) c
   if (!stored) refuse_missing(job, artifact);
   const std::string name = file_name(artifact, stored->format);
   const std::string fault = fault_of(StoredFile::open(folder_, job.id, name), {stored->size, stored->sha256});
-  if (!fault.empty()) refuse_damaged(job.id, name, fault);
+  if (!fault.empty()) refuse_damaged(job.id, artifact, name, fault);
+}
+
+std::string Artifacts::file_name_of(const proto::ArtifactReadParams& wanted) const {
+  return file_name(wanted.artifact, choose_format(wanted));
 }
 
 }  // namespace sculpt::server

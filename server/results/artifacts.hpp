@@ -1,4 +1,4 @@
-// The files that a job makes: jobs/ID/trajectory.ndjson grows while it runs, the others come at the end.
+// The files that a job makes: its trajectory and timeline grow while it runs, the others come at the end.
 #pragma once
 
 #include <cstdint>
@@ -50,18 +50,21 @@ class Artifacts {
   ArtifactChunk read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const;
   /// True when `read` needs make_export first.
   bool needs_export(const proto::ArtifactReadParams& wanted) const;
-  /// Makes the trajectory's csv or binary from the final ndjson. Throws as read.
+  /// Makes another form from the final artifact's own. Throws as read.
   void make_export(const proto::ArtifactReadParams& wanted) const;
   /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
   /// Its file is the one that was stored. Throws as read_whole.
   void check_whole(const JobRecord& job, const std::string& artifact) const;
+  /// What a download of it is called, whether it is there or not. Throws ProtocolError `params_invalid`.
+  std::string file_name_of(const proto::ArtifactReadParams& wanted) const;
 
  private:
   std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
   void follow(const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
               WholeRead& so_far) const;
-  [[noreturn]] void refuse_damaged(const std::string& job, const std::string& file, const std::string& fault) const;
+  [[noreturn]] void refuse_damaged(const std::string& job, const std::string& artifact, const std::string& file,
+                                   const std::string& fault) const;
 
   std::filesystem::path folder_;
   JobStore& store_;

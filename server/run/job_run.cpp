@@ -58,9 +58,11 @@ Ending run_in_folder(const JobRecord& record, const Job& job, const fs::path& fo
   write_durably(folder / "residue.ndjson", files.residue_ndjson);
   write_durably(folder / "report.json", finished_report(record, ending, files.report_json));
   sync_to_disk(trajectory);
+  sync_to_disk(folder / timeline_file);
   sync_to_disk(folder);
   crash_point(CrashPoint::artifacts_synced);
-  ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / "voxels.binvox", "voxels", "binvox"),
+  ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / timeline_file, "timeline", "tokens"),
+                      stored(folder / "voxels.binvox", "voxels", "binvox"),
                       stored(folder / "stock.binvox", "stock", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
                       stored(folder / "report.json", "report", "json")};
@@ -74,7 +76,8 @@ void prepare_job_folder(const fs::path& folder) {
   std::vector<fs::path> stale;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string kind = entry.path().extension();
-    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".seal") stale.push_back(entry.path());
+    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".gz" || kind == ".seal")
+      stale.push_back(entry.path());
   }
   for (const fs::path& file : stale) fs::remove(file);
   sync_to_disk(folder.parent_path());

@@ -14,7 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
-  const JobResult result = resume_job(job, trajectory, {trajectory.parent_path()}, watch);
+  CheckpointPlace place{trajectory.parent_path()};
+  place.timeline = place.folder / timeline_file;
+  const JobResult result = resume_job(job, trajectory, place, watch);
   PlanFiles files;
   files.report_json = report_json(result.report);
   files.residue_ndjson = residue_ndjson(result.residue);

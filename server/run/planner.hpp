@@ -13,7 +13,10 @@
 
 namespace sculpt::server {
 
-/// A finished plan, besides the trajectory file: the content of its other artifacts, and whether the replay was clean.
+inline constexpr const char* timeline_file = "timeline.tokens";
+
+/// A finished plan, besides trajectory and timeline: the content of its other artifacts, and whether the replay was
+/// clean.
 struct PlanFiles {
   std::string report_json, residue_ndjson;
   std::string voxels_binvox, stock_binvox;  ///< the target, and what stands at the end
@@ -39,8 +42,8 @@ struct Planner {
   std::function<std::string(const CellFiles&, int resolution, int threads)> examine;
   /// Bytes that a job needs.
   std::function<std::uint64_t(const JobSizes&)> predict_memory;
-  /// Goes on where a run of the job with the same trajectory file was stopped or killed. Leaves its checkpoints beside
-  /// the trajectory.
+  /// Goes on where a run of the job with the same trajectory file was stopped or killed. Leaves its checkpoints and the
+  /// timeline beside the trajectory.
   std::function<PlanFiles(const Job&, const std::filesystem::path& trajectory, const Watch&)> run;
   std::function<Replay(const Job&, const std::filesystem::path& trajectory, const Watch&)> verify;
   /// ndjson in, other format out.

@@ -30,7 +30,7 @@ class Completion(ClientTest):
         for command in ("plan", "submit"):
             self.assertEqual(self.complete(command, "a.stl", "--robot", "pan"), {"panda-turntable", "panda-turntable-6mm"})
             self.assertEqual(self.complete(command, "--search", ""), {"sweep", "octree", "voxel"})
-        self.assertEqual(self.complete("fetch", "JOB", "--format", ""), {"ndjson", "binary", "csv"})
+        self.assertEqual(self.complete("fetch", "JOB", "--format", ""), {"ndjson", "binary", "csv", "tokens", "gzip"})
         self.assertEqual(self.complete("fetch", "--artifact", "r"), {"residue", "report"})
         self.assertEqual(self.complete("queue", ""), {"pause", "resume"})
         self.assertEqual(self.complete("cell", ""), {"new", "gantry", "panda-turntable", "panda-turntable-6mm"})
@@ -42,7 +42,7 @@ class Completion(ClientTest):
     def test_zsh_and_fish_know_what_options_and_commands_take(self):
         zsh, fish = self.fine("completion", "zsh"), self.fine("completion", "fish")
         for script in (zsh, fish):
-            for values in ("sweep octree voxel", "ndjson binary csv", "trajectory voxels stock residue report", "pause resume", "completion cells"):
+            for values in ("sweep octree voxel", "ndjson binary csv tokens gzip", "trajectory timeline voxels stock residue report", "pause resume", "completion cells"):
                 self.assertIn(values, script)
 
     def test_the_names_of_cells_are_asked_for(self):

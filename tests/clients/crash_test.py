@@ -103,7 +103,7 @@ class Crash(ClientTest):
                 self.assertLess(time.monotonic(), end, "a cancelled job leaves no files")
                 time.sleep(0.01)
         left = sorted(file.name for file in (self.data / "jobs" / job).iterdir())
-        self.assertEqual(left, ["report.json", "residue.ndjson", "stock.binvox", "trajectory.ndjson", "voxels.binvox"])
+        self.assertEqual(left, ["report.json", "residue.ndjson", "stock.binvox", "timeline.tokens", "trajectory.ndjson", "voxels.binvox"])
 
     def test_killed_at_random_moments_again_and_again_it_ends_with_the_same_bytes(self):
         seed = random.randrange(2**32)

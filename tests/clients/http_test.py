@@ -1,5 +1,6 @@
 """What browsers and scripts speak at the one port: HTTP and WebSocket."""
 
+import gzip
 import hashlib
 import http.client
 import json
@@ -9,9 +10,10 @@ import socket
 import subprocess
 import unittest
 
+import shapes
 import web_socket
 from door import HELLO, WithAJob, call, line, split
-from harness import PATIENCE_S
+from harness import PATIENCE_S, SOURCE
 
 import sculpt
 
@@ -46,6 +48,93 @@ class Http(WithAJob):
         self.assertEqual(self.get(self.path + "?format=csv")[1], self.csv)
         self.assertEqual(self.get(f"/v1/artifacts/{self.job}/voxels")[1][:9], b"#binvox 1")
 
+    def test_the_timeline_packed_is_the_one_that_grew(self):
+        with sculpt.Client(self.server.address) as client:
+            tokens = b"".join(client.read_artifact(self.job, "timeline"))
+            packed = b"".join(client.read_artifact(self.job, "timeline", format="gzip"))
+        self.assertEqual(gzip.decompress(packed), tokens)
+        response, body = self.get(f"/v1/artifacts/{self.job}/timeline?format=gzip")
+        self.assertEqual((response.getheader("Content-Type"), body), ("application/gzip", packed))
+        header, runs, cuts = sculpt.read_timeline(tokens)
+        lines = [json.loads(text) for text in self.trajectory.splitlines()]
+        self.assertEqual(header, lines[0])
+        self.assertEqual(cuts, [keyframe.get("voxels") for keyframe in lines[1:-1]])
+        with sculpt.Client(self.server.address) as client:
+            voxels = client.call("job.report", job=self.job)["voxels"]
+        for label in sculpt.LABELS:
+            self.assertEqual(sum(length for name, length in runs if name == label), voxels[label], label)
+
+    def test_the_cell_of_a_job(self):
+        response, body = self.get(f"/v1/jobs/{self.job}/cell/")
+        self.assertEqual(response.getheader("Content-Type"), "application/json")
+        bundle = json.loads(body)
+        self.assertEqual(bundle["name"], "gantry")
+        self.assertEqual(json.loads(bundle["cell"]), json.loads((SOURCE / "config/cells/gantry.json").read_text()))
+        for reference, file in bundle["files"].items():
+            response, body = self.get(f"/v1/jobs/{self.job}/cell/{file['blob']}")
+            self.assertEqual(body, (SOURCE / "config/cells" / reference).read_bytes())
+            tag = response.getheader("ETag")
+            self.assertEqual(tag, f'"{hashlib.sha256(body).hexdigest()}"')
+            response, body = self.get(f"/v1/jobs/{self.job}/cell/{file['blob']}", If_None_Match=tag)
+            self.assertEqual((response.status, body), (304, b""))
+
+    def test_of_a_cell_nothing_but_its_own_files_is_given(self):
+        with sculpt.Client(self.server.address) as client:
+            mesh = client.upload_file(shapes.write_stl(self.scratch / "other.stl", shapes.steps()))
+        self.refused(404, "not_found", f"/v1/jobs/{self.job}/cell/{mesh['blob']}")
+        self.refused(404, "not_found", f"/v1/jobs/{self.job}/cell/../../../etc/passwd")
+        self.refused(404, "not_found", f"/v1/jobs/{self.job}")
+        self.refused(404, "not_found", "/v1/jobs/nosuchjob/cell/")
+
+    def test_a_link_is_for_one_file(self):
+        with sculpt.Client(self.server.address) as client:
+            link = client.call("artifact.link", job=self.job, artifact="trajectory", format="csv")
+        self.assertTrue(link["path"].endswith("/trajectory.csv"), link)
+        self.assertEqual(self.get(link["path"])[1], self.csv)
+        self.assertEqual(self.get(link["path"], Range="bytes=3-9")[1], self.csv[3:10])
+        ticket = link["path"].split("/")[3]
+        self.assertEqual(self.get(f"/v1/links/{ticket}/voxels.binvox")[1], self.csv, "the name means nothing")
+        self.refused(410, "gone", f"/v1/links/{'0' * 64}/trajectory.csv")
+        self.refused(410, "gone", "/v1/links/")
+
+    def test_the_page_is_there_for_all_and_may_speak_to_this_server_only(self):
+        response, body = self.get("/")
+        self.assertEqual(response.getheader("Content-Type"), "text/html; charset=utf-8")
+        self.assertEqual(body, (SOURCE / "clients/web/index.html").read_bytes())
+        policy = dict(rule.split(" ", 1) for rule in response.getheader("Content-Security-Policy").split("; "))
+        self.assertEqual((policy["default-src"], policy["script-src"], policy["frame-ancestors"]), ("'none'", "'self'", "'none'"))
+        self.assertNotIn("unsafe", str(policy))
+        self.assertEqual(response.getheader("Cross-Origin-Opener-Policy"), "same-origin")
+        for path in sorted((SOURCE / "clients/web").rglob("*.js")):
+            name = path.relative_to(SOURCE / "clients/web")
+            if name.parts[:2] == ("vendor", "source"):
+                continue
+            response, body = self.get(f"/ui/{name}", Accept_Encoding="br, gzip")
+            self.assertEqual(response.getheader("Content-Type"), "text/javascript; charset=utf-8")
+            self.assertEqual(response.getheader("Cross-Origin-Embedder-Policy"), "require-corp")
+            self.assertEqual(gzip.decompress(body), path.read_bytes(), name)
+            again, body = self.get(f"/ui/{name}", Accept_Encoding="br, gzip", If_None_Match=response.getheader("ETag"))
+            self.assertEqual((again.status, body), (304, b""))
+        self.refused(404, "not_found", "/ui/nothing.js")
+
+    def test_the_page_of_a_folder_leads_out_of_it_nowhere(self):
+        web = self.scratch / "web"
+        (web / "part").mkdir(parents=True)
+        (web / "index.html").write_text("mine")
+        (web / "part/a.js").write_text("1")
+        daemon = self.daemon(web=str(web))
+        other = http.client.HTTPConnection(daemon.address, timeout=PATIENCE_S)
+        self.addCleanup(other.close)
+
+        def status(path):
+            other.request("GET", path)
+            response = other.getresponse()
+            response.read()
+            return response.status
+        self.assertEqual([status(path) for path in ("/", "/ui/part/a.js")], [200, 200])
+        for path in ("/ui/../server.json", "/ui//etc/passwd", "/ui/part", "/ui/part/", "/ui/", "/ui/.hidden", "/ui/%2e%2e/server.json"):
+            self.assertEqual(status(path), 404, path)
+
     def test_head_gives_the_size_alone(self):
         response, body = self.get(self.path, "HEAD")
         self.assertEqual((response.status, body), (200, b""))
@@ -72,7 +161,7 @@ class Http(WithAJob):
         self.assertEqual(self.get(self.path + "?format=csv", If_None_Match=tag)[0].status, 200, "another form is another thing")
 
     def test_what_is_not_there(self):
-        self.refused(404, "not_found", "/")
+        self.refused(404, "not_found", "/nothing")
         self.refused(404, "not_found", "/v1/artifacts/nosuchjob/trajectory")
         self.refused(404, "not_found", "/v1/artifacts/nosuchjob")
         self.refused(400, "params_invalid", f"/v1/artifacts/{self.job}/statue")

@@ -67,6 +67,12 @@ class Tokens(DoorTest):
                 word = reply["error"]["data"]["code"] if "error" in reply else "accepted"
                 self.assertEqual(word == "forbidden", scopes.index(scope) < scopes.index(needed), f"{method} with {scope}: {word}")
 
+    def test_hello_says_who_one_is_and_what_one_may_do(self):
+        daemon = self.daemon(tokens="tokens.json")
+        for scope, token in self.tokens.items():
+            answer = self.wire(daemon).ask({**HELLO, "params": {**HELLO["params"], "token": token}})["result"]
+            self.assertEqual((answer["owner"], answer["scope"]), (f"the-{scope}", scope))
+
     def test_who_only_looks_sends_short_lines(self):
         daemon = self.daemon(tokens="tokens.json")
         for scope, longest, word in (("read", 16384, "line_too_long"), ("submit", 1048576, "params_invalid")):

@@ -87,6 +87,7 @@ PlanFiles FakePlanner::run(const Job& job, const std::filesystem::path& trajecto
     for (int i = 0; i < 8; ++i) out << std::string((1 << 20) - 1, static_cast<char>('a' + i)) << "\n";
   }
   out << fake_end << std::flush;
+  std::ofstream(trajectory.parent_path() / timeline_file) << fake_timeline;
   watch.step(Stage::verify, 2, 2);
   PlanFiles files;
   files.report_json = "{\"mesh\":\"" + job.mesh.name + "\",\"robot\":\"" + job.cell.name +

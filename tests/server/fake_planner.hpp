@@ -27,6 +27,7 @@ class Gate {
 };
 
 inline const std::string fake_header = "{\"type\":\"header\",\"format\":1}\n";
+inline const std::string fake_timeline = "tokens";
 inline const std::string fake_end = "{\"type\":\"end\"}\n";
 
 /// Must outlive the server that uses its planner.

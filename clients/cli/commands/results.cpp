@@ -32,9 +32,10 @@ int run_report(const std::string& server, const ReportOptions& options) {
   return exit_fine;
 }
 
-/// Only the ndjson trajectory can be read while it grows; for all else the job must have ended.
+/// Only these can be read while they grow; for all else the job must have ended.
 bool grows(const FetchOptions& options) {
-  return options.artifact == "trajectory" && (options.format.empty() || options.format == "ndjson");
+  if (options.artifact == "trajectory") return options.format.empty() || options.format == "ndjson";
+  return options.artifact == "timeline" && options.format != "gzip";
 }
 
 /// A trajectory that failed its replay may be looked at; of other jobs that did not succeed there is nothing whole.
@@ -88,12 +89,15 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
                                   [&invocation, options] { return run_fetch(invocation.server, *options); });
   command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
   command.add_option("-o,--output", options->output, "Where to write, or - for stdout")->type_name("FILE")->required();
-  command.add_option("--format", options->format, "Form of the trajectory: ndjson (default), binary or csv")
-      ->check(CLI::IsMember({"ndjson", "binary", "csv"}));
+  command
+      .add_option("--format", options->format,
+                  "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip")
+      ->check(CLI::IsMember({"ndjson", "binary", "csv", "tokens", "gzip"}));
   command
       .add_option("--artifact", options->artifact,
-                  "trajectory, voxels (.binvox), stock (what was left, .binvox), residue (ndjson) or report (json)")
-      ->check(CLI::IsMember({"trajectory", "voxels", "stock", "residue", "report"}))
+                  "trajectory, timeline (what is cut when), voxels (.binvox), "
+                  "stock (what was left, .binvox), residue (ndjson) or report (json)")
+      ->check(CLI::IsMember({"trajectory", "timeline", "voxels", "stock", "residue", "report"}))
       ->capture_default_str();
 }
 

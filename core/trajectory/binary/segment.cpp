@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/trajectory/binary/varint.hpp"
 #include "core/trajectory/number_text.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/trajectory_line.hpp"
@@ -14,53 +15,6 @@ namespace sculpt {
 namespace {
 
 constexpr int max_order = 3;
-constexpr std::size_t max_varint_bytes = 10;
-constexpr std::uint64_t token_move = 0, token_again = 1, first_cut_token = 2;
-constexpr std::uint64_t directions = face_steps.size(), start_anywhere = 6, starts = 7;
-
-std::uint64_t zigzag(std::int64_t value) {
-  return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
-}
-
-std::int64_t unzigzag(std::uint64_t value) {
-  return static_cast<std::int64_t>(value >> 1 ^ (0 - (value & 1)));
-}
-
-char* write_varint(char* out, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) *out++ = static_cast<char>(value | 0x80);
-  *out++ = static_cast<char>(value);
-  return out;
-}
-
-void append_varint(std::string& out, std::uint64_t value) {
-  std::array<char, max_varint_bytes> bytes;
-  out.append(bytes.data(), write_varint(bytes.data(), value));
-}
-
-// Which of the `face_steps` it is, or `start_anywhere` if it is none.
-std::uint64_t direction_of(Voxel step) {
-  for (std::uint64_t at = 0; at < directions; ++at)
-    if (face_steps[at] == step) return at;
-  return start_anywhere;
-}
-
-void append_cut(std::string& out, const Keyframe& keyframe, LastCut& last) {
-  LastCut cut{keyframe.last, last.direction, static_cast<std::uint64_t>(run_length(keyframe))};
-  const Voxel gap = keyframe.first - last.end, run = keyframe.last - keyframe.first;
-  const std::uint64_t start = direction_of(gap);
-  if (cut.length > 1)
-    cut.direction = direction_of(sign(run));
-  else if (start != start_anywhere)
-    cut.direction = start;  // of one voxel any direction is right: this one is what rows of such cuts repeat
-  if (start == cut.direction && cut.direction == last.direction && cut.length == last.length) {
-    append_varint(out, token_again);
-  } else {
-    append_varint(out, first_cut_token + start + starts * (cut.direction + directions * (cut.length - 1)));
-    if (start == start_anywhere)
-      for (int offset : {gap.i, gap.j, gap.k}) append_varint(out, zigzag(offset));
-  }
-  last = cut;
-}
 
 template <typename Int>
 std::vector<Int> differences(const std::vector<Int>& values) {
@@ -240,10 +194,7 @@ std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints) {
 }
 
 void SegmentEncoder::add(const Keyframe& keyframe) {
-  if (keyframe.cut)
-    append_cut(tokens_, keyframe, last_);
-  else
-    append_varint(tokens_, token_move);
+  append_token(tokens_, keyframe, last_);
   quanta_.reserve(max_segment_keyframes * static_cast<std::size_t>(keyframe.q.size()));
   for (const double value : keyframe.q) quanta_.push_back(quanta_of(value));
   ++keyframes_;

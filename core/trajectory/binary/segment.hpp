@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/trajectory/binary/cut_token.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/keyframe.hpp"
 
@@ -15,13 +16,6 @@ inline constexpr std::size_t max_segment_keyframes = 4096;
 
 /// Upper bound of a body's bytes: no reader takes more memory than that for what a file promises.
 std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints);
-
-/// What the next cut of a segment is told relative to.
-struct LastCut {
-  Voxel end{0, 0, 0};
-  std::uint64_t direction = 0;  ///< of the `face_steps`
-  std::uint64_t length = 1;
-};
 
 /// Not shared between threads.
 class SegmentEncoder {

@@ -9,6 +9,7 @@
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/job_key.hpp"
 #include "core/trajectory/reader.hpp"
+#include "core/trajectory/timeline.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {
@@ -21,15 +22,15 @@ constexpr Interval always{0}, now_and_then{0.02}, at_stops_only{3600};
 
 /// What a run leaves: its bytes, and its report but for what the machine decides.
 struct Outcome {
-  std::string trajectory, report, residue;
+  std::string trajectory, timeline, report, residue;
   bool operator==(const Outcome&) const = default;
 };
 
-Outcome outcome(const JobResult& result, const fs::path& trajectory) {
+Outcome outcome(const JobResult& result, const fs::path& trajectory, const std::string& timeline) {
   auto report = nlohmann::json::parse(report_json(result.report));
   report.erase("seconds");
   report.erase("peak_memory_bytes");
-  return {read_file(trajectory), report.dump(), residue_ndjson(result.residue)};
+  return {read_file(trajectory), timeline, report.dump(), residue_ndjson(result.residue)};
 }
 
 /// In memory where that can be had: a disk takes long to sync a checkpoint at every step.
@@ -47,11 +48,13 @@ class JobFolder {
   ~JobFolder() { fs::remove_all(folder_); }
 
   fs::path trajectory() const { return folder_ / "trajectory.ndjson"; }
+  fs::path timeline() const { return folder_ / "timeline.tokens"; }
   fs::path slot(int number) const { return folder_ / ("checkpoint-" + std::to_string(number)); }
   const fs::path& folder() const { return folder_; }
 
   Outcome run(const Watch& watch = {}, Interval interval = always) const {
-    return outcome(resume_job(job_, trajectory(), {folder_, interval}, watch), trajectory());
+    const JobResult result = resume_job(job_, trajectory(), {folder_, interval, timeline()}, watch);
+    return outcome(result, trajectory(), read_file(timeline()));
   }
   /// In a process that gets SIGKILL the `last`-th time that it told how far it was. False if it ended before that.
   bool run_killed(std::uint64_t last, Interval interval = always) const {
@@ -103,11 +106,22 @@ class JobFolder {
   fs::path folder_;
 };
 
+std::string timeline_of(const JobResult& result, const fs::path& trajectory) {
+  std::ifstream in(trajectory, std::ios::binary);
+  TrajectoryReader reader(in);
+  std::ostringstream out;
+  TimelineWriter timeline(out, reader.header(), result.voxels);
+  while (const auto keyframe = reader.next()) timeline.add(*keyframe);
+  timeline.flush();
+  return out.str();
+}
+
 Outcome uninterrupted(const Job& job, std::vector<Progress>* told = nullptr) {
   const ScratchFile file;
   Watch watch;
   if (told != nullptr) watch.tell = [told](const Progress& progress) { told->push_back(progress); };
-  return outcome(run_job(job, file.path(), watch), file.path());
+  const JobResult result = run_job(job, file.path(), watch);
+  return outcome(result, file.path(), timeline_of(result, file.path()));
 }
 
 /// How many steps were told before the replay: as many every time. Those of a replay by two threads depend on which is

@@ -95,6 +95,17 @@ TEST(Streams, OneSubscriptionTellsTheStatesOfAllJobs) {
   EXPECT_EQ(refusal(watcher, "events.subscribe", {{"after", 1000}}), "replay_gap");
 }
 
+TEST(Streams, OneToAllIsToldOfAJobThatOnlyWaits) {
+  LiveServer live;
+  client::Client client = live.connect(), watcher = live.connect();
+  client.call("queue.pause");
+  std::uint64_t number = 0;
+  watcher.subscribe_all();
+  EXPECT_EQ(next_of_all(watcher, number), "live");
+  const std::string job = submit(client, "plain");
+  EXPECT_EQ(next_of_all(watcher, number), job + " queued");
+}
+
 TEST(Streams, WhoListsAndThenSubscribesMissesNothing) {
   LiveServer live;
   client::Client client = live.connect();

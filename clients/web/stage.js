@@ -1,0 +1,247 @@
+// The chosen job in the 3D view: its timeline by the worker, its robot, and both at the place of the time bar.
+
+import {FINAL} from './panels/queue.js';
+import {Joints} from './plan/joints.js';
+import {follow_timeline, read_timeline} from './plan/follow.js';
+import {Robot} from './view/robot.js';
+import {count} from './dom.js';
+
+/** Events: `note` with a sentence for the middle of the picture, `started` when the grid is known, `picked` with what the worker found. */
+export class Stage extends EventTarget {
+  /** @param {import('./view/view.js').View} view @param {import('./panels/time_bar.js').TimeBar} time @param {import('./wire/connection.js').Connection} connection */
+  constructor(view, time, connection) {
+    super();
+    this.view = view;
+    this.time = time;
+    this.connection = connection;
+    this.worker = new Worker('/ui/stock/worker.js', {type: 'module'});
+    this.worker.onmessage = (message) => this.#on_worker(message.data);
+    this.worker.onerror = (event) => this.#note(`The picture of the stock cannot be made: ${event.message}`);
+    this.busy = false;
+    this.wanted = false;
+    this.whole = true;
+    this.chosen = null;
+    this.generation = 0;
+    this.viewed = false;
+    this.head = null;
+    this.final = false;
+    this.pending = 0;
+    this.joints = null;
+    this.robot = null;
+    this.stop = new AbortController();
+    time.addEventListener('moved', () => this.#moved());
+    view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
+  }
+
+  /** @param {any} job @param {{at: number | null, place: string | null}} wish keyframes' share and the camera's place, of a link */
+  async show(job, wish) {
+    this.close();
+    this.job = job;
+    this.wish = wish;
+    const {signal} = this.stop = new AbortController();
+    if (['failed', 'cancelled', 'expired', 'quarantined'].includes(job.state) && job.error?.code !== 'verify_failed')
+      return this.#note(`This job is ${job.state}, so there is nothing to see.`);
+    if (['held', 'queued', 'backoff', 'paused'].includes(job.state) && !job.started_at)
+      return this.#note(`This job is ${job.state}: it is shown here as soon as it is planned.`);
+    this.#note('Loading\u2026');
+    this.#load_robot(job, signal);
+    try {
+      if (FINAL.has(job.state)) await this.#load_finished(job, signal);
+      else await this.#follow(job, signal);
+    } catch (error) {
+      if (!signal.aborted) this.#note(error.message);
+    }
+  }
+
+  /** Nothing is shown any more. */
+  close() {
+    this.stop.abort();
+    ++this.generation;
+    this.worker.postMessage({kind: 'reset'});
+    this.head = null;
+    this.final = false;
+    this.pending = 0;
+    this.joints = null;
+    this.whole = true;
+    this.chosen = null;
+    this.time.clear();
+    this.time.set_growing(false);
+    this.view.pages.clear();
+    this.view.draw();
+  }
+
+  /** The state changed: there may be something to see now. @param {any} job */
+  update(job) {
+    const began = !this.job?.started_at && job.started_at;
+    const ended = this.job && !FINAL.has(this.job.state) && FINAL.has(job.state);
+    this.job = job;
+    if ((began || ended) && !this.head) this.show(job, {at: null, place: null});
+  }
+
+  async #load_finished(job, signal) {
+    await read_timeline(job.job, (bytes) => this.#add(bytes), signal);
+    if (!signal.aborted) this.#become_final();
+  }
+
+  async #follow(job, signal) {
+    this.time.set_growing(true);
+    this.time.set_live(this.wish.at === null);
+    await follow_timeline({connection: this.connection, job: job.job, signal}, {
+      take: (bytes) => this.#add(bytes),
+      start_over: () => {
+        this.worker.postMessage({kind: 'reset'});
+        this.time.clear();
+        this.head = null;
+        this.pending = 0;
+        ++this.generation;
+        this.whole = true;
+      },
+      joints: (values) => this.time.live && this.#pose(values),
+      is_over: () => FINAL.has(this.job.state),
+    });
+    if (!signal.aborted) this.#become_final();
+  }
+
+  // All bytes are there; the worker may still be at them.
+  #become_final() {
+    this.final = true;
+    this.time.set_growing(false);
+    if (this.pending === 0) this.#show_whole();
+  }
+
+  // Nothing more will come, and all is decoded.
+  #show_whole() {
+    if (!this.head) return;
+    this.joints = new Joints(this.job.job, this.head.header.joints, this.head.header.home);
+    this.whole = true;
+    this.time.go((this.wish.at ?? 1) * this.time.keyframes);
+  }
+
+  #add(bytes) {
+    ++this.pending;
+    this.worker.postMessage({kind: 'add', generation: this.generation, bytes}, [bytes.buffer]);
+  }
+
+  async #load_robot(job, signal) {
+    try {
+      const robot = await Robot.of_job(job.job);
+      if (signal.aborted) return;
+      this.robot = robot;
+      this.view.set_robot(robot);
+      if (this.head) robot.set_tool(this.head.header.tool);
+      this.#first_view();
+      this.dispatchEvent(new CustomEvent('robot'));
+      if (robot.missing.length) this.#note(robot.missing[0]);
+      this.#move_robot();
+    } catch (error) {
+      if (!signal.aborted) this.#note(`The robot is not shown: ${error.message}`);
+    }
+  }
+
+  #first_view() {
+    if (this.viewed) return;
+    this.viewed = true;
+    if (this.wish.place) this.view.place = this.wish.place;
+    else this.view.look_from('cell');
+  }
+
+  #on_worker(message) {
+    if (message.kind === 'grown') this.#on_grown(message);
+    else if (message.kind === 'picked') message.ticket === this.generation && this.dispatchEvent(new CustomEvent('picked', {detail: message.hit}));
+    else this.#on_faces(message);
+  }
+
+  #on_grown(grown) {
+    if (grown.generation !== this.generation) return;
+    --this.pending;
+    if (grown.head) {
+      this.head = grown.head;
+      this.view.set_grid(grown.head.header, grown.head.edge);
+      this.robot?.set_tool(grown.head.header.tool);
+      this.time.remove = grown.head.voxels.remove;
+      this.#note('');
+      this.dispatchEvent(new CustomEvent('started'));
+    }
+    this.time.add(grown);
+    if (this.final && this.pending === 0) this.#show_whole();
+    else this.#ask();
+  }
+
+  #on_faces(message) {
+    this.busy = false;
+    if (message.generation === this.generation) {
+      this.view.put_faces(message.chunks);
+      this.shown = message.removed;
+      this.dispatchEvent(new CustomEvent('shown'));
+    }
+    if (this.wanted) this.#ask();
+  }
+
+  #moved() {
+    this.#ask();
+    this.#move_robot();
+  }
+
+  // The newest wish only: while the worker is at one, others wait as one.
+  #ask() {
+    if (!this.head) return;
+    if (this.busy) {
+      this.wanted = true;
+      return;
+    }
+    this.busy = true;
+    this.wanted = false;
+    const removed = this.time.cut;
+    this.view.set_look({share: removed / Math.max(1, this.time.remove)});
+    this.worker.postMessage({kind: 'show', generation: this.generation, removed, final: this.final, chosen: this.chosen, all: this.whole});
+    this.whole = false;
+  }
+
+  /** @param {number[][] | null} voxels to point out */
+  point_out(voxels) {
+    this.chosen = voxels;
+    this.whole = true;
+    this.#ask();
+  }
+
+  async #move_robot() {
+    if (!this.joints || !this.robot) return;
+    if (this.posing) {
+      this.pose_again = true;
+      return;
+    }
+    this.posing = true;
+    const {joints} = this;
+    try {
+      do {
+        this.pose_again = false;
+        const values = await joints.at(this.time.at);
+        if (joints === this.joints) this.#pose(values);
+      } while (this.pose_again);
+    } catch (error) {
+      this.#note(`The robot stands still: ${error.message}`);
+    } finally {
+      this.posing = false;
+    }
+  }
+
+  #pose(values) {
+    const names = this.head?.header.joints ?? [];
+    this.robot?.move(names.map((name, at) => [name, values[at]]));
+    this.view.draw();
+  }
+
+  /** @returns {boolean} nothing is on its way any more */
+  get settled() {
+    return this.head !== null && this.pending === 0 && (this.final || this.time.growing) && !this.busy && !this.wanted && !this.posing && this.shown === this.time.cut;
+  }
+
+  #note(text) {
+    this.dispatchEvent(new CustomEvent('note', {detail: text}));
+  }
+}
+
+/** @param {any} head of a timeline */
+export function sentence_of(head) {
+  return head.block > 1 ? `${count(head.header.resolution)}\u00b3 voxels, shown as blocks of ${head.block}\u00b3` : '';
+}

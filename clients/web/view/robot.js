@@ -1,0 +1,139 @@
+// The cell of a job as objects: its URDF with collision and visual shapes, the tool in its holder, and the frame of the stock.
+
+import {CylinderGeometry, Group, Mesh, MeshLambertMaterial, OBJLoader, STLLoader, SphereGeometry, URDFLoader} from '../vendor/libraries.js';
+import {get} from '../wire/token.js';
+
+const BODY = '#c3cbd3', ROOM = '#77828d', TOOL = '#e0b04a', HOLDER = '#59636e';
+const LOADERS = {stl: () => new STLLoader(), obj: () => new OBJLoader()};
+
+const material = (colour) => new MeshLambertMaterial({color: colour});
+
+/** A cell in its own world: z is up, metres. */
+export class Robot {
+  constructor() {
+    this.root = new Group();
+    /** @type {any} */
+    this.urdf = null;
+    this.stock_frame = new Group();
+    this.root.add(this.stock_frame);
+    this.tool = new Group();
+    /** @type {string[]} what could not be drawn, as sentences */
+    this.missing = [];
+    /** @type {any} the cell file */
+    this.cell = null;
+    this.bodies = material(BODY);
+    this.room = material(ROOM);
+  }
+
+  /** @param {string} job @returns {Promise<Robot>} throws an Error with a sentence */
+  static async of_job(job) {
+    const robot = new Robot();
+    const bundle = await (await get(`/v1/jobs/${job}/cell/`)).json();
+    const cell = JSON.parse(bundle.cell);
+    robot.cell = cell;
+    const fetch_file = async (reference) => {
+      const file = bundle.files[reference];
+      if (!file) throw new Error(`the cell has no file ${reference}`);
+      return (await get(`/v1/jobs/${job}/cell/${file.blob}`)).arrayBuffer();
+    };
+    await robot.#read_urdf(new TextDecoder().decode(await fetch_file(cell.urdf)), fetch_file);
+    const stock_link = robot.urdf.links[cell.stock.link];
+    robot.stock_frame.removeFromParent();
+    (stock_link ?? robot.root).add(robot.stock_frame);
+    robot.urdf.links[cell.tool.link]?.add(robot.tool);
+    robot.move(Object.entries(cell.home ?? {}));
+    return robot;
+  }
+
+  async #read_urdf(text, fetch_file) {
+    const loader = new URDFLoader();
+    const waiting = [];
+    loader.parseCollision = true;
+    loader.parseVisual = true;
+    loader.loadMeshCb = (path, _manager, _material, done) => {
+      waiting.push(this.#load_mesh(path, fetch_file).then((mesh) => done(mesh), (error) => {
+        this.missing.push(`${path} is not drawn: ${error.message}`);
+        done(null, error);
+      }));
+    };
+    loader.packages = (name) => `package://${name}`;
+    loader.workingPath = '';
+    this.urdf = loader.parse(text);
+    await Promise.all(waiting);
+    this.urdf.traverse((part) => part.isMesh && this.#paint(part));
+    this.root.add(this.urdf);
+    this.show('collision');
+  }
+
+  async #load_mesh(path, fetch_file) {
+    const kind = path.split('.').pop().toLowerCase();
+    if (!(kind in LOADERS)) throw new Error(`the page does not read .${kind}`);
+    const bytes = await fetch_file(path);
+    const parsed = LOADERS[kind]().parse(kind === 'obj' ? new TextDecoder().decode(bytes) : bytes);
+    return parsed.isObject3D ? parsed : new Mesh(parsed);
+  }
+
+  #paint(mesh) {
+    let above = mesh;
+    while (above && !above.isURDFLink) above = above.parent;
+    const moves = (link) => link && (link.isURDFJoint && link.jointType !== 'fixed' || moves(link.parent));
+    mesh.material = moves(above) ? this.bodies : this.room;
+  }
+
+  /** @param {string} kind collision, visual or none */
+  show(kind) {
+    const has = {collision: false, visual: false};
+    const each = (visit) => this.urdf.traverse((part) => {
+      if (part.isURDFCollider) visit(part, 'collision');
+      if (part.isURDFVisual) visit(part, 'visual');
+    });
+    each((_, of) => { has[of] = true; });
+    const shown = kind === 'visual' && !has.visual ? 'collision' : kind;
+    each((part, of) => { part.visible = of === shown; });
+    this.tool.visible = kind !== 'none';
+  }
+
+  /** @param {number} share 1 = solid */
+  set_opacity(share) {
+    for (const of of [this.bodies, this.room]) {
+      of.opacity = share;
+      of.transparent = share < 1;
+      of.depthWrite = share === 1;
+      of.needsUpdate = true;
+    }
+  }
+
+  /** @param {{ball_radius_m: number, shank_radius_m: number, stickout_m: number}} tool of the trajectory's header */
+  set_tool(tool) {
+    this.tool.clear();
+    const ball = new Mesh(new SphereGeometry(tool.ball_radius_m, 24, 16), material(TOOL));
+    ball.position.z = tool.stickout_m;
+    this.tool.add(ball);
+    if (tool.stickout_m > 0 && tool.shank_radius_m > 0) this.tool.add(section(0, tool.stickout_m, tool.shank_radius_m, tool.shank_radius_m, TOOL));
+    let from = 0;
+    for (const part of this.cell.tool.holder ?? []) {
+      this.tool.add(section(from, from + part.length_m, part.radius_m, part.end_radius_m ?? part.radius_m, HOLDER));
+      from += part.length_m;
+    }
+  }
+
+  /** @param {Iterable<[string, number]>} values rad or m by joint */
+  move(values) {
+    for (const [joint, value] of values) this.urdf.joints[joint]?.setJointValue(value);
+  }
+
+  /** @param {string} joint @returns {{lower: number, upper: number, velocity: number} | null} */
+  limits(joint) {
+    const found = this.urdf.joints[joint];
+    if (!found) return null;
+    return {lower: Number(found.limit.lower), upper: Number(found.limit.upper), velocity: Number(found.limit.velocity)};
+  }
+}
+
+// A cylinder or cone about z.
+function section(from, to, radius, end_radius, colour) {
+  const mesh = new Mesh(new CylinderGeometry(end_radius, radius, to - from, 32), material(colour));
+  mesh.rotation.x = Math.PI / 2;
+  mesh.position.z = (from + to) / 2;
+  return mesh;
+}

@@ -1,0 +1,279 @@
+// The 3D picture: camera, lights, the robot and the stock. Draws only when something changed.
+
+import {
+  BoxGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, GridHelper, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, NearestFilter,
+  OrbitControls, OrthographicCamera, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderTarget, WebGLRenderer,
+} from '../vendor/libraries.js';
+import {Pages} from '../stock/pages.js';
+import {LOOKS, stock_material} from '../stock/material.js';
+
+const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
+/** From where, in the stock's frame. */
+export const SIDES = {front: [0, -1, 0.0001], back: [0, 1, 0.0001], left: [-1, 0, 0.0001], right: [1, 0, 0.0001], top: [0, -0.0001, 1], bottom: [0, -0.0001, -1]};
+
+/** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was. */
+export class View extends EventTarget {
+  /** @param {HTMLCanvasElement} canvas throws an Error where there is no WebGL 2 */
+  constructor(canvas) {
+    super();
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: false});
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(38, 1, 0.01, 50);
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(1.3, -1.5, 1.1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('end', () => this.#tell('moved'));
+    this.scene.add(new HemisphereLight('#ffffff', '#6b7078', 1.7));
+    const sun = new DirectionalLight('#fff8ee', 2.1);
+    sun.position.set(-1, -1.6, 2.4);
+    this.scene.add(sun);
+    this.pages = new Pages();
+    this.material = stock_material();
+    this.stock = new Mesh(this.pages.geometry, this.material);
+    this.stock.frustumCulled = false;
+    this.grid_frame = new Group();
+    this.grid_frame.add(this.stock);
+    this.scene.add(this.grid_frame);
+    /** @type {import('./robot.js').Robot | null} */
+    this.robot = null;
+    this.edge = 0;
+    this.waiting = false;
+    this.#listen();
+    this.set_theme('light');
+  }
+
+  #listen() {
+    new ResizeObserver(() => this.#resize()).observe(this.canvas.parentElement);
+    this.canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.#tell('lost');
+    });
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.#tell('restored');
+      this.draw();
+    });
+    let down = null;
+    this.canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
+    this.canvas.addEventListener('pointerup', (event) => {
+      if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) this.#tell('picked', this.#ray_at(event));
+    });
+  }
+
+  /** @param {'light' | 'dark'} theme */
+  set_theme(theme) {
+    this.scene.background = new Color(PAPER[theme]);
+    const shown = this.floor?.visible ?? true;
+    this.floor?.removeFromParent();
+    this.floor = new GridHelper(4, 40, LINES[theme], LINES[theme]);
+    this.floor.rotation.x = Math.PI / 2;
+    this.floor.position.z = -0.051;
+    this.floor.visible = shown;
+    this.scene.add(this.floor);
+    this.draw();
+  }
+
+  /** @param {import('./robot.js').Robot} robot */
+  set_robot(robot) {
+    this.robot?.root.removeFromParent();
+    this.robot = robot;
+    this.scene.add(robot.root);
+    robot.stock_frame.add(this.grid_frame);
+    this.draw();
+  }
+
+  /** @param {any} header of the trajectory @param {number} edge cells along an edge */
+  set_grid(header, edge) {
+    this.edge = edge;
+    this.size_m = header.voxel_m * header.resolution;
+    this.grid_frame.position.fromArray(header.origin_m);
+    this.grid_frame.scale.setScalar(this.size_m / edge);
+    this.#draw_box();
+    this.draw();
+  }
+
+  #draw_box() {
+    this.box?.removeFromParent();
+    if (!this.edge) return;
+    this.box = new LineSegments(new EdgesGeometry(new BoxGeometry(this.edge, this.edge, this.edge)), new LineBasicMaterial({color: EDGES}));
+    this.box.position.setScalar(this.edge / 2);
+    this.grid_frame.add(this.box);
+  }
+
+  /** @param {{chunk: number, faces: Uint32Array}[]} changed */
+  put_faces(changed) {
+    this.pages.put(changed);
+    this.draw();
+  }
+
+  /** @param {Record<string, any>} values of the stock's material */
+  set_look(values) {
+    for (const [name, value] of Object.entries(values)) {
+      if (name === 'look') this.material.uniforms.look.value = LOOKS[value];
+      else this.material.uniforms[name].value = value;
+    }
+    this.draw();
+  }
+
+  /** @param {boolean} floor @param {boolean} box */
+  set_scenery(floor, box) {
+    this.floor.visible = floor;
+    if (this.box) this.box.visible = box;
+    this.draw();
+  }
+
+  /** @param {number | null} axis @param {number} share of the grid that stays, 0 to 1 */
+  set_section(axis, share) {
+    const plane = this.material.uniforms.clip.value, side = axis === null ? FrontSide : DoubleSide;
+    if (this.material.side !== side) {  // from behind faces are seen only where the stock is cut open
+      this.material.side = side;
+      this.material.needsUpdate = true;
+    }
+    plane.set(0, 0, 0, 1);
+    if (axis !== null) {
+      plane.setComponent(axis, 1);
+      plane.w = share * this.edge;
+    }
+    this.draw();
+  }
+
+  /** @returns {number[] | null} the section's plane in cells */
+  get section() {
+    const {x, y, z, w} = this.material.uniforms.clip.value;
+    return x || y || z ? [x, y, z, w] : null;
+  }
+
+  /** Draws soon; many calls, one picture. */
+  draw() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.draw_now();
+    });
+  }
+
+  draw_now() {
+    if (this.renderer.getContext().isContextLost()) return;
+    this.#aim_section();
+    this.pages.send();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  // What the shader needs to draw the cut itself: the eye, in cells.
+  #aim_section() {
+    this.scene.updateMatrixWorld();
+    this.camera.updateMatrixWorld();
+    this.material.uniforms.eye.value.setFromMatrixPosition(this.camera.matrixWorld).applyMatrix4(this.stock.matrixWorld.clone().invert());
+  }
+
+  #resize() {
+    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw_now();
+  }
+
+  #stock_centre() {
+    this.grid_frame.updateWorldMatrix(true, false);
+    return new Vector3().setScalar(this.edge / 2).applyMatrix4(this.grid_frame.matrixWorld);
+  }
+
+  /** @param {string} side of SIDES, or `cell`, or `stock` */
+  look_from(side) {
+    const centre = this.#stock_centre();
+    const direction = new Vector3(...(SIDES[side] ?? [0.62, -0.85, 0.5])).normalize();
+    if (side === 'cell') direction.set(0.75, -0.9, 0.55).normalize();
+    const span = this.size_m || 0.2;
+    const distance = side === 'cell' ? 1.9 : span / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    const target = side === 'cell' ? centre.clone().lerp(new Vector3(0.1, 0, 0.42), 0.6) : centre;
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
+    this.controls.update();
+    this.draw();
+    this.#tell('moved');
+  }
+
+  /** @param {number[]} cell */
+  fly_to(cell) {
+    this.grid_frame.updateWorldMatrix(true, false);
+    const target = new Vector3(...cell).addScalar(0.5).applyMatrix4(this.grid_frame.matrixWorld);
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(direction, (this.size_m || 0.2) * 2);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** @returns {string} for a link */
+  get place() {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((value) => value.toFixed(3)).join(',');
+  }
+  set place(text) {
+    const values = text.split(',').map(Number);
+    if (values.length !== 6 || !values.every(Number.isFinite)) return;
+    this.camera.position.fromArray(values);
+    this.controls.target.fromArray(values, 3);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** @param {{clientX: number, clientY: number}} event */
+  #ray_at(event) {
+    this.scene.updateMatrixWorld();
+    this.camera.updateMatrixWorld();
+    const box = this.canvas.getBoundingClientRect();
+    const point = new Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    const to_cells = this.grid_frame.matrixWorld.clone().invert();
+    const origin = this.camera.position.clone().applyMatrix4(to_cells);
+    const beyond = new Vector3(point.x, point.y, 0.5).unproject(this.camera).applyMatrix4(to_cells);
+    return {origin: origin.toArray(), direction: beyond.sub(origin).normalize().toArray()};
+  }
+
+  /**
+   * What is seen along an axis, as numbers: for each of (edge x scale)^2 pixels, row by row from below, four bytes: class + 1 or 0 for nothing, the
+   * place along the axis, the side, 255. Without light, perspective or smoothing, so that it can be held against rays.
+   * @param {number} axis @param {boolean} from_above from its upper end
+   * @param {number} scale pixels along a cell
+   */
+  class_picture(axis, from_above, scale) {
+    const {edge} = this, size = edge * scale;
+    const target = new WebGLRenderTarget(size, size, {minFilter: NearestFilter, magFilter: NearestFilter, samples: 0});
+    const camera = new OrthographicCamera(-edge / 2, edge / 2, edge / 2, -edge / 2, 0.5, 2 * edge);
+    const place = [edge / 2, edge / 2, edge / 2];
+    place[axis] += (from_above ? 1 : -1) * edge;
+    camera.up.set(0, axis === 2 ? 1 : 0, axis === 2 ? 0 : 1);
+    camera.position.fromArray(place);
+    camera.lookAt(edge / 2, edge / 2, edge / 2);
+    const alone = new Scene(), twin = new Mesh(this.pages.geometry, this.material);
+    twin.frustumCulled = false;
+    alone.add(twin);
+    this.pages.send();
+    this.material.uniforms.bare.value = true;
+    this.renderer.setRenderTarget(target);
+    this.renderer.setClearColor('#000000', 0);
+    this.renderer.clear();
+    this.renderer.render(alone, camera);
+    const pixels = new Uint8Array(size * size * 4);
+    this.renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+    this.renderer.setRenderTarget(null);
+    this.material.uniforms.bare.value = false;
+    target.dispose();
+    this.draw();
+    return {size, pixels};
+  }
+
+  /** @returns {Promise<Blob>} a PNG of what is seen */
+  picture() {
+    this.draw_now();
+    return new Promise((resolve, reject) => this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser gives no picture'))), 'image/png'));
+  }
+
+  #tell(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, {detail}));
+  }
+}

@@ -1,0 +1,69 @@
+#include "core/trajectory/timeline.hpp"
+
+#include <ostream>
+
+#include "core/trajectory/binary/segment.hpp"
+#include "core/trajectory/binary/varint.hpp"
+#include "core/trajectory/trajectory_line.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::uint64_t labels = 3;
+constexpr std::size_t voxels_a_word = 64;
+
+// The label of the 64 voxels of a word of the sets, if all have the same.
+bool is_uniform(std::uint64_t stock, std::uint64_t keep) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  return stock == 0 || (stock == all && (keep == 0 || keep == all));
+}
+
+Label label_of(std::uint64_t stock, std::uint64_t keep, std::size_t bit) {
+  if ((stock >> bit & 1) == 0) return Label::air;
+  return (keep >> bit & 1) != 0 ? Label::keep : Label::remove;
+}
+
+// Runs of equal labels, by the index of VoxelSet.
+void append_runs(std::string& out, const VoxelGrid& voxels) {
+  Label label = Label::air;
+  std::uint64_t length = 0;
+  const auto add = [&](Label next, std::uint64_t count) {
+    if (next != label && length > 0) append_varint(out, labels * (length - 1) + static_cast<std::uint64_t>(label));
+    length = next == label ? length + count : count;
+    label = next;
+  };
+  for (std::size_t at = 0; at < voxels.stock.words().size(); ++at) {
+    const std::uint64_t stock = voxels.stock.words()[at], keep = voxels.keep.words()[at];
+    if (is_uniform(stock, keep)) {
+      add(label_of(stock, keep, 0), voxels_a_word);
+    } else {
+      for (std::size_t bit = 0; bit < voxels_a_word; ++bit) add(label_of(stock, keep, bit), 1);
+    }
+  }
+  append_varint(out, labels * (length - 1) + static_cast<std::uint64_t>(label));
+}
+
+}  // namespace
+
+TimelineWriter::TimelineWriter(std::ostream& out, const TrajectoryHeader& header, const VoxelGrid& voxels)
+    : out_(out), unsent_(header_line(header) + '\n') {
+  append_runs(unsent_, voxels);
+  flush();
+}
+
+void TimelineWriter::add(const Keyframe& keyframe) {
+  if (in_segment_ == max_segment_keyframes) {
+    last_ = {};
+    in_segment_ = 0;
+  }
+  append_token(unsent_, keyframe, last_);
+  ++in_segment_;
+}
+
+void TimelineWriter::flush() {
+  out_.write(unsent_.data(), static_cast<std::streamsize>(unsent_.size()));
+  out_.flush();
+  unsent_.clear();
+}
+
+}  // namespace sculpt
