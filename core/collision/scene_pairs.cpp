@@ -3,7 +3,7 @@
 
 #include "core/collision/body_pairs.hpp"
 #include "core/collision/margins.hpp"
-#include "core/collision/one_joint.hpp"
+#include "core/collision/shape/one_joint.hpp"
 #include "core/collision/scene_bodies.hpp"
 
 namespace sculpt {

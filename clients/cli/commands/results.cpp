@@ -95,8 +95,8 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
       ->check(CLI::IsMember({"ndjson", "binary", "csv", "tokens", "gzip"}));
   command
       .add_option("--artifact", options->artifact,
-                  "trajectory, timeline (what is cut when), voxels (.binvox), "
-                  "stock (what was left, .binvox), residue (ndjson) or report (json)")
+                  "trajectory, timeline (what goes when), voxels (.binvox), "
+                  "stock (left over, .binvox), residue (ndjson) or report (json)")
       ->check(CLI::IsMember({"trajectory", "timeline", "voxels", "stock", "residue", "report"}))
       ->capture_default_str();
 }

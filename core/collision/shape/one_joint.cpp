@@ -1,4 +1,4 @@
-#include "core/collision/one_joint.hpp"
+#include "core/collision/shape/one_joint.hpp"
 
 #include <algorithm>
 #include <cmath>
