@@ -389,7 +389,7 @@ TEST(CheckpointFolder, IsEmptyOnceTheyAreRemoved) {
   folder.run();
   ASSERT_TRUE(fs::exists(folder.slot(0)));
   remove_checkpoints(folder.folder());
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.folder()), {}), 1) << "the trajectory";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.folder()), {}), 2) << "the trajectory and its timeline";
 }
 
 }  // namespace
