@@ -3,8 +3,8 @@
 
 #include "core/collision/body_pairs.hpp"
 #include "core/collision/margins.hpp"
-#include "core/collision/shape/one_joint.hpp"
 #include "core/collision/scene_bodies.hpp"
+#include "core/collision/shape/one_joint.hpp"
 
 namespace sculpt {
 namespace {

@@ -134,6 +134,7 @@ bool Support::frees_if_apart(Voxel voxel) const {
   // What is joined stays as supported as the voxel was: through itself, or through one of them.
   if (around.parts() < 2 || loose_.contains(voxel)) return false;
   std::vector<Voxel> left = around.unrooted();
+  if (left.empty()) return false;
   for (Voxel& neighbour : left) neighbour = neighbour + voxel;
   bool any_held = around.any_rooted();
   SupportSearch search(standing_, may_fall_, [this](int i, int j) { return rooted(i, j); }, voxel);

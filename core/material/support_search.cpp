@@ -55,8 +55,8 @@ SupportSearch::Found SupportSearch::look_around(const Node& node) {
       continue;
     }
     const Voxel across{step.i == 0, step.j == 0, step.k == 0};
-    const Voxel first = node.corner + Voxel{step.i > 0, step.j > 0, step.k > 0} * edge_ -
-                        Voxel{step.i < 0, step.j < 0, step.k < 0};
+    const Voxel first =
+        node.corner + Voxel{step.i > 0, step.j > 0, step.k > 0} * edge_ - Voxel{step.i < 0, step.j < 0, step.k < 0};
     const auto last = [&](int along) { return along != 0 ? edge_ : 1; };
     for (int k = 0; k < last(across.k); ++k)
       for (int j = 0; j < last(across.j); ++j)

@@ -44,7 +44,9 @@ class SupportSearch {
   bool is_rooted(Voxel voxel) const;
   bool is_whole(Voxel corner);
   bool has_all(const VoxelSet& set, Voxel corner) const;
-  Voxel cube_of(Voxel voxel) const { return {voxel.i / edge_ * edge_, voxel.j / edge_ * edge_, voxel.k / edge_ * edge_}; }
+  Voxel cube_of(Voxel voxel) const {
+    return {voxel.i / edge_ * edge_, voxel.j / edge_ * edge_, voxel.k / edge_ * edge_};
+  }
   bool joins_all() const { return others_->empty() && !any_held_; }
 
   const VoxelSet& standing_;

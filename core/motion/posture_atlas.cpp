@@ -10,8 +10,8 @@ namespace sculpt {
 namespace {
 
 constexpr int parts_an_edge = 4;
-constexpr int starts = 12;              ///< of IK, for a part and an axis
-constexpr double same_posture = 0.2;    ///< rad or m: joints that differ by less are as good as the same
+constexpr int starts = 12;            ///< of IK, for a part and an axis
+constexpr double same_posture = 0.2;  ///< rad or m: joints that differ by less are as good as the same
 
 bool is_new(const std::vector<Configuration>& known, const Configuration& q) {
   return std::ranges::none_of(

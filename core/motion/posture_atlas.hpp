@@ -12,8 +12,9 @@
 namespace sculpt {
 
 /// Postures that bring the ball to the middle of each of 4^3 parts of the grid along each of the `tool_axes()`, as IK
-/// from the middle of the joints' limits and from random configurations finds them. Links and material are not looked at, so what it says depends
-/// on nothing but the cell and the seed. Found when first asked for; safe to use from several threads.
+/// from the middle of the joints' limits and from random configurations finds them. Links and material are not looked
+/// at, so what it says depends on nothing but the cell and the seed. Found when first asked for; safe to use from
+/// several threads.
 class PostureAtlas {
  public:
   /// The chain must outlive the atlas.

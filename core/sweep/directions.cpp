@@ -84,8 +84,8 @@ bool Directions::open(const Opening& opening) {
   run_.helpers.for_each_index(straight_, [&](std::size_t way) {
     const PostureField& field = *ways_[way].field;
     if (count_usable(field, wanted[way]) < wanted[way].size())
-      opened[way] = std::make_unique<PostureField>(field, scene_, standing, with_ways_in(wanted[way]), run_.helpers,
-                                                   run_.watch);
+      opened[way] =
+          std::make_unique<PostureField>(field, scene_, standing, with_ways_in(wanted[way]), run_.helpers, run_.watch);
   });
   const std::size_t before = ways_.size();
   for (std::size_t way = 0; way < straight_; ++way) {

@@ -71,9 +71,8 @@ class MovingPair {
     if (looks_left_-- <= 0) return false;
     const Node &moving = moves_.nodes[one], &standing = other_.nodes[two];
     const bool leaves = moving.is_leaf() && standing.is_leaf();
-    const double middle = (from + to) / 2, radius = motion_.turns ? std::min(moving_profiles_[one].outer,
-                                                                             other_profiles_[two].outer)
-                                                                  : 1;
+    const double middle = (from + to) / 2,
+                 radius = motion_.turns ? std::min(moving_profiles_[one].outer, other_profiles_[two].outer) : 1;
     const double travel = radius * std::abs(to - from) / 2, enough = travel + margin_;
     const Convex placed = moving.shape.placed(pose_at(middle));
     if (separate(placed, standing.shape, std::nextafter(enough, 1e9), effort(leaves)).gap > enough) return true;

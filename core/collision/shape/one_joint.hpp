@@ -7,10 +7,10 @@ namespace sculpt {
 
 /// A motion along a screw or a line, in the frame of the link that is looked at as standing still.
 struct OneJointMotion {
-  Frame pose;            ///< of the moving link, at the beginning
+  Frame pose;  ///< of the moving link, at the beginning
   bool turns = true;
-  Vec3 axis, point;      ///< unit vector; what turns about it turns through this point, else it is shifted along it
-  double way = 0;        ///< that it goes in all (rad or m)
+  Vec3 axis, point;  ///< unit vector; what turns about it turns through this point, else it is shifted along it
+  double way = 0;    ///< that it goes in all (rad or m)
 };
 
 /// True if every part of `moves` stays more than `margin_m` off every part of `other` all along the motion. False where

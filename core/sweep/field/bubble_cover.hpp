@@ -66,7 +66,8 @@ class BubbleCover {
   class Search;
   std::vector<LatticeCube> largest_cubes() const;
   /// `wanted`: parts; null for all.
-  void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest, const VoxelSet* wanted = nullptr);
+  void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest,
+             const VoxelSet* wanted = nullptr);
   void close_upwards(Voxel lean);
 
   std::vector<std::int32_t> bubble_;         ///< per part: index into bubbles_, or -1
