@@ -17,7 +17,7 @@ VoxelSet block_with_shaft(int bottom) {
 /// The reason of each voxel, given that only `keep` and these, in index order, stand.
 std::vector<Reason> look_behind(const VoxelSet& keep, std::vector<Residue> residue,
                                 const char* cell_name = "panda-turntable") {
-  const Cell cell = parse_cell(shipped_cell(cell_name));
+  const Cell cell = parse_cell(shipped_cell_files(cell_name));
   VoxelSet standing = keep;
   for (const Residue& left : residue) standing.insert(left.voxel);
   const Scene scene(cell, cell.grid(keep.n()), standing);

@@ -10,7 +10,7 @@ namespace sculpt {
 namespace {
 
 TEST(Line, TracksTheLineWithTheAxisHeldOverCertifiedEdges) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const Grid grid = cell.grid(16);
   const Scene scene(cell, grid, VoxelSet(16));
   int tracked = 0;
@@ -42,7 +42,7 @@ TEST(Line, TracksTheLineWithTheAxisHeldOverCertifiedEdges) {
 }
 
 TEST(Line, ThroughMaterialIsRefusedAndSaysWhy) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const Grid grid = cell.grid(8);
   VoxelSet wall(8);
   for (int k = 0; k < 8; ++k)

@@ -9,7 +9,7 @@ namespace sculpt {
 namespace {
 
 TEST(PostureAtlas, WhatItGivesHoldsTheToolInThePartOrOneBesideIt) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const Chain chain = cell.chain();
   const Grid grid = cell.grid(16);
   const PostureAtlas atlas(chain, grid, 3);
@@ -30,7 +30,7 @@ TEST(PostureAtlas, WhatItGivesHoldsTheToolInThePartOrOneBesideIt) {
 }
 
 TEST(PostureAtlas, SaysTheSameInAnyOrder) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const Chain chain = cell.chain();
   const PostureAtlas one(chain, cell.grid(16), 7), other(chain, cell.grid(16), 7);
   other.around({15, 15, 15}, 5, 12);
@@ -52,7 +52,7 @@ TEST(PostureAtlas, HasNothingWhereAChainCannotHoldTheTool) {
 }
 
 TEST(PostureAtlas, KnowsWhatJointLimitsForbid) {
-  Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   for (Joint& joint : cell.robot.joints)
     if (joint.name == "joint4") joint.lower = joint.upper - 0.1;  // an arm that cannot bend
   const Chain chain = cell.chain();

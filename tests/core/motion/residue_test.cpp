@@ -18,7 +18,7 @@ std::vector<Residue> explain(const Cell& cell, const VoxelSet& keep, Voxel left)
 }
 
 TEST(Residue, AVoxelInTheOpenThatWasLeftLacksATransit) {
-  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), VoxelSet(8), {4, 4, 4});
+  const auto residue = explain(parse_cell(shipped_cell_files("panda-turntable")), VoxelSet(8), {4, 4, 4});
   ASSERT_EQ(residue.size(), 1u);
   EXPECT_EQ(residue[0].voxel, (Voxel{4, 4, 4}));
   EXPECT_EQ(residue[0].reason, Reason::no_transit);
@@ -30,7 +30,7 @@ TEST(Residue, UnderARoofTheToolCannotReach) {
   keep.erase({4, 4, 1});
   keep.erase({4, 5, 1});
   for (int k = 1; k < 8; ++k) keep.erase({4, 5, k});
-  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), keep, {4, 4, 0});
+  const auto residue = explain(parse_cell(shipped_cell_files("panda-turntable")), keep, {4, 4, 0});
   ASSERT_EQ(residue.size(), 1u);
   EXPECT_EQ(residue[0].reason, Reason::tool_cannot_reach);
 }
@@ -39,7 +39,7 @@ TEST(Residue, DownADeepShaftOnlyAToolWithoutHolderReaches) {
   const auto reason_at = [](const char* cell, int bottom) {
     VoxelSet keep(16, true);
     for (int k = bottom; k < 16; ++k) keep.erase({8, 8, k});
-    const auto residue = explain(parse_cell(shipped_cell(cell)), keep, {8, 8, bottom});
+    const auto residue = explain(parse_cell(shipped_cell_files(cell)), keep, {8, 8, bottom});
     return residue.size() == 1 ? name(residue[0].reason) : "none";
   };
   EXPECT_STREQ(reason_at("panda-turntable", 4), "no transit");
@@ -48,7 +48,7 @@ TEST(Residue, DownADeepShaftOnlyAToolWithoutHolderReaches) {
 }
 
 TEST(Residue, BelowAVoxelThatWasLeftForReachTheToolIsNotToBlame) {
-  CellFiles files = shipped_cell("panda-turntable");
+  CellFiles files = shipped_cell_files("panda-turntable");
   const std::string at = "\"origin_m\": [-0.1, -0.1, 0]";
   files.cell_json.replace(files.cell_json.find(at), at.size(), "\"origin_m\": [-0.1, -0.1, 4]");
   VoxelSet keep(8, true);
@@ -67,20 +67,20 @@ TEST(Residue, BelowAVoxelThatWasLeftForReachTheToolIsNotToBlame) {
 TEST(Residue, ShutInIsEnclosed) {
   VoxelSet keep(8, true);
   keep.erase({4, 4, 4});
-  const auto residue = explain(parse_cell(shipped_cell("panda-turntable")), keep, {4, 4, 4});
+  const auto residue = explain(parse_cell(shipped_cell_files("panda-turntable")), keep, {4, 4, 4});
   ASSERT_EQ(residue.size(), 1u);
   EXPECT_EQ(residue[0].reason, Reason::enclosed);
 }
 
 TEST(Residue, FarAwayIsOutOfReachAndBehindALimitIsAJointLimit) {
-  CellFiles files = shipped_cell("panda-turntable");
+  CellFiles files = shipped_cell_files("panda-turntable");
   const std::string at = "\"origin_m\": [-0.1, -0.1, 0]";
   files.cell_json.replace(files.cell_json.find(at), at.size(), "\"origin_m\": [-0.1, -0.1, 4]");
   const auto far = explain(parse_cell(files), VoxelSet(8), {4, 4, 4});
   ASSERT_EQ(far.size(), 1u);
   EXPECT_EQ(far[0].reason, Reason::out_of_reach);
 
-  Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const auto limit = [&](const char* name, double lower, double upper) {
     Joint& joint = cell.robot.joints[static_cast<std::size_t>(cell.robot.find_joint(name))];
     joint.lower = lower;

@@ -74,7 +74,7 @@ TEST(ToolReach, IsWhatCapsulesSay) {
 }
 
 TEST(ToolReach, IsJustWhatTheArmsSearchLeaves) {
-  const CellFiles files = shipped_cell("panda-turntable");
+  const CellFiles files = shipped_cell_files("panda-turntable");
   const Cell cell = parse_cell(files);
   int out_of_reach = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {

@@ -25,7 +25,7 @@ class Transit : public testing::Test {
     }
   }
 
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   const Scene scene{cell, cell.grid(8), VoxelSet(8, true)};
 };
 

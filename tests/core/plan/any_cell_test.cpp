@@ -50,12 +50,13 @@ TEST(AnyCell, WithAShortToolIsCarvedBySweeps) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const int n = seed == 0 ? 16 : 8;
-    expect_swept(plan(job_for(shipped_cell("panda-turntable-6mm"), random_target(n, seed), seed)), n == 8 ? 90 : 98);
+    expect_swept(plan(job_for(shipped_cell_files("panda-turntable-6mm"), random_target(n, seed), seed)),
+                 n == 8 ? 90 : 98);
   }
 }
 
 TEST(AnyCell, WithAShortToolGivesTheSameBytesAtAnyNumberOfThreads) {
-  Job job = job_for(shipped_cell("panda-turntable-6mm"), random_target(8, 5), 5);
+  Job job = job_for(shipped_cell_files("panda-turntable-6mm"), random_target(8, 5), 5);
   const JobResult one = plan(job);
   job.threads = 2;
   const JobResult two = plan(job);

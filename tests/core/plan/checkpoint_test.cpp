@@ -80,7 +80,7 @@ TEST(Checkpoint, OfAnotherJobOrProgramIsNotUsed) {
 }
 
 TEST(JobKey, DependsOnWhateverThePlanDependsOn) {
-  const Job job = make_job(shipped_cell("gantry"), random_target(8, 1));
+  const Job job = make_job(shipped_cell_files("gantry"), random_target(8, 1));
   std::vector<Job> others(10, job);
   others[0].seed = 1;
   others[1].resolution = 16;

@@ -47,7 +47,7 @@ std::string refusal(const Job& job) {
 
 TEST(Clampings, TheSecondRemovesWhatTheFirstCouldNotReach) {
   const ScratchFile file;
-  const Job first = make_job(shipped_cell("gantry"), hood());
+  const Job first = make_job(shipped_cell_files("gantry"), hood());
   const JobResult carved = run_job(first, file.path(), {});
   constexpr std::uint64_t hidden = 4 * 4 * 4;
   ASSERT_EQ(carved.report.voxels.residue, hidden);
@@ -62,7 +62,7 @@ TEST(Clampings, TheSecondRemovesWhatTheFirstCouldNotReach) {
 
 TEST(Clampings, TurnsAddUpFromJobToJob) {
   const ScratchFile file;
-  const Job first = make_job(shipped_cell("gantry"), hood());
+  const Job first = make_job(shipped_cell_files("gantry"), hood());
   const JobResult one = run_job(first, file.path(), {});
   const Job second = continued(first, one, half_turn);
   const JobResult two = run_job(second, file.path(), {});
@@ -74,7 +74,7 @@ TEST(Clampings, TurnsAddUpFromJobToJob) {
 
 TEST(Clampings, WhatDoesNotFitIsRefused) {
   const ScratchFile file;
-  const Job first = make_job(shipped_cell("gantry"), hood());
+  const Job first = make_job(shipped_cell_files("gantry"), hood());
   const JobResult carved = run_job(first, file.path(), {});
   EXPECT_EQ(refusal(continued(first, carved, half_turn)), "accepted");
   EXPECT_EQ(refusal(continued(first, carved, {0.5, 0, 0})), "placement_invalid");
@@ -87,14 +87,14 @@ TEST(Clampings, WhatDoesNotFitIsRefused) {
   ASSERT_NE(size, std::string::npos) << json;
   json.replace(size, 13, "\"size_m\": 0.3");
   EXPECT_EQ(refusal(other), "cell_invalid");
-  Job finer = make_job(shipped_cell("gantry"), random_target(16, 1));
+  Job finer = make_job(shipped_cell_files("gantry"), random_target(16, 1));
   finer.clampings.push_back({left_file(carved), half_turn});
   EXPECT_EQ(refusal(finer), "resolution_invalid");
 }
 
 TEST(Clampings, BelongToTheJobsKeyAndToItsMemory) {
   const ScratchFile file;
-  const Job first = make_job(shipped_cell("gantry"), hood());
+  const Job first = make_job(shipped_cell_files("gantry"), hood());
   const JobResult carved = run_job(first, file.path(), {});
   const Job second = continued(first, carved, half_turn), same = continued(first, carved, half_turn);
   EXPECT_EQ(job_key(second), job_key(same));

@@ -90,7 +90,7 @@ TEST(GantryPlan, AroundAPlateInTheStraightWayItFindsAnother) {
 }
 
 TEST(GantryPlan, BeyondItsLimitsIsResidueToo) {
-  CellFiles cell = shipped_cell("gantry");
+  CellFiles cell = shipped_cell_files("gantry");
   std::string& urdf = cell.files.begin()->second;
   urdf.replace(urdf.find("lower=\"-0.16\""), 13, "lower=\"-0.05\"");
   for (const char* search : searches) {
@@ -100,7 +100,7 @@ TEST(GantryPlan, BeyondItsLimitsIsResidueToo) {
 }
 
 TEST(GantryPlan, AThickSpindleCutsAsDeepAsItReaches) {
-  CellFiles cell = shipped_cell("gantry");
+  CellFiles cell = shipped_cell_files("gantry");
   std::string& urdf = cell.files.begin()->second;
   const std::string tool = "<link name=\"tool\"/>";
   urdf.replace(urdf.find(tool), tool.size(),
@@ -121,7 +121,7 @@ TEST(GantryPlan, ItFreesPiecesOnlyWhereThatIsAllowed) {
   bool any_freed = false;
   for (const char* search : searches) {
     SCOPED_TRACE(search);
-    Job job = make_job(shipped_cell("gantry"), roof);
+    Job job = make_job(shipped_cell_files("gantry"), roof);
     const Planned held = plan(job, search);
     EXPECT_EQ(held.result.report.voxels.freed, 0u);
     EXPECT_NE(held.trajectory.find(R"("held":true)"), std::string::npos);
@@ -142,7 +142,7 @@ TEST(GantryPlan, WhatCannotBeClearedOutIsLeftToHoldItsPiece) {
         if (k > 11 || i < 5 || i > 10 || j < 5 || j > 10) shell.insert({i, j, k});
   for (const char* search : searches) {
     SCOPED_TRACE(search);
-    const Planned planned = plan(make_job(shipped_cell("gantry"), shell), search);
+    const Planned planned = plan(make_job(shipped_cell_files("gantry"), shell), search);
     EXPECT_GT(planned.result.report.voxels.loose_keep, 0u);
   }
 }
@@ -165,7 +165,7 @@ TEST(GantryPlan, AFreedPieceIsAFindingUnlessTheHeaderAllowsIt) {
   for (int k = 0; k < 8; ++k) roof.insert({4, 4, k});
   for (int j = 0; j < 8; ++j)
     for (int i = 0; i < 8; ++i) roof.insert({i, j, 4});
-  Job job = make_job(shipped_cell("gantry"), roof);
+  Job job = make_job(shipped_cell_files("gantry"), roof);
   job.allow_freed = true;
   for (const char* search : searches) {
     const Planned planned = plan(job, search);

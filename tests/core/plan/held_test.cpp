@@ -74,7 +74,7 @@ void expect_held(const std::filesystem::path& trajectory, const VoxelGrid& voxel
 }
 
 std::uint64_t expect_held(const VoxelSet& target, const std::string& search, std::uint64_t seed) {
-  Job job = make_job(shipped_cell("panda-turntable"), target, seed);
+  Job job = make_job(shipped_cell_files("panda-turntable"), target, seed);
   job.search = parse_search(search);
   const ScratchFile file;
   const JobResult result = run_job(job, file.path(), {});
@@ -109,7 +109,7 @@ TEST(Held, RandomTargetsWithPartsInTheAirAreHeld) {
 }
 
 TEST(Held, WhatHangsOnNothingIsToldBeforePlanning) {
-  const Job job = make_job(shipped_cell("gantry"), overhang(8, 4));
+  const Job job = make_job(shipped_cell_files("gantry"), overhang(8, 4));
   std::uint64_t told = 0;
   const Watch watch{{}, [&](const Progress& progress) {
                       if (told == 0 && progress.stage == Stage::plan) {

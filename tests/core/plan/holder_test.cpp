@@ -11,7 +11,7 @@ namespace {
 
 /// The shipped cell with its tool as it is, but without the holder that grips it.
 CellFiles cell_without_holder() {
-  CellFiles files = shipped_cell("panda-turntable-6mm");
+  CellFiles files = shipped_cell_files("panda-turntable-6mm");
   const std::size_t from = files.cell_json.find("\"holder\": ["), to = files.cell_json.find(']', from);
   EXPECT_NE(from, std::string::npos);
   files.cell_json.replace(from, to + 1 - from, "\"holder\": []");
@@ -28,7 +28,7 @@ VoxelSet shaft() {
 }
 
 TEST(Holder, NeverComesNearTheLinkBeforeTheLastJointWhichIsNotCheckedAgainstIt) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable-6mm"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable-6mm"));
   const Chain chain = cell.chain();
   const auto bodies = make_bodies(cell, make_tool(cell.tool, 0.0125));
   const int link6 = cell.robot.find_link("link6");
@@ -51,7 +51,7 @@ TEST(Holder, NeverComesNearTheLinkBeforeTheLastJointWhichIsNotCheckedAgainstIt) 
 TEST(Holder, BustIsCarvedWithTheSixMillimetreTool) {
   const auto mesh = std::filesystem::path(SOURCE_DIR) / "config/samples/bust.stl";
   Job job;
-  job.cell = shipped_cell("panda-turntable-6mm");
+  job.cell = shipped_cell_files("panda-turntable-6mm");
   job.mesh = {read_file(mesh), "stl", "bust.stl"};
   job.resolution = 16;
   const ScratchFile file;
@@ -62,7 +62,7 @@ TEST(Holder, BustIsCarvedWithTheSixMillimetreTool) {
 
 TEST(Holder, StaysOutOfADeepShaftAndWhatItCannotReachIsLeft) {
   const ScratchFile file;
-  const JobResult result = run_job(make_job(shipped_cell("panda-turntable-6mm"), shaft()), file.path(), {});
+  const JobResult result = run_job(make_job(shipped_cell_files("panda-turntable-6mm"), shaft()), file.path(), {});
   expect_sound(result);
   EXPECT_GT(result.report.voxels.removed, 0u);
   const auto left = left_of(result);
@@ -78,7 +78,7 @@ TEST(Holder, ThatEntersTheShaftIsFoundByTheReplay) {
   const JobResult result = run_job(make_job(cell_without_holder(), shaft()), file.path(), {});
   expect_sound(result);
   std::ifstream in(file.path(), std::ios::binary);
-  const Cell with_holder = parse_cell(shipped_cell("panda-turntable-6mm"));
+  const Cell with_holder = parse_cell(shipped_cell_files("panda-turntable-6mm"));
   const Verdict verdict = verify_trajectory(in, with_holder, result.voxels, {});
   EXPECT_FALSE(verdict.clean);
   ASSERT_FALSE(verdict.findings.empty());

@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 Job sound_job() {
-  return make_job(shipped_cell("gantry"), random_target(8, 1));
+  return make_job(shipped_cell_files("gantry"), random_target(8, 1));
 }
 
 void expect_refused(const Job& job, const std::string& code, const std::string& word) {
@@ -60,7 +60,7 @@ TEST(Intake, RefusesABinvoxOfAnotherResolution) {
 
 TEST(Intake, AMeshIsReadOnce) {
   Job job;
-  job.cell = shipped_cell("gantry");
+  job.cell = shipped_cell_files("gantry");
   job.mesh = {read_file(SOURCE_DIR "/config/samples/bust.stl"), "stl", "bust.stl"};
   for (const int resolution : {16, 64}) {  // the coarse grid of the check is the job's own, and is not
     job.resolution = resolution;
@@ -85,7 +85,7 @@ TEST(Intake, RefusesUnknownSearchesAndNoThreads) {
     EXPECT_EQ(error.code(), "search_unknown");
     EXPECT_NE(std::string(error.what()).find("octree"), std::string::npos) << error.what();
   }
-  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
+  Job job = make_job(shipped_cell_files("panda-turntable"), random_target(8, 1));
   job.search = Search::voxel;
   expect_refused(job, "search_unknown", "translating");
   job = sound_job();
@@ -136,13 +136,13 @@ TEST(Intake, RefusesBySizesAlone) {
 }
 
 TEST(Intake, RefusesAToolThatDoesNotFitAVoxel) {
-  Job job = make_job(shipped_cell("gantry"), random_target(16, 1));
+  Job job = make_job(shipped_cell_files("gantry"), random_target(16, 1));
   job.cell.cell_json = with(job.cell.cell_json, "\"ball_radius_voxels\": 0.45", "\"ball_radius_m\": 0.0063");
   expect_refused(job, "tool_too_large", "voxel");
 }
 
 TEST(Intake, RefusesAStockThatTheChainCannotReach) {
-  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 1));
+  Job job = make_job(shipped_cell_files("panda-turntable"), random_target(8, 1));
   job.cell.cell_json = with(job.cell.cell_json, "\"origin_m\": [-0.1, -0.1, 0]", "\"origin_m\": [-0.1, -0.1, 5]");
   expect_refused(job, "stock_out_of_reach", "move the stock");
 }
@@ -177,7 +177,7 @@ TEST(Intake, WhatTheMeshLeavesInDoubtIsCountedWithItsPlace) {
 }
 
 TEST(Intake, KeepOutsideTheStockIsAir) {
-  Job job = make_job(shipped_cell("gantry"), VoxelSet(8, true));
+  Job job = make_job(shipped_cell_files("gantry"), VoxelSet(8, true));
   job.stock.mesh = binvox_file(random_target(8, 3), job.cell);
   const VoxelGrid voxels = make_voxels(job, parse_cell(job.cell).grid(8), {});
   EXPECT_EQ(voxels.keep, voxels.stock);

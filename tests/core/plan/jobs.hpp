@@ -25,13 +25,13 @@ inline std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-inline CellFiles shipped_cell(const std::string& name) {
+inline CellFiles shipped_cell_files(const std::string& name) {
   return read_cell_files(std::filesystem::path(SOURCE_DIR) / "config/cells" / (name + ".json"));
 }
 
 /// The gantry with more in its room: URDF collision elements, in the stock's frame.
 inline CellFiles gantry_beside(const std::string& fixtures) {
-  CellFiles cell = shipped_cell("gantry");
+  CellFiles cell = shipped_cell_files("gantry");
   std::string& urdf = cell.files.begin()->second;
   urdf.insert(urdf.find("</link>"), fixtures);
   return cell;

@@ -106,7 +106,7 @@ std::map<Voxel, Reason> expect_the_same_whatever_the_order(const Job& job, std::
 Job mesh_job(const std::filesystem::path& mesh, int resolution) {
   Job job;
   job.mesh = {read_file(mesh), "stl", mesh.filename().string()};
-  job.cell = shipped_cell("panda-turntable");
+  job.cell = shipped_cell_files("panda-turntable");
   job.resolution = resolution;
   return job;
 }
@@ -142,7 +142,7 @@ TEST(Order, TheVaseAt16KeepsTheSameVoxels) {
 TEST(Order, RandomSpongesKeepTheSameVoxels) {
   for (std::uint64_t seed : {0, 1, 4}) {
     SCOPED_TRACE("target " + std::to_string(seed));
-    const Job job = make_job(shipped_cell("panda-turntable"), random_sponge(8, seed));
+    const Job job = make_job(shipped_cell_files("panda-turntable"), random_sponge(8, seed));
     EXPECT_FALSE(expect_the_same_whatever_the_order(job, 2).empty());
   }
 }

@@ -10,7 +10,7 @@ namespace sculpt {
 namespace {
 
 TEST(Plan, RandomShapesWithTheGantryLeaveOnlyWhatIsEnclosed) {
-  const CellFiles cell = shipped_cell("gantry");
+  const CellFiles cell = shipped_cell_files("gantry");
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const ScratchFile file;
@@ -21,7 +21,7 @@ TEST(Plan, RandomShapesWithTheGantryLeaveOnlyWhatIsEnclosed) {
 }
 
 TEST(Plan, RandomShapesVoxelByVoxelLeaveTheSameAsTheOctree) {
-  const CellFiles cell = shipped_cell("gantry");
+  const CellFiles cell = shipped_cell_files("gantry");
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Job job = make_job(cell, random_target(seed % 2 == 0 ? 8 : 16, seed));
@@ -35,7 +35,7 @@ TEST(Plan, RandomShapesVoxelByVoxelLeaveTheSameAsTheOctree) {
 }
 
 TEST(Plan, RandomShapesWithTheArmReplayClean) {
-  const CellFiles cell = shipped_cell("panda-turntable");
+  const CellFiles cell = shipped_cell_files("panda-turntable");
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const ScratchFile file;
@@ -46,7 +46,7 @@ TEST(Plan, RandomShapesWithTheArmReplayClean) {
 }
 
 TEST(Plan, SameJobAndSeedGiveTheSameBytesAndAnotherSeedAnotherPlan) {
-  const CellFiles cell = shipped_cell("panda-turntable");
+  const CellFiles cell = shipped_cell_files("panda-turntable");
   const VoxelSet target = random_target(8, 3);
   const ScratchFile first, again, other;
   const std::string hash = run_job(make_job(cell, target, 5), first.path(), {}).report.plan_sha256;
@@ -56,7 +56,7 @@ TEST(Plan, SameJobAndSeedGiveTheSameBytesAndAnotherSeedAnotherPlan) {
 }
 
 TEST(Plan, ThreadsDoNotChangeThePlan) {
-  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 4));
+  Job job = make_job(shipped_cell_files("panda-turntable"), random_target(8, 4));
   const ScratchFile first, second;
   const std::string one = run_job(job, first.path(), {}).report.plan_sha256;
   job.threads = 2;
@@ -64,7 +64,7 @@ TEST(Plan, ThreadsDoNotChangeThePlan) {
 }
 
 TEST(Plan, StockSmallerThanTheGridIsAirFromTheStart) {
-  Job job = make_job(shipped_cell("panda-turntable"), VoxelSet(8));
+  Job job = make_job(shipped_cell_files("panda-turntable"), VoxelSet(8));
   job.stock.box = Stock::Box{Vec3(0, 0, 0), Vec3(0.2, 0.2, 0.05)};
   const ScratchFile file;
   const JobResult result = run_job(job, file.path(), {});
@@ -74,7 +74,7 @@ TEST(Plan, StockSmallerThanTheGridIsAirFromTheStart) {
 }
 
 TEST(Plan, StopsSoonAfterItIsAskedTo) {
-  const Job job = make_job(shipped_cell("panda-turntable"), random_target(32, 1));
+  const Job job = make_job(shipped_cell_files("panda-turntable"), random_target(32, 1));
   for (std::uint64_t after : {1u, 10u, 30u}) {
     std::stop_source stop;
     std::uint64_t steps = 0, after_stop = 0;
@@ -89,7 +89,7 @@ TEST(Plan, StopsSoonAfterItIsAskedTo) {
 }
 
 TEST(Plan, ProgressNeverPassesItsTotalAndEndsAtWhatWasRemoved) {
-  const Job job = make_job(shipped_cell("gantry"), random_target(16, 2));
+  const Job job = make_job(shipped_cell_files("gantry"), random_target(16, 2));
   std::uint64_t last = 0;
   const Watch watch{{}, [&](const Progress& progress) {
                       EXPECT_LE(progress.done, progress.total);
@@ -106,7 +106,7 @@ TEST(Plan, DavidAt64WithTheGantryIsCarvedWhole) {
   if (!std::filesystem::exists(mesh))
     GTEST_SKIP() << "no david.stl: set SCULPT_SHARED_DATA to the folder of shared data";
   Job job;
-  job.cell = shipped_cell("gantry");
+  job.cell = shipped_cell_files("gantry");
   job.mesh = {read_file(mesh), "stl", "david.stl"};
   job.resolution = 64;
   const ScratchFile file;

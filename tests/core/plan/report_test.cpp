@@ -51,7 +51,7 @@ TEST(Report, KeepThatHangsOnNothingIsCounted) {
   for (int i = 4; i < 7; ++i) target.insert({i, 5, 5});
   target.insert({2, 2, 3});  // touches the post along an edge only
   const ScratchFile file;
-  const Report report = run_job(make_job(shipped_cell("gantry"), target), file.path(), {}).report;
+  const Report report = run_job(make_job(shipped_cell_files("gantry"), target), file.path(), {}).report;
   EXPECT_EQ(report.voxels.keep, 7u);
   EXPECT_EQ(report.voxels.loose_keep, 4u);
   EXPECT_EQ(report.voxels.loose_keep_pieces, 2u);

@@ -142,7 +142,7 @@ class Resume : public testing::TestWithParam<Kind> {
  protected:
   static Job job(std::uint64_t seed) {
     const CellFiles cell =
-        std::string(GetParam().cell) == "clamped gantry" ? clamped_gantry() : shipped_cell(GetParam().cell);
+        std::string(GetParam().cell) == "clamped gantry" ? clamped_gantry() : shipped_cell_files(GetParam().cell);
     Job job = make_job(cell, random_target(GetParam().resolution, seed), seed);
     job.search = parse_search(GetParam().search);
     job.threads = 1 + static_cast<int>(seed % 2);
@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Resume,
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 Job arm_job() {
-  Job job = make_job(shipped_cell("panda-turntable"), random_target(8, 3), 3);
+  Job job = make_job(shipped_cell_files("panda-turntable"), random_target(8, 3), 3);
   job.search = Search::octree;
   return job;
 }
@@ -246,7 +246,7 @@ std::vector<std::uint64_t> planned(const std::vector<Progress>& told) {
 }
 
 TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
-  Job job = make_job(shipped_cell("panda-turntable"), random_target(64, 5), 5);
+  Job job = make_job(shipped_cell_files("panda-turntable"), random_target(64, 5), 5);
   constexpr std::uint64_t batch = 16 * 64 * 64;
   std::vector<Progress> told;
   {
@@ -286,7 +286,7 @@ TEST(ResumedRun, DoesAgainNoMoreOfASweepThanABatchOfLayers) {
 }
 
 TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
-  Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
+  Job job = make_job(shipped_cell_files("gantry"), random_target(32, 3), 3);
   job.search = Search::voxel;
   std::vector<Progress> told;
   const Outcome expected = uninterrupted(job, &told);
@@ -306,7 +306,7 @@ TEST(ResumedRun, OfAFinishedPlanOnlyReplaysAndOnlyWhatWasNotReplayed) {
 }
 
 TEST(ResumedRun, GoesOnWithAReplayWhereItWasStopped) {
-  Job job = make_job(shipped_cell("gantry"), random_target(32, 3), 3);
+  Job job = make_job(shipped_cell_files("gantry"), random_target(32, 3), 3);
   job.search = Search::voxel;
   std::vector<Progress> told;
   const Outcome expected = uninterrupted(job, &told);

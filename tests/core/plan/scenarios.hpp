@@ -12,7 +12,7 @@ inline Job scenario(const std::string& name, const std::string& cell, int resolu
   const std::string extension = name == "empty" ? "binvox" : "stl", file = name + "." + extension;
   Job job;
   job.mesh = {read_file(std::filesystem::path(SOURCE_DIR) / "tests/scenarios" / file), extension, file};
-  job.cell = shipped_cell(cell);
+  job.cell = shipped_cell_files(cell);
   job.resolution = resolution;
   job.search = parse_search(search);
   const double edge_m = 0.2 / 16;

@@ -35,7 +35,7 @@ std::string text(const Place& place) {
 class SweepRuns {
  public:
   SweepRuns(const char* cell, const VoxelSet& keep, std::uint64_t seed)
-      : cell_(parse_cell(shipped_cell(cell))),
+      : cell_(parse_cell(shipped_cell_files(cell))),
         voxels_{VoxelSet(keep.n(), true), keep},
         may_fall_(find_unheld(voxels_)),
         seed_(seed) {}

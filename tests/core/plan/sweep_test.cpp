@@ -22,7 +22,7 @@ Job sweep_job(const CellFiles& cell, const VoxelSet& target, std::uint64_t seed 
 }
 
 TEST(Sweep, LeavesWhatOctreeLeavesForTheSameReasons) {
-  const CellFiles cell = shipped_cell("panda-turntable");
+  const CellFiles cell = shipped_cell_files("panda-turntable");
   std::uint64_t left = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -42,7 +42,7 @@ TEST(Sweep, LeavesWhatOctreeLeavesForTheSameReasons) {
 }
 
 TEST(Sweep, RandomShapesReplayCleanAtSixteen) {
-  const CellFiles cell = shipped_cell("panda-turntable");
+  const CellFiles cell = shipped_cell_files("panda-turntable");
   for (std::uint64_t seed = 20; seed < 23; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const ScratchFile file;
@@ -53,7 +53,7 @@ TEST(Sweep, RandomShapesReplayCleanAtSixteen) {
 }
 
 TEST(Sweep, SameJobAndSeedGiveTheSameBytesAtAnyNumberOfThreads) {
-  const CellFiles cell = shipped_cell("panda-turntable");
+  const CellFiles cell = shipped_cell_files("panda-turntable");
   for (std::uint64_t seed = 40; seed < 42; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Job job = sweep_job(cell, random_target(16, seed), seed);
@@ -71,7 +71,7 @@ TEST(Sweep, SameJobAndSeedGiveTheSameBytesAtAnyNumberOfThreads) {
 }
 
 TEST(Sweep, StopsAtAnyStepOfThePlan) {
-  Job job = sweep_job(shipped_cell("panda-turntable"), random_target(16, 1));
+  Job job = sweep_job(shipped_cell_files("panda-turntable"), random_target(16, 1));
   const auto count_steps = [&job](std::uint64_t stop_after) {
     std::stop_source stop;
     std::uint64_t steps = 0;
@@ -95,7 +95,7 @@ TEST(Sweep, StopsAtAnyStepOfThePlan) {
 }
 
 TEST(Sweep, StockSmallerThanTheGridIsNotCutWhereThereIsNone) {
-  Job job = sweep_job(shipped_cell("panda-turntable"), random_target(16, 2));
+  Job job = sweep_job(shipped_cell_files("panda-turntable"), random_target(16, 2));
   VoxelSet target(16);
   for (int k = 0; k < 6; ++k)
     for (int j = 5; j < 9; ++j)
@@ -112,7 +112,7 @@ TEST(Sweep, StockSmallerThanTheGridIsNotCutWhereThereIsNone) {
 TEST(Sweep, SixMillimetreToolInItsHolderReplaysClean) {
   const ScratchFile file;
   const JobResult result =
-      run_job(sweep_job(shipped_cell("panda-turntable-6mm"), random_target(16, 60)), file.path(), {});
+      run_job(sweep_job(shipped_cell_files("panda-turntable-6mm"), random_target(16, 60)), file.path(), {});
   expect_sound(result);
   EXPECT_GT(result.report.voxels.removed, result.report.voxels.remove / 2);
 }
@@ -125,7 +125,7 @@ TEST(Sweep, KeepsOffAClampBesideAndOverTheStock) {
   expect_sound(result);
   EXPECT_GT(result.report.voxels.removed, result.report.voxels.remove / 2);
 
-  const JobResult without = run_job(sweep_job(shipped_cell("panda-turntable"), target), careless.path(), {});
+  const JobResult without = run_job(sweep_job(shipped_cell_files("panda-turntable"), target), careless.path(), {});
   std::ifstream in(careless.path(), std::ios::binary);
   EXPECT_FALSE(verify_trajectory(in, parse_cell(with_clamp), without.voxels, {}).clean)
       << "the clamp is in nobody's way";
@@ -148,7 +148,7 @@ TEST(Sweep, AThinShankBesideAClampReplaysClean) {
 }
 
 TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
-  const Cell cell = parse_cell(shipped_cell("panda-turntable"));
+  const Cell cell = parse_cell(shipped_cell_files("panda-turntable"));
   std::vector<Voxel> straight = tool_steps();
   straight.resize(5);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -177,7 +177,7 @@ TEST(Sweep, TiltedToolsCutWhatStraightOnesCannotComeTo) {
 
 TEST(Sweep, ASplitBoxReplaysCleanAndIsTheSameAtAnyNumberOfThreads) {
   const ScratchFile one, two;
-  Job job = sweep_job(shipped_cell("panda-turntable"), split_box(16, 4));
+  Job job = sweep_job(shipped_cell_files("panda-turntable"), split_box(16, 4));
   job.threads = 2;
   const JobResult result = run_job(job, two.path(), {});
   expect_sound(result);
@@ -194,7 +194,7 @@ TEST(Sweep, ASplitBoxBesideAClampReplaysClean) {
 }
 
 TEST(Sweep, ATranslatingRobotCarvesByOctreeInstead) {
-  Job job = sweep_job(shipped_cell("gantry"), random_target(8, 5));
+  Job job = sweep_job(shipped_cell_files("gantry"), random_target(8, 5));
   const ScratchFile asked, other;
   const JobResult result = run_job(job, asked.path(), {});
   EXPECT_EQ(result.report.search, "octree");
