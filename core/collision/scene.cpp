@@ -77,9 +77,17 @@ Contact Scene::contact_at(const Configuration& q, std::optional<Voxel> exempt) c
   if (bodies_->tool_meets_material(bodies_->chain.tool_pose(q), exempt)) return Contact::tool_material;
   std::vector<Frame> at;
   bodies_->chain.link_poses(q, at);
-  for (const SceneBodies::Pair& pair : bodies_->pairs)
-    if (!pair.is_free_between(q, q) && bodies_->near(pair, at, pair.margin_m)) return pair.contact();
-  return Contact::none;
+  const std::vector<SceneBodies::Pair>& pairs = bodies_->pairs;
+  const auto touches = [&](const SceneBodies::Pair& pair) {
+    return !pair.is_free_between(q, q) && bodies_->near(pair, at, pair.margin_m);
+  };
+  // What was in the way last mostly is again.
+  const std::size_t last = bodies_->last_contact.load(std::memory_order_relaxed);
+  if (last < pairs.size() && touches(pairs[last])) return pairs[last].contact();
+  const auto found = std::ranges::find_if(pairs, touches);
+  if (found == pairs.end()) return Contact::none;
+  bodies_->last_contact.store(static_cast<std::size_t>(found - pairs.begin()), std::memory_order_relaxed);
+  return found->contact();
 }
 
 bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {

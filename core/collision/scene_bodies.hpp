@@ -99,6 +99,7 @@ class SceneBodies {
   JointBox bounds;           ///< where the motion bounds hold
   bool has_mimic = false;
   mutable std::atomic<std::uint64_t> checks = 0;
+  mutable std::atomic<std::size_t> last_contact = 0;  ///< of `pairs`, for any thread: where to look first
 
  private:
   /// A body seen from a link.

@@ -6,19 +6,26 @@
 #include <numeric>
 #include <optional>
 
+#include "core/motion/long_tool.hpp"
+
 namespace sculpt {
 namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+/// Sweeps through the whole grid are worth their while from one wanted voxel in so many on.
+constexpr std::size_t sparse = 4096;
+
+int steps_along(Voxel axis, double length) {
+  return static_cast<int>(length / Vec3(axis.i, axis.j, axis.k).norm() + 0.5);
+}
 
 /// The voxels that a tool passes, from its ball's outwards: those beside each step of the ball.
 struct ToolRay {
-  ToolRay(Voxel axis, double length) : step(axis) {
+  ToolRay(Voxel axis, double length) : step(axis), steps(steps_along(axis, length)) {
     for (int part = 1; part < 8; ++part)
       if (const Voxel w{(part & 1) * axis.i, (part >> 1 & 1) * axis.j, (part >> 2) * axis.k};
           std::popcount(static_cast<unsigned>(part)) == l1(w, {}))
         beside.push_back(w);
-    steps = static_cast<int>(length / Vec3(axis.i, axis.j, axis.k).norm() + 0.5);
   }
 
   Voxel step;
@@ -123,7 +130,7 @@ class ToolReach {
   }
 
   const VoxelSet& standing_;
-  const std::vector<Voxel>& wanted_;  ///< a voxel's number is its place here
+  const std::vector<Voxel>& wanted_;   ///< a voxel's number is its place here
   std::vector<std::size_t> row_ends_;  ///< of the voxels that share j and k: where those that are wanted end
   std::vector<ToolRay> rays_;
   std::vector<State> states_;
@@ -132,11 +139,29 @@ class ToolReach {
   std::vector<std::size_t> to_tell_;       ///< voxels that are gone, of which those that wait for them do not know yet
 };
 
+/// Takes out of both sets what a tool without end comes to: sweeps along each of `steps` until they take nothing more.
+void peel(VoxelSet& standing, std::vector<Voxel>& wanted, const std::vector<Voxel>& steps, const Watch& watch) {
+  VoxelSet to_take(standing.n());
+  for (const Voxel v : wanted) to_take.insert(v);
+  for (std::size_t at = 0, in_vain = 0; in_vain < steps.size(); at = (at + 1) % steps.size()) {
+    if (watch.stop.stop_requested()) throw Cancelled{};
+    in_vain = peel_along(steps[at], to_take, standing) ? 1 : in_vain + 1;  // a second sweep along it takes nothing
+  }
+  std::erase_if(wanted, [&](Voxel v) { return !standing.contains(v); });
+}
+
 }  // namespace
 
 std::vector<Voxel> find_out_of_tool_reach(const VoxelSet& standing, const std::vector<Voxel>& wanted,
                                           const std::vector<Voxel>& steps, double length, const Watch& watch) {
-  return ToolReach(standing, wanted, steps, length).run(watch);
+  const auto n = static_cast<std::size_t>(standing.n());
+  if (n < 4 || wanted.size() < n * n * n / sparse) return ToolReach(standing, wanted, steps, length).run(watch);
+  VoxelSet rest = standing;
+  std::vector<Voxel> left = wanted;
+  peel(rest, left, steps, watch);
+  const bool ends_inside =
+      std::ranges::any_of(steps, [&](Voxel step) { return static_cast<std::size_t>(steps_along(step, length)) < n; });
+  return ends_inside ? ToolReach(rest, left, steps, length).run(watch) : left;
 }
 
 }  // namespace sculpt

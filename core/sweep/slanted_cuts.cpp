@@ -12,7 +12,10 @@ constexpr double travel_tolerance = 0.5;
 constexpr int outside_by = 2;  ///< cells from the last of the grid to where the ball travels
 /// Of the search around the ball: cells looked at, and how far off they may be.
 constexpr std::size_t max_hops = 3000;
-constexpr int window = 64;
+/// After so many cells it goes on only if some cut is so few steps off: in open air it comes no farther than that.
+constexpr std::size_t first_hops = 256;
+constexpr int max_steps = 16;
+constexpr int window = 64;  ///< a row of it is a word
 
 Vec3 centre(Voxel cell) {
   return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
@@ -31,14 +34,15 @@ void for_each_cut(const Stroke& stroke, const Visit& visit) {
 }  // namespace
 
 SlantedCuts::SlantedCuts(const ToolView& view, const VoxelSet& standing, const std::vector<Voxel>& wanted, Voxel gate,
-                         std::function<bool(const Vec3&)> reachable)
+                         std::function<bool(const Vec3&)> reachable, std::function<bool(Voxel)> take)
     : view_(view),
       gate_(gate),
       reachable_(std::move(reachable)),
+      take_(std::move(take)),
       shadow_(standing, view.along(view.lean)),
       wanted_(view.n),
       at_(gate),
-      seen_(static_cast<std::size_t>(window) * window * window) {
+      seen_(static_cast<std::size_t>(window) * window) {
   for (const Voxel v : wanted) {
     wanted_.insert(v);
     if (shadow_.is_clear(v)) lit_.push_back(view_.cell(v));
@@ -55,17 +59,13 @@ bool SlantedCuts::is_reachable(Voxel cell) const {
   return reachable_(centre(cell));
 }
 
-bool SlantedCuts::is_free(Voxel cell) const {
-  if (!is_in_bounds(cell)) return false;
+SlantedCuts::Place SlantedCuts::look_at(Voxel cell) const {
   const Voxel voxel = view_.voxel(cell);
-  const bool stands = Grid{view_.n, 1, Vec3::Zero()}.contains(voxel) && shadow_.standing().contains(voxel);
-  return !stands && shadow_.is_clear(voxel) && is_reachable(cell);
-}
-
-bool SlantedCuts::can_cut(Voxel cell) const {
-  if (!Grid{view_.n, 1, Vec3::Zero()}.contains(cell)) return false;
-  const Voxel voxel = view_.voxel(cell);
-  return wanted_.contains(voxel) && shadow_.standing().contains(voxel) && shadow_.is_clear(voxel) && is_reachable(cell);
+  const bool inside = Grid{view_.n, 1, Vec3::Zero()}.contains(voxel);
+  if (inside ? !shadow_.is_clear(voxel) : !is_in_bounds(cell)) return Place::closed;
+  const bool stands = inside && shadow_.standing().contains(voxel);
+  if ((stands && !wanted_.contains(voxel)) || !is_reachable(cell)) return Place::closed;
+  return stands ? Place::to_cut : Place::free;
 }
 
 /// Along the axis to where the ball travels.
@@ -108,14 +108,21 @@ void SlantedCuts::retrace(Sortie& sortie) {
 bool SlantedCuts::see(Voxel cell) {
   const Voxel at = cell - at_ + Voxel{window / 2, window / 2, window / 2};
   if (!Grid{window, 1, Vec3::Zero()}.contains(at)) return false;
-  std::uint32_t& seen = seen_[static_cast<std::size_t>((at.k * window + at.j) * window + at.i)];
-  if (seen == search_) return false;
-  seen = search_;
+  const auto row = static_cast<std::size_t>(at.k * window + at.j);
+  const std::uint64_t bit = std::uint64_t{1} << at.i;
+  if ((seen_[row] & bit) != 0) return false;
+  if (seen_[row] == 0) seen_rows_.push_back(row);
+  seen_[row] |= bit;
   return true;
 }
 
-/// The cut that the fewest steps lead to, across the axis first, straight on before turning; none if too many cells would
-/// have to be looked at.
+void SlantedCuts::forget_seen() {
+  for (const std::size_t row : seen_rows_) seen_[row] = 0;
+  seen_rows_.clear();
+}
+
+/// The cut that the fewest steps lead to, across the axis first, straight on before turning; none if too many cells
+/// would have to be looked at.
 bool SlantedCuts::cut_near(Sortie& sortie) {
   // Cells beside each other across the axis do not wait for one another: rows there go to and fro.
   std::array<Voxel, 9> steps{last_step_};
@@ -123,21 +130,37 @@ bool SlantedCuts::cut_near(Sortie& sortie) {
   std::stable_partition(steps.begin(), steps.begin() + 7, [&](Voxel step) { return dot(step, view_.lean) == 0; });
   steps[7] = view_.lean * -1;
   steps[8] = view_.lean;
-  ++search_;
+  forget_seen();
   see(at_);
   hops_ = {{at_, 0}};
-  for (std::size_t hop = 0; hop < hops_.size() && hop < max_hops; ++hop)
+  for (std::size_t hop = 0; hop < hops_.size() && hop < max_hops; ++hop) {
+    if (hop == first_hops && !is_any_within(max_steps)) return false;
     for (const Voxel step : steps) {
       const Voxel next = hops_[hop].cell + step;
       if (!see(next)) continue;
-      if (can_cut(next)) {
+      const Place place = look_at(next);
+      if (place == Place::to_cut && may_cut(next)) {
         walk(hop, sortie);
         cut(next, sortie);
         return true;
       }
-      if (is_free(next)) hops_.push_back({next, hop});
+      if (place == Place::free) hops_.push_back({next, hop});
     }
+  }
   return false;
+}
+
+bool SlantedCuts::is_any_within(int steps) {
+  drop_stale();
+  return std::ranges::any_of(lit_, [&](Voxel cell) {
+    for (int along = -steps; along <= steps; ++along)
+      if (std::abs(along) + l1(cell - at_, view_.lean * along) <= steps) return true;
+    return false;
+  });
+}
+
+void SlantedCuts::drop_stale() {
+  std::erase_if(lit_, [&](Voxel cell) { return look_at(cell) != Place::to_cut; });
 }
 
 void SlantedCuts::walk(std::size_t hop, Sortie& sortie) {
@@ -154,7 +177,7 @@ void SlantedCuts::walk(std::size_t hop, Sortie& sortie) {
 /// done from here, or if nothing is left.
 bool SlantedCuts::cut_far(Sortie& sortie) {
   const Voxel out = way_out(at_);
-  std::erase_if(lit_, [&](Voxel cell) { return !can_cut(cell); });
+  drop_stale();
   while (!lit_.empty()) {
     const auto nearest = std::min_element(lit_.begin(), lit_.end(), [&](Voxel a, Voxel b) {
       const int far_a = l1(a, at_), far_b = l1(b, at_);
@@ -162,8 +185,8 @@ bool SlantedCuts::cut_far(Sortie& sortie) {
     });
     const Voxel target = *nearest;
     const auto way = route(out, way_out(target));
-    if (!way) {
-      if (at_ != gate_) return false;
+    if (!way && at_ != gate_) return false;
+    if (!way || !may_cut(target)) {
       lit_.erase(nearest);
       continue;
     }
@@ -209,6 +232,13 @@ void SlantedCuts::go(Voxel cell, double tolerance, Sortie& sortie) {
   sortie.strokes.push_back({centre(cell), 0, tolerance, {}, {}});
   at_ = cell;
   last_step_ = {};
+}
+
+bool SlantedCuts::may_cut(Voxel cell) {
+  const Voxel voxel = view_.voxel(cell);
+  if (take_(voxel)) return true;
+  wanted_.erase(voxel);
+  return false;
 }
 
 /// From a neighbour, or from the next cell along the axis. A run goes on straight.

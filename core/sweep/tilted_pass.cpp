@@ -1,7 +1,6 @@
 #include "core/sweep/tilted_pass.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 #include "core/base/helpers.hpp"
@@ -22,21 +21,16 @@ class TiltedPass {
         helpers_(carving.run.helpers),
         field_(field),
         hub_(ToolView::place(field.hub())),
-        cuts_(field.view(), carving.support.standing(), wanted, field.hub(),
-              [&field](const Vec3& cell) { return field.usable(cell); }) {}
+        cuts_(
+            field.view(), carving.support.standing(), wanted, field.hub(),
+            [&field](const Vec3& cell) { return field.usable(cell); }, [this](Voxel v) { return take(v); }) {}
 
   PassEnd run() {
     const std::uint64_t before = arm_.removed();
-    bool spared = false;
     std::size_t at_once = max_sorties_at_once, each = first_cuts;
     for (;;) {
       std::vector<Sortie> sorties = plan(at_once, each);
       if (sorties.empty()) break;
-      if (const std::optional<Stroke> freeing = remove_held(sorties)) {
-        spared = true;
-        cuts_.give_up(*freeing);
-      }
-      if (sorties.empty()) continue;
       if (arm_.field() != &field_ && !arm_.enter(field_)) {
         for (std::size_t planned = sorties.size(); planned-- > 0;) take_back(sorties[planned]);
         break;
@@ -55,7 +49,7 @@ class TiltedPass {
         each = std::max<std::size_t>(each / 4, 1);
       }
     }
-    return {arm_.removed() > before, spared};
+    return {arm_.removed() > before, spared_};
   }
 
  private:
@@ -70,34 +64,20 @@ class TiltedPass {
     return sorties;
   }
 
-  /// Drops the first sortie that would free a piece of material and all behind it; says which cut would.
-  std::optional<Stroke> remove_held(std::vector<Sortie>& sorties) {
-    for (std::size_t at = 0; at < sorties.size(); ++at) {
-      const auto& strokes = sorties[at].strokes;
-      for (std::size_t s = 0; s < strokes.size(); ++s) {
-        const Stroke stroke = strokes[s];
-        if (!stroke.cuts()) continue;
-        const int held = support_.remove(stroke.line());
-        if (held == stroke.count) continue;
-        if (held > 0) support_.restore(part_of(stroke, Vec3::Zero(), 0, held - 1).line());
-        restore(strokes, s);
-        for (std::size_t later = sorties.size(); later-- > at;) cuts_.take_back(sorties[later]);
-        sorties.resize(at);
-        return stroke;
-      }
+  /// From what stands, unless a piece would come free.
+  bool take(Voxel voxel) {
+    if (support_.frees(voxel)) {
+      spared_ = true;
+      return false;
     }
-    return std::nullopt;
+    support_.remove(voxel);
+    return true;
   }
 
   void take_back(const Sortie& sortie) {
-    restore(sortie.strokes, sortie.strokes.size());
+    for (std::size_t s = sortie.strokes.size(); s-- > 0;)
+      if (sortie.strokes[s].cuts()) support_.restore(sortie.strokes[s].line());
     cuts_.take_back(sortie);
-  }
-
-  /// What the first `count` strokes cut.
-  void restore(const std::vector<Stroke>& strokes, std::size_t count) {
-    for (std::size_t s = count; s-- > 0;)
-      if (strokes[s].cuts()) support_.restore(strokes[s].line());
   }
 
   /// Emits the sorties before the first that could not be followed to its end, and says which that is.
@@ -116,6 +96,7 @@ class TiltedPass {
   const PostureField& field_;
   Vec3 hub_;
   SlantedCuts cuts_;
+  bool spared_ = false;  ///< something, lest a piece come free
 };
 
 }  // namespace

@@ -12,6 +12,10 @@
 namespace sculpt {
 namespace {
 
+bool any_voxel(Voxel) {
+  return true;
+}
+
 bool anywhere(const Vec3&) {
   return true;
 }
@@ -122,7 +126,7 @@ TEST(SlantedCuts, CutAllThatTheToolCanComeToAndTouchNothingElse) {
     const std::vector<Voxel> wanted = list(shape.stock, shape.keep);
     for (const ToolView& view : tilted_views(n)) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << ", axis " << view.axis().transpose());
-      SlantedCuts cuts(view, shape.stock, wanted, gate_of(n), anywhere);
+      SlantedCuts cuts(view, shape.stock, wanted, gate_of(n), anywhere, any_voxel);
       Replay replay(view, shape, gate_of(n));
       const std::size_t most = 1 + seed * 7;
       for (Sortie sortie = cuts.plan_sortie(most); sortie.cuts > 0; sortie = cuts.plan_sortie(most)) {
@@ -143,7 +147,7 @@ TEST(SlantedCuts, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
     const ToolView view = tilted_views(n)[seed % 12];
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ", axis " << view.axis().transpose());
     Random random(seed);
-    SlantedCuts cuts(view, shape.stock, list(shape.stock, shape.keep), gate_of(n), anywhere);
+    SlantedCuts cuts(view, shape.stock, list(shape.stock, shape.keep), gate_of(n), anywhere, any_voxel);
     Replay replay(view, shape, gate_of(n));
     for (;;) {
       std::vector<Sortie> sorties;
@@ -168,6 +172,32 @@ TEST(SlantedCuts, WhatIsTakenBackStandsAgainAndWhatIsGivenUpIsLeft) {
   EXPECT_GT(removed, 600u);
 }
 
+TEST(SlantedCuts, WhatMayNotBeTakenIsLeftAndTheRestIsCutAroundIt) {
+  const int n = 8;
+  std::size_t refused_of_all = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Shape shape = random_shape(n, seed);
+    const ToolView view = tilted_views(n)[seed % 12];
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << ", axis " << view.axis().transpose());
+    Random random(seed);
+    VoxelSet left_out = shape.keep;
+    SlantedCuts cuts(view, shape.stock, list(shape.stock, shape.keep), gate_of(n), anywhere, [&](Voxel v) {
+      EXPECT_FALSE(left_out.contains(v)) << "asked again";
+      if (random.next() % 4 > 0) return true;
+      left_out.insert(v);
+      ++refused_of_all;
+      return false;
+    });
+    Replay replay(view, shape, gate_of(n));
+    for (Sortie sortie = cuts.plan_sortie(20); sortie.cuts > 0; sortie = cuts.plan_sortie(20)) {
+      ASSERT_NO_FATAL_FAILURE(replay.run(sortie));
+    }
+    for_each_voxel(left_out, [&](Voxel v) { ASSERT_EQ(replay.standing().contains(v), shape.stock.contains(v)); });
+    ASSERT_EQ(count_within_reach(view, replay.standing(), list(replay.standing(), left_out)), 0u);
+  }
+  EXPECT_GT(refused_of_all, 100u);
+}
+
 TEST(SlantedCuts, KeepToWhereTheBallMayBe) {
   const int n = 16;
   for (const ToolView& view : tilted_views(n)) {
@@ -176,7 +206,7 @@ TEST(SlantedCuts, KeepToWhereTheBallMayBe) {
       return cell.z() > n - 0.5 || (view.lean.j == 0 ? cell.y() < 7.25 : cell.y() > 7.75);
     };
     const Shape shape{VoxelSet(n, true), VoxelSet(n)};
-    SlantedCuts cuts(view, shape.stock, list(shape.stock, shape.keep), gate_of(n), may_be);
+    SlantedCuts cuts(view, shape.stock, list(shape.stock, shape.keep), gate_of(n), may_be, any_voxel);
     Replay replay(view, shape, gate_of(n));
     Vec3 at(n / 2, n / 2, n + 1);
     for (Sortie sortie = cuts.plan_sortie(100); sortie.cuts > 0; sortie = cuts.plan_sortie(100)) {
