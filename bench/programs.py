@@ -55,7 +55,7 @@ class Program:
 
     def __init__(self, program, option, show):
         self.program, self.option, self.show, self.said = program.resolve(), option, show, ""
-        self.environment = {"SCULPT_CELLS": str(SOURCE / "config/cells"), **os.environ}
+        self.environment = {"SCULPT_CELLS": str(SOURCE / "config/cells"), **os.environ, "SCULPT_CACHE": ""}  # each run finds its fields itself
 
     def run(self, *arguments, look=None, every_s=0.2):
         """To its end. Meanwhile shows what `look` makes of the seconds since its start; if `look` raises, it is stopped."""

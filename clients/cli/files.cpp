@@ -1,6 +1,7 @@
 #include "clients/cli/files.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
@@ -9,6 +10,14 @@
 namespace sculpt::cli {
 
 namespace fs = std::filesystem;
+
+fs::path cache_folder() {
+  if (const char* named = std::getenv("SCULPT_CACHE")) return named;
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+    return fs::path(cache) / "sculpt";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return fs::path(home) / ".cache/sculpt";
+  return {};
+}
 
 std::string read_input(const fs::path& path, const std::string& what) {
   std::error_code ignored;

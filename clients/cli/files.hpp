@@ -10,6 +10,10 @@ namespace sculpt::cli {
 /// Throws Failure (usage) `file_missing` or `file_unreadable`; `what` names the thing in the sentence, e.g. "mesh".
 std::string read_input(const std::filesystem::path& path, const std::string& what);
 
+/// Where to keep what can be found out again: `sculpt` in the user's cache folder, or what the environment variable
+/// SCULPT_CACHE names; empty: nowhere.
+std::filesystem::path cache_folder();
+
 /// An output file that never shows a half: bytes go to `FILE.part`, `finish` renames it. Without `finish` nothing stays
 /// behind. Throws Failure (usage) `file_unwritable`.
 class PartFile {

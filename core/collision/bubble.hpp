@@ -58,6 +58,12 @@ class Bubble {
     return true;
   }
 
+  /// For an archive.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(centre_, box_, half_spaces_);
+  }
+
  private:
   Configuration centre_;
   JointBox box_;

@@ -105,9 +105,10 @@ double certified_share(const Directions& directions, const Vec3& axis, int n) {
   return static_cast<double>(usable) / all;
 }
 
-void find_fields(const Scene& scene, const Configuration& home, const RunContext& run, CellFindings& found) {
+void find_fields(const Scene& scene, const Configuration& home, const FieldStore& store, const RunContext& run,
+                 CellFindings& found) {
   const Stopwatch watch;
-  Directions directions(scene, home, run);
+  Directions directions(scene, home, run, store);
   directions.find_straight_fields();
   found.fields_s = watch.seconds();
   for (DirectionFinding& direction : found.directions)
@@ -141,7 +142,8 @@ CellFindings examine_cell(const CellDraft& draft, const ExamineSettings& setting
   Reach reach = find_reach(scene, start, settings.places_per_edge, run);
   found.directions = std::move(reach.directions);
   found.reached = reach.reached;
-  if (settings.fields && !chain.translating()) find_fields(scene, start, run, found);
+  if (settings.fields && !chain.translating())
+    find_fields(scene, start, start == home ? settings.store : FieldStore{}, run, found);
   find_faults_of_reach(chain, found);
   if (reach_is_poor(found))
     if (const auto move = suggest_move(cell, start, found, run)) found.faults.push_back(*move);

@@ -3,6 +3,7 @@
 
 #include "core/base/run_context.hpp"
 #include "core/doctor/findings.hpp"
+#include "core/sweep/field/field_store.hpp"
 
 namespace sculpt {
 
@@ -10,6 +11,7 @@ struct ExamineSettings {
   int resolution = 64;
   int places_per_edge = 5;  ///< of the lattice that reach is sampled at
   bool fields = true;       ///< find the fields of the sweep planner, and how long that takes
+  FieldStore store = {};    ///< of this cell, resolution and seed
 };
 
 /// Looks at everything that `plan` would, and at more; what is wrong becomes a fault with its cure, also where `plan`

@@ -33,7 +33,8 @@ SweepRest sweep(const Scene& scene, const CarveTask& task, const Carved& before,
   if (now.swept) return {before.standing, now.swept->out_of_tool_reach, {}};
   std::optional<SweepStart> start;
   if (now.sweeping) start = {*now.sweeping, before.standing, before.q};
-  SweepRest left = carve_by_sweeps(scene, {task.voxels, task.may_fall, task.header.home}, start, log.hear_sweep(), run);
+  SweepRest left =
+      carve_by_sweeps(scene, {task.voxels, task.may_fall, task.header.home, task.fields}, start, log.hear_sweep(), run);
   log.end_sweep(left);
   return left;
 }

@@ -9,6 +9,7 @@
 #include "core/material/voxel_grid.hpp"
 #include "core/plan/run_log.hpp"
 #include "core/search/search.hpp"
+#include "core/sweep/field/field_store.hpp"
 #include "core/trajectory/header.hpp"
 
 namespace sculpt {
@@ -19,7 +20,8 @@ struct CarveTask {
   const Octree& octree;      ///< of them
   const VoxelSet& may_fall;  ///< what cannot be held
   const TrajectoryHeader& header;
-  Search search;  ///< octree or voxel where the chain only translates, else sweep or octree
+  FieldStore fields;  ///< of the scene, home and seed
+  Search search;      ///< octree or voxel where the chain only translates, else sweep or octree
 };
 
 /// What an earlier run carved.

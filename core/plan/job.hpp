@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct Job {
   std::vector<Clamping>
       clampings;  ///< behind the first, which `placement` and `stock` are about; the last is this job's
   std::uint64_t memory_cap_bytes = 2ull << 30;
+  std::filesystem::path keep_fields = {};  ///< folder for fields of `sweep` (FieldStore); empty: they are not kept
 };
 
 }  // namespace sculpt

@@ -11,7 +11,4 @@ namespace sculpt {
 /// half of one plan does not fit half of another.
 std::string job_key(const Job& job);
 
-/// Of the file of the running program, in hex; read at the first call, "" hashed where it cannot be read. Any thread.
-const std::string& program_hash();
-
 }  // namespace sculpt

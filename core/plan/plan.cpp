@@ -120,6 +120,13 @@ void check_home(const Scene& scene, const Cell& cell, const Configuration& home)
                                          ": choose a home clear of the full stock, the room and itself");
 }
 
+/// Fields depend on the material where it is not the whole grid: those are not kept.
+FieldStore field_store(const Job& job) {
+  const bool whole_grid = !job.stock.box && !job.stock.mesh && job.clampings.empty();
+  if (job.keep_fields.empty() || !whole_grid) return {};
+  return {job.keep_fields, field_key(job.cell, job.resolution, job.seed)};
+}
+
 /// Why what is left was left; found out once a plan.
 const std::vector<Residue>& explain(const Scene& scene, const CarveTask& task, RunLog& log, const RunContext& run) {
   if (!log.now().residue) {
@@ -153,7 +160,7 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   Output output = open_output(written, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
-    const CarveTask task{result.voxels, octree, may_fall, header, search};
+    const CarveTask task{result.voxels, octree, may_fall, header, field_store(job), search};
     if (!now.residue) carve(scene, task, carved, log, run);
     count_search(report, now);
     report.plan_sha256 = output.finish().sha256;

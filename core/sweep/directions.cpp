@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "core/base/helpers.hpp"
 #include "core/base/random.hpp"
@@ -54,8 +55,12 @@ std::size_t count_usable(const PostureField& field, const VoxelSet& parts) {
 
 }  // namespace
 
-Directions::Directions(const Scene& scene, const Configuration& home, const RunContext& run)
-    : scene_(scene), home_(home), run_(run), turn_(find_stock_turn(scene.chain(), scene.grid())) {}
+Directions::Directions(const Scene& scene, const Configuration& home, const RunContext& run, FieldStore store)
+    : scene_(scene),
+      home_(home),
+      run_(run),
+      store_(std::move(store)),
+      turn_(find_stock_turn(scene.chain(), scene.grid())) {}
 
 /// The top and the first side are searched for; the other sides too, where the stock cannot be turned.
 void Directions::find_straight_fields() {
@@ -142,7 +147,22 @@ std::unique_ptr<PostureField> Directions::find_tilted(std::size_t direction) {
   return std::move(*std::ranges::max_element(found, {}, [](const auto& field) { return field->usable_cells(); }));
 }
 
+/// Where the store knows what it finds, that.
 Directions::Fields Directions::search(const ToolView& view, std::uint64_t number) const {
+  Fields fields;
+  if (auto known = store_.read(number)) {
+    for (PostureField::Record& record : *known)
+      fields.push_back(std::make_unique<PostureField>(scene_, view, std::move(record), run_.watch));
+    return fields;
+  }
+  fields = search_anew(view, number);
+  std::vector<PostureField::Record> records;
+  for (const auto& field : fields) records.push_back(field->record());
+  store_.write(number, records);
+  return fields;
+}
+
+Directions::Fields Directions::search_anew(const ToolView& view, std::uint64_t number) const {
   // Held as from home above the stock, with some joint turned, the arm may well come from another side.
   std::vector<Configuration> known;
   const ToolView down = tool_views(scene_.grid().n)[top];

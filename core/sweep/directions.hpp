@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/run_context.hpp"
-#include "core/sweep/field/posture_field.hpp"
+#include "core/sweep/field/field_store.hpp"
 #include "core/sweep/reach/reach_rows.hpp"
 #include "core/sweep/stock_turn.hpp"
 
@@ -23,8 +23,8 @@ struct Opening {
 /// for what stood when they were opened. Not shared between threads.
 class Directions {
  public:
-  /// `scene` must outlive the object.
-  Directions(const Scene& scene, const Configuration& home, const RunContext& run);
+  /// `scene` must outlive the object. `store`: of this scene, home and seed.
+  Directions(const Scene& scene, const Configuration& home, const RunContext& run, FieldStore store = {});
 
   /// The fields of all straight directions, and with them their numbers. To be called first. Throws Cancelled.
   void find_straight_fields();
@@ -67,6 +67,7 @@ class Directions {
   };
 
   Fields search(const ToolView& view, std::uint64_t number) const;
+  Fields search_anew(const ToolView& view, std::uint64_t number) const;
   std::unique_ptr<PostureField> find_tilted(std::size_t direction);
   std::unique_ptr<PostureField> turned(const PostureField& field, const ToolView& view, double quarters) const;
   void find_reach(Way& way) const;
@@ -74,6 +75,7 @@ class Directions {
   const Scene& scene_;
   Configuration home_;
   RunContext run_;
+  FieldStore store_;
   std::optional<StockTurn> turn_;
   std::vector<Way> ways_;
   std::size_t straight_ = 0;  ///< that many come before the tilted ones

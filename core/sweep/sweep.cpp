@@ -207,7 +207,7 @@ void remove_cut(Support& support, const VoxelSet& standing) {
 
 SweepRest carve_by_sweeps(const Scene& scene, const SweepTask& task, const std::optional<SweepStart>& start,
                           const SweepListener& listener, const RunContext& run) {
-  Directions directions(scene, task.home, run);
+  Directions directions(scene, task.home, run, task.fields);
   std::optional<Support> support;
   run.helpers.for_each_index(2, [&](std::size_t part) {
     if (part == 0) {

@@ -9,6 +9,7 @@
 #include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/sweep/field/field_store.hpp"
 #include "core/sweep/sweep_memory.hpp"
 #include "core/trajectory/keyframe.hpp"
 
@@ -19,6 +20,7 @@ struct SweepTask {
   const VoxelGrid& voxels;
   const VoxelSet& may_fall;  ///< what cannot be held
   const Configuration& home;
+  FieldStore fields = {};  ///< of the scene, home and seed
 };
 
 /// Voxels, by what sweeps did of them.

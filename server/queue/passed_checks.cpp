@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "core/base/sha256.hpp"
-#include "core/plan/job_key.hpp"
+#include "core/base/content_key.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -85,6 +85,7 @@ def environment(server=None):
     """The caller's, with only this server and the cells of the source tree."""
     env = {name: value for name, value in os.environ.items() if not name.startswith(("SCULPT_SERVER", "SCULPT_T"))}
     env["SCULPT_CELLS"] = str(SOURCE / "config/cells")
+    env["SCULPT_CACHE"] = ""  # nothing of another run, nothing in the home of who runs the tests
     return {**env, "SCULPT_SERVER": server} if server else env
 
 

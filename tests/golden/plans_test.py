@@ -50,7 +50,7 @@ def plan_sha256(job):
         run = subprocess.run(
             [SCULPT, "plan", str(mesh_path(job)), "--resolution", str(job["resolution"]), "--robot", str(SOURCE / f"config/cells/{job['robot']}.json"),
              "--search", job["search"], "--seed", str(job["seed"]), "--json", *options, "-o", f"{folder}/plan.sct"],
-            capture_output=True, text=True, env={**os.environ, **WITHOUT_FMA})
+            capture_output=True, text=True, env={**os.environ, **WITHOUT_FMA, "SCULPT_CACHE": ""})
         if run.returncode != 0:
             raise AssertionError(f"{job}: exit {run.returncode}: {run.stderr}")
         report = json.loads(run.stdout)

@@ -15,6 +15,7 @@ os.environ.setdefault("SCULPT_SOURCE", str(SOURCE))
 for program in ("sculptd", "sculpt"):
     os.environ.setdefault(program.upper(), str(SOURCE / "build/release/bin" / program))
 os.environ.setdefault("SCULPT_DISK_FAULT", str(SOURCE / "build/release/tests/torture/libdisk_fault.so"))
+os.environ["SCULPT_CACHE"] = ""  # nothing of another run, nothing in the home of who runs the tests
 os.environ.setdefault("SCULPT_CELLS", str(SOURCE / "config/cells"))
 sys.path.insert(0, str(SOURCE / "tests/clients"))
 

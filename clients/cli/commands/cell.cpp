@@ -29,14 +29,19 @@ struct CellOptions {
   bool json = false;
 };
 
+constexpr std::uint64_t seed = 0;
+
 CellFindings examine_here(const CellOptions& options) {
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });
   const Watch watch{stop.get_token(), {}};
   const Helpers helpers(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   try {
-    const CellDraft draft = draft_cell(read_cell(options.cell));
-    CellFindings found = examine_cell(draft, {options.resolution}, {0, helpers, watch});
+    const CellFiles files = read_cell(options.cell);
+    const CellDraft draft = draft_cell(files);
+    ExamineSettings settings{options.resolution};
+    settings.store = {cache_folder(), field_key(files, options.resolution, seed)};
+    CellFindings found = examine_cell(draft, settings, {seed, helpers, watch});
     if (!options.picture.empty())
       write_png(options.picture, draw_cell(draft.cell, draft.cell.home(draft.cell.chain()), found.home.bodies));
     return found;

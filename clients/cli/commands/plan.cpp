@@ -64,6 +64,7 @@ int run_plan(const PlanOptions& options) {
   const std::optional<CubeTurn> turn_over = read_turn_over(options);
   Job job = read_job(options.job);
   job.threads = options.threads;
+  job.keep_fields = cache_folder();
 
   std::stop_source stop;
   const Interrupt interrupt([&stop] { stop.request_stop(); });

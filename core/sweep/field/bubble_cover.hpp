@@ -34,6 +34,9 @@ struct LatticeCube {
 /// for one lattice. Reads are safe from several threads.
 class BubbleCover {
  public:
+  /// Covers nothing.
+  BubbleCover() = default;
+
   /// What it is made from, and by. It only has to live during the calls.
   struct Making {
     const Scene& scene;
@@ -61,6 +64,12 @@ class BubbleCover {
   const Bubble& bubble(std::int32_t number) const { return bubbles_[static_cast<std::size_t>(number)]; }
   /// All configurations of the lattice.
   const JointBox& bounds() const { return box_; }
+
+  /// For FieldStore.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(bubble_, usable_bubble_, bubbles_, box_, pairs_, holes_, usable_);
+  }
 
  private:
   class Search;

@@ -20,6 +20,11 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Postu
   find_roomy(scene);
 }
 
+PostureField::PostureField(const Scene& scene, const ToolView& view, Record record, const Watch& watch)
+    : lattice_(scene.chain(), scene.grid(), view, record.start, watch),
+      cover_(std::move(record.cover)),
+      roomy_(record.roomy) {}
+
 PostureField::PostureField(const PostureField& other, const Scene& scene, const Body& stock, const VoxelSet& wanted,
                            const Helpers& helpers, const Watch& watch)
     : PostureField(other) {

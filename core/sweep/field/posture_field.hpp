@@ -25,9 +25,20 @@ namespace sculpt {
 /// A lattice of configurations, and the bubbles that say where it may be used. Reads are safe from several threads.
 class PostureField {
  public:
+  /// What it takes to make it again without asking for distances.
+  struct Record {
+    PostureLattice::Start start;
+    BubbleCover cover;
+    Eigen::AlignedBox3d roomy;
+  };
+
   /// `scene` only has to live during the call. Throws Cancelled.
   PostureField(const Scene& scene, const ToolView& view, const PostureLattice::Start& start, const Helpers& helpers,
                const Watch& watch);
+
+  /// As `record` of a field of the same scene and direction has it. Throws Cancelled.
+  PostureField(const Scene& scene, const ToolView& view, Record record, const Watch& watch);
+  Record record() const { return {lattice_.origin(), cover_, roomy_}; }
 
   /// `other`, and those of the `wanted` parts that are free where only `stock` of the scene's stands any longer. Throws
   /// Cancelled.

@@ -55,6 +55,7 @@ class PostureLattice {
   void turn(const ToolView& view, const Configuration& turn);
 
   const Configuration& start() const { return start_.q; }
+  const Start& origin() const { return start_; }
   /// Where the tool comes in: a cell of the view, above the grid, at the node that it grew from.
   Voxel hub() const { return hub_of(view_.n, start_); }
   static Voxel hub_of(int n, const Start& start) { return {n * start.i / cells, n * start.j / cells, n + 1}; }
