@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/line.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 #include "core/motion/transit.hpp"
 
 namespace sculpt {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/motion/tool_axes.hpp"
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_axes.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 
 namespace sculpt {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/watch.hpp"
 #include "core/collision/scene.hpp"
 #include "core/motion/residue.hpp"
-#include "core/motion/tool_room.hpp"
+#include "core/motion/tool/tool_room.hpp"
 
 namespace sculpt {
 

@@ -4,7 +4,7 @@
 
 #include "core/cell/ik.hpp"
 #include "core/motion/random_configuration.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 
 namespace sculpt {
 namespace {

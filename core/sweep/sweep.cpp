@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/base/helpers.hpp"
-#include "core/motion/tool_axes.hpp"
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_axes.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 #include "core/sweep/columns.hpp"
 #include "core/sweep/directions.hpp"
 #include "core/sweep/straight_pass.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 #include "tests/core/plan/jobs.hpp"
 
 namespace sculpt {

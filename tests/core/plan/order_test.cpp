@@ -8,7 +8,7 @@
 #include "core/material/octree.hpp"
 #include "core/motion/block_carve.hpp"
 #include "core/motion/explain_residue.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 #include "core/plan/intake.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/scenarios.hpp"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/tool_axes.hpp"
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_axes.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/verify/verify.hpp"
 #include "tests/core/plan/jobs.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/collision/material.hpp"
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 #include "tests/core/base/cases.hpp"
 
 namespace sculpt {

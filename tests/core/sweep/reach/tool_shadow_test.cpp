@@ -4,7 +4,7 @@
 
 #include "core/base/random.hpp"
 #include "core/collision/material.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 
 namespace sculpt {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/motion/long_tool.hpp"
+#include "core/motion/tool/long_tool.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 #include "tests/core/base/cases.hpp"
 
 namespace sculpt {

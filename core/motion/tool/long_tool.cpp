@@ -1,4 +1,4 @@
-#include "core/motion/long_tool.hpp"
+#include "core/motion/tool/long_tool.hpp"
 
 #include <utility>
 

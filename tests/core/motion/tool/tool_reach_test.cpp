@@ -1,11 +1,11 @@
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/collision/material.hpp"
-#include "core/motion/tool_axes.hpp"
+#include "core/motion/tool/tool_axes.hpp"
 #include "core/plan/plan.hpp"
 #include "tests/core/plan/jobs.hpp"
 

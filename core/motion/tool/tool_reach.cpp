@@ -1,4 +1,4 @@
-#include "core/motion/tool_reach.hpp"
+#include "core/motion/tool/tool_reach.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "core/motion/long_tool.hpp"
+#include "core/motion/tool/long_tool.hpp"
 
 namespace sculpt {
 namespace {

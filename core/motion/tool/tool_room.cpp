@@ -1,4 +1,4 @@
-#include "core/motion/tool_room.hpp"
+#include "core/motion/tool/tool_room.hpp"
 
 #include <algorithm>
 
