@@ -43,7 +43,7 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
     return;
   }
   const Around other{second->link, second->pose.translation(), second->radius};
-  pairs_.push_back({&first, second, {motion_, around, other}, first_is_mesh});
+  pairs_.push_back({&first, second, {motion_, around, other}, false});
 }
 
 double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
@@ -70,6 +70,8 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
   if (pair.second == nullptr) return near_material(*pair.first, link_pose, grow);
   const Frame pose = link_pose * pair.first->pose;
   const Frame other = poses[static_cast<std::size_t>(pair.second->link)] * pair.second->pose;
+  if (grow > 0 && pair.first->mesh && pair.second->mesh)
+    return meshes_within(*pair.first->mesh, pose, *pair.second->mesh, other, grow);
   return any_part(*pair.first, grow, [&](const fcl::CollisionGeometryd& part, const Frame& at) {
     return any_part(*pair.second, 0, [&](const fcl::CollisionGeometryd& second, const Frame&) {
       return solids_touch(part, pose * at, second, other);
@@ -121,14 +123,20 @@ void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, co
   }
 }
 
-void LinkReplay::forget() {
+void LinkReplay::look_ahead(const TrajectoryPiece& piece) {
   for (Pair& pair : pairs_) pair.clearance.forget();
+  ahead_ = OpenItems(motion_, piece, pairs_.size(),
+                     [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
+                       const Pair& pair = pairs_[at];
+                       return near(pair, poses, pair.clearance.approach(poses, half) + slack_mm);
+                     });
 }
 
-void LinkReplay::replay(const JointMotion& motion, const OnContact& on_contact) {
+void LinkReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {
   std::vector<Pair*> open;
-  for (Pair& pair : pairs_)
-    if (pair.clearance.moved_by(motion) && !pair.clearance.covers(motion)) open.push_back(&pair);
+  for (const std::size_t at : ahead_.of(keyframe))
+    if (Pair& pair = pairs_[at]; pair.clearance.moved_by(motion) && !pair.clearance.covers(motion))
+      open.push_back(&pair);
   if (open.empty()) return;
   certify(motion, 0.5, 0.5, open, on_contact);
   std::vector<Frame> poses;

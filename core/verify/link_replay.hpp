@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/verify/kept_clearance.hpp"
+#include "core/verify/open_items.hpp"
 #include "core/verify/replay_finding.hpp"
 #include "core/verify/robot/solid_body.hpp"
 #include "core/verify/standing_voxels.hpp"
@@ -20,19 +21,20 @@ class LinkReplay {
              const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart, const StandingVoxels& material,
              double voxel_mm);
 
-  /// Tells at most one contact a pair. Certified between its ends, except between two meshes and between a mesh and the
-  /// material where their covers overlap: there they are tried each quarter of a voxel.
-  void replay(const JointMotion& motion, const OnContact& on_contact);
+  /// To be called before the motions of a piece; what was proved before counts no more.
+  void look_ahead(const TrajectoryPiece& piece);
 
-  /// Keeps no clearance from before.
-  void forget();
+  /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact a pair. Certified
+  /// between its ends, except between a mesh and the material where the mesh's cover overlaps it: there they are tried
+  /// each quarter of a voxel.
+  void replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact);
 
  private:
   struct Pair {
     const SolidBody* first;
     const SolidBody* second;  // null: the material
     KeptClearance clearance;
-    bool sampled;  // a mesh against a mesh or the material
+    bool sampled;  // a mesh against the material
   };
 
   void add_pair(const SolidBody& first, const SolidBody* second);
@@ -52,6 +54,7 @@ class LinkReplay {
   Vec3 origin_;
   double voxel_;
   std::vector<Pair> pairs_;
+  OpenItems ahead_;  // of the pairs
 };
 
 }  // namespace sculpt

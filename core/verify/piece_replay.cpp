@@ -69,14 +69,14 @@ PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::funct
   step_ = &step;
   line_ = piece.first_line;
   // What this worker proved before depends on which pieces it got.
-  links_.forget();
-  tool_.forget();
+  links_.look_ahead(piece);
+  tool_.look_ahead(piece);
   const Configuration* from = &piece.from;
-  for (const Keyframe& keyframe : piece.keyframes) {
+  for (index_ = 0; index_ < piece.keyframes.size(); ++index_, ++line_) {
+    const Keyframe& keyframe = piece.keyframes[index_];
     find_broken_limits(scene_, keyframe.q, line_, found_);
     replay_keyframe(*from, keyframe);
     from = &keyframe.q;
-    ++line_;
   }
   return std::move(found_);
 }
@@ -111,10 +111,10 @@ bool PieceReplay::run_is_free(const JointMotion& motion, const Keyframe& keyfram
   if (!tool_.keeps_off_the_rest(motion, keyframe.first, keyframe.last, 1000 * scene_.header.tolerance_m)) return false;
   bool free = true;
   const auto on_contact = [&free](const std::string&, double) { free = false; };
-  links_.replay(motion, on_contact);
+  links_.replay(index_, motion, on_contact);
   if (!free) return false;
   for (const Voxel voxel : run) material_.remove(voxel);
-  tool_.replay(motion, on_contact);
+  tool_.replay(index_, motion, on_contact);
   if (free) {
     found_.voxels_checked += run.size();
   } else {
@@ -135,9 +135,9 @@ void PieceReplay::replay_parts(const JointMotion& whole, const Keyframe& keyfram
       find(what + " at " + text(100 * (begin + t * (end - begin))) + " % of the motion to this keyframe");
     };
     if (possible)
-      links_.replay(motion, on_contact);  // links may not even touch the voxel that the tool is about to cut
+      links_.replay(index_, motion, on_contact);  // links may not even touch the voxel that the tool is about to cut
     if (keyframe.cut) remove_voxel(run[part], whole.at(end));
-    if (possible) tool_.replay(motion, on_contact);
+    if (possible) tool_.replay(index_, motion, on_contact);
   }
 }
 

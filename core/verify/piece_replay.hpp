@@ -59,6 +59,7 @@ class PieceReplay {
   LinkReplay links_;
   PieceFindings found_;
   std::uint64_t line_ = 0;
+  std::size_t index_ = 0;  // of the keyframe, in its piece
   const std::function<void()>* step_ = nullptr;
 };
 

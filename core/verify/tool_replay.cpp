@@ -195,28 +195,40 @@ bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxe
   return true;
 }
 
-void ToolReplay::forget() {
+void ToolReplay::look_ahead(const TrajectoryPiece& piece) {
   for (Target& target : targets_) target.clearance.forget();
+  ahead_ = OpenItems(motion_, piece, targets_.size(),
+                     [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
+                       const Target& target = targets_[at];
+                       return target.body == nullptr ||
+                              comes_near(target, poses, target.clearance.approach(poses, half) + slack_mm);
+                     });
 }
 
-// Where the motion ended, of a capsule around ball and shank.
+// Of a capsule around ball and shank.
+bool ToolReplay::comes_near(const Target& target, const std::vector<Frame>& poses, double grow) const {
+  const Line line = line_in(target, poses);
+  return ball_meets(target, line.ball, line.top, std::max(ball_, shank_) - ball_ + grow);
+}
+
+// Where the motion ended.
 void ToolReplay::renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const {
   KeptClearance& kept = target.clearance;
   kept.move_anchor(motion.at(1), poses);
-  const double travel = kept.approach(motion), thickest = std::max(ball_, shank_);
-  const Line line = line_in(target, poses);
+  const double travel = kept.approach(motion);
   for (double times : {256, 64, 16, 4}) {
-    if (ball_meets(target, line.ball, line.top, thickest - ball_ + times * travel + slack_mm)) continue;
+    if (comes_near(target, poses, times * travel + slack_mm)) continue;
     kept.prove(times * travel);
     return;
   }
 }
 
-void ToolReplay::replay(const JointMotion& motion, const OnContact& on_contact) {
+void ToolReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {
   if (motion.step.isZero(0)) return;
   std::vector<Task> open;
   std::vector<Target*> uncovered;
-  for (Target& target : targets_) {
+  for (const std::size_t at : ahead_.of(keyframe)) {
+    Target& target = targets_[at];
     const bool is_link = target.body != nullptr;
     if (is_link && (!target.clearance.moved_by(motion) || target.clearance.covers(motion))) continue;
     if (is_link) uncovered.push_back(&target);

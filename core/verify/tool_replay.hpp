@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/verify/kept_clearance.hpp"
+#include "core/verify/open_items.hpp"
 #include "core/verify/replay_finding.hpp"
 #include "core/verify/robot/solid_body.hpp"
 #include "core/verify/standing_voxels.hpp"
@@ -16,15 +17,16 @@ class ToolReplay {
   ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
              const StandingVoxels& material, double voxel_mm);
 
-  /// Tells at most one contact for each part of the tool and each thing it can touch.
-  void replay(const JointMotion& motion, const OnContact& on_contact);
+  /// To be called before the motions of a piece; what was proved before counts no more.
+  void look_ahead(const TrajectoryPiece& piece);
+
+  /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact for each part of
+  /// the tool and each thing it can touch.
+  void replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact);
 
   /// Whether this is proved of a cut of a straight run, of two voxels or more: it removes each within the tolerance
   /// of its centre, and until then stays clear of it. Only ends and planes between the voxels are looked at.
   bool keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxel last, double tolerance_mm) const;
-
-  /// Keeps no clearance from before.
-  void forget();
 
   /// The ball's centre in the stock frame.
   Vec3 ball_at(const Configuration& q) const;
@@ -57,6 +59,7 @@ class ToolReplay {
   bool ball_meets(const Target& target, const Vec3& from, const Vec3& to, double grow) const;
   bool shank_meets(const Target& target, const Line& line, double grow, double longer) const;
   bool swept_shank_meets(const Target& target, const Sweep& sweep) const;
+  bool comes_near(const Target& target, const std::vector<Frame>& poses, double grow) const;
   void renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const;
   Finding settle(const Task& task, const std::vector<Frame>& start, const std::vector<Frame>& middle,
                  const std::vector<Frame>& end, const Configuration& steps) const;
@@ -68,6 +71,7 @@ class ToolReplay {
   const StandingVoxels& material_;
   double voxel_, ball_, shank_, stickout_;
   std::vector<Target> targets_;
+  OpenItems ahead_;  // of the targets
 };
 
 }  // namespace sculpt
