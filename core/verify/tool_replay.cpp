@@ -50,14 +50,17 @@ ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& mot
 }
 
 Vec3 ToolReplay::ball_at(const Configuration& q) const {
-  std::vector<Frame> poses;
-  motion_.place_links(q, poses);
-  return poses[static_cast<std::size_t>(cell_.tool_link)] * Vec3(0, 0, stickout_);
+  return motion_.place(cell_.tool_link, q) * Vec3(0, 0, stickout_);
 }
 
 ToolReplay::Line ToolReplay::line_in(const Target& target, const std::vector<Frame>& poses) const {
   const Frame tool = (poses[static_cast<std::size_t>(target.link)] * target.pose).inverse() *
                      poses[static_cast<std::size_t>(cell_.tool_link)];
+  return {tool * Vec3(0, 0, stickout_), tool.translation()};
+}
+
+ToolReplay::Line ToolReplay::line_in_material(const Configuration& q) const {
+  const Frame tool = targets_.front().pose.inverse() * motion_.place(cell_.tool_link, q);
   return {tool * Vec3(0, 0, stickout_), tool.translation()};
 }
 
@@ -178,12 +181,9 @@ bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxe
   const double room =
       whole_sagitta / (parts * parts) + slack_mm;  // a part has the same second derivative, and 1/n the time
 
-  std::vector<Frame> ends;
-  motion_.place_links(motion.from, ends);
-  Line before = line_in(material, ends);
+  Line before = line_in_material(motion.from);
   for (int part = 0; part < parts; ++part) {
-    motion_.place_links(motion.at(static_cast<double>(part + 1) / parts), ends);
-    const Line after = line_in(material, ends);
+    const Line after = line_in_material(motion.at(static_cast<double>(part + 1) / parts));
     const Vec3 centre = voxel_ * (point(first) + part * way + Vec3::Constant(0.5));
     if (!((after.ball - centre).norm() <= tolerance_mm)) return false;
     const double ball = std::max(way.dot(before.ball), way.dot(after.ball));
@@ -223,6 +223,14 @@ void ToolReplay::renew_clearance(Target& target, const std::vector<Frame>& poses
   }
 }
 
+// Of the links that the tool is looked at from: all, or just the one that carries the material.
+void ToolReplay::place_ends(const Configuration& q, bool all, std::vector<Frame>& poses) const {
+  if (all) return motion_.place_links(q, poses);
+  poses.resize(cell_.robot.links.size());
+  for (const int link : {cell_.stock_link, cell_.tool_link})
+    poses[static_cast<std::size_t>(link)] = motion_.place(link, q);
+}
+
 void ToolReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {
   if (motion.step.isZero(0)) return;
   std::vector<Task> open;
@@ -236,8 +244,8 @@ void ToolReplay::replay(std::size_t keyframe, const JointMotion& motion, const O
     if (shank_ > 0 && stickout_ > 0) open.push_back({&target, true});
   }
   std::vector<Frame> start, end;
-  motion_.place_links(motion.from, start);
-  motion_.place_links(motion.at(1), end);
+  place_ends(motion.from, !uncovered.empty(), start);
+  place_ends(motion.at(1), !uncovered.empty(), end);
   certify(motion, 0, 1, start, end, open, on_contact);
   for (Target* target : uncovered) renew_clearance(*target, end, motion);
 }

@@ -54,6 +54,8 @@ class ToolReplay {
   enum class Finding { free, touches, too_close, unknown };
 
   Line line_in(const Target& target, const std::vector<Frame>& poses) const;
+  Line line_in_material(const Configuration& q) const;
+  void place_ends(const Configuration& q, bool all, std::vector<Frame>& poses) const;
   bool touches(const Target& target, const fcl::CollisionGeometryd& part, const Frame& pose, const Vec3& low,
                const Vec3& high) const;
   bool ball_meets(const Target& target, const Vec3& from, const Vec3& to, double grow) const;

@@ -57,15 +57,29 @@ LinkMotion::LinkMotion(const Robot& robot, const std::vector<int>& joints, const
 void LinkMotion::place_links(const Configuration& q, std::vector<Frame>& poses) const {
   poses.resize(robot_->links.size());
   poses[static_cast<std::size_t>(robot_->root)] = Frame::Identity();
-  for (const Step& step : steps_) {
-    const double value = step.coordinate < 0 ? step.constant : step.rate * q[step.coordinate] + step.constant;
-    Frame local = step.origin;
-    if (step.kind == JointKind::revolute) local.rotate(Eigen::AngleAxisd(value, step.axis));
-    if (step.kind == JointKind::prismatic) local.translate(value * step.axis);
-    poses[static_cast<std::size_t>(step.child)] = poses[static_cast<std::size_t>(step.parent)] * local;
-  }
+  for (const Step& step : steps_)
+    poses[static_cast<std::size_t>(step.child)] = poses[static_cast<std::size_t>(step.parent)] * move(step, q);
   const Frame to_stock = poses[static_cast<std::size_t>(stock_link_)].inverse();
   for (Frame& pose : poses) pose = to_stock * pose;
+}
+
+Frame LinkMotion::move(const Step& step, const Configuration& q) {
+  const double value = step.coordinate < 0 ? step.constant : step.rate * q[step.coordinate] + step.constant;
+  Frame local = step.origin;
+  if (step.kind == JointKind::revolute) local.rotate(Eigen::AngleAxisd(value, step.axis));
+  if (step.kind == JointKind::prismatic) local.translate(value * step.axis);
+  return local;
+}
+
+Frame LinkMotion::from_root(int link, const Configuration& q) const {
+  const int joint = robot_->links[static_cast<std::size_t>(link)].parent_joint;
+  if (joint < 0) return Frame::Identity();
+  const Step& step = steps_[static_cast<std::size_t>(joint)];
+  return from_root(step.parent, q) * move(step, q);
+}
+
+Frame LinkMotion::place(int link, const Configuration& q) const {
+  return from_root(stock_link_, q).inverse() * from_root(link, q);
 }
 
 std::vector<int> LinkMotion::path(const Robot& robot, int from, int to) {

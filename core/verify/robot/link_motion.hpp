@@ -26,6 +26,9 @@ class LinkMotion {
   /// Pose of every link; `poses` is resized.
   void place_links(const Configuration& q, std::vector<Frame>& poses) const;
 
+  /// The same of one link only, bit by bit.
+  Frame place(int link, const Configuration& q) const;
+
   /// The moving joints on the tree path from one link to another, nearest to `from` first.
   std::vector<MovingJoint> joints_between(int from, int to) const;
 
@@ -41,6 +44,9 @@ class LinkMotion {
     int coordinate;         // -1: stands still
     double rate, constant;  // value = rate * coordinate + constant, in mm for prismatic joints
   };
+
+  static Frame move(const Step& step, const Configuration& q);
+  Frame from_root(int link, const Configuration& q) const;
 
   const Robot* robot_;
   int stock_link_;

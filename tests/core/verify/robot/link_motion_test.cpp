@@ -98,6 +98,21 @@ Eigen::Matrix4d pose_by_matrices(const Sample& sample, int link, const Configura
   return pose;
 }
 
+TEST(LinkMotion, PlacesOneLinkAsItPlacesAll) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Cell cell = random_cell(random);
+    const LinkMotion motion(cell.robot, {0, 1, 2, 3, 4, 5, 6, 7}, cell.rest, static_cast<int>(seed % 10));
+    Configuration q(8);
+    for (double& value : q) value = random.between(-2, 2);
+    std::vector<Frame> poses;
+    motion.place_links(q, poses);
+    for (int link = 0; link < 10; ++link)
+      ASSERT_TRUE(motion.place(link, q).matrix() == poses[static_cast<std::size_t>(link)].matrix()) << "link " << link;
+  }
+}
+
 TEST(LinkMotion, AgreesWithPlainMatrixProducts) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
