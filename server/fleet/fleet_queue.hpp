@@ -1,0 +1,25 @@
+// Which job of the fleet's queue a daemon takes next, and what time alone changes.
+#pragma once
+
+#include <atomic>
+
+#include "server/fleet/fleet_change.hpp"
+#include "server/fleet/fleet_member.hpp"
+
+namespace sculpt::server {
+
+/// Locks the row until the change ends; rows that others are looking at are passed over. Nothing where JobStore::claim
+/// gives nothing, and where the tables are of a newer version than this program knows: then `newer_schema` is set to
+/// that, and the log says it once.
+std::optional<JobRow> next_job(FleetChange& change, const FleetMember& member, const StoreRules& rules,
+                               std::atomic<std::int64_t>& newer_schema);
+
+/// One cheap question.
+bool is_anything_due(Postgres& database, const StoreRules& rules);
+/// As JobStore::wake_due; also, runs of daemons whose lease is over are taken from them. Gives the jobs that changed.
+std::vector<std::string> change_due(FleetChange& change);
+
+/// For people: why a daemon takes no jobs when the tables are of this version; empty for those that it knows.
+std::string schema_too_new(std::int64_t version);
+
+}  // namespace sculpt::server
