@@ -48,25 +48,36 @@ void FleetFeed::start(Postgres& database) {
 }
 
 void FleetFeed::read(Postgres& database) {
-  const std::lock_guard lock(mutex_);
-  while (read_events(database)) {
+  while (true) {
+    const std::vector<Answered> answers = database.ask_again(questions());
+    take(answers[0], answers[1]);
+    if (answers[0].rows() < page && answers[1].rows() < page) return;
   }
-  read_removed(database);
 }
 
-// True when there may be more.
-bool FleetFeed::read_events(Postgres& database) {
-  const Answered events = database.ask({new_events, {sql_value(last_event_), sql_value(page)}});
-  for (int row = 0; row < events.rows(); ++row) {
-    const std::string id = events.text(row, 1);
-    const std::optional<JobState> to = find_state(events.text(row, 4));
-    last_event_ = events.number(row, 0);
-    if (!to) continue;
-    count(id, {events.number(row, 2), events.text(row, 3), *to}, from_of(events.text(row, 5)));
-    if (own_.erase(static_cast<std::uint64_t>(last_event_)) == 0) news_.push_back({id, *to});
-  }
+std::vector<Question> FleetFeed::questions() const {
+  const std::lock_guard lock(mutex_);
+  return {{new_events, {sql_value(last_event_), sql_value(page)}},
+          {new_removals, {sql_value(last_removed_), sql_value(page)}}};
+}
+
+// Another thread may have taken some meanwhile: those are passed over. Removals wait for the events before them.
+void FleetFeed::take(const Answered& events, const Answered& removals) {
+  const std::lock_guard lock(mutex_);
+  for (int row = 0; row < events.rows(); ++row) count_event(events, row);
   own_.erase(own_.begin(), own_.upper_bound(static_cast<std::uint64_t>(last_event_)));
-  return events.rows() == page;
+  if (events.rows() == page) return;
+  for (int row = 0; row < removals.rows(); ++row) count_removal(removals, row);
+}
+
+void FleetFeed::count_event(const Answered& events, int row) {
+  if (events.number(row, 0) <= last_event_) return;
+  const std::string id = events.text(row, 1);
+  const std::optional<JobState> to = find_state(events.text(row, 4));
+  last_event_ = events.number(row, 0);
+  if (!to) return;
+  count(id, {events.number(row, 2), events.text(row, 3), *to}, from_of(events.text(row, 5)));
+  if (own_.erase(static_cast<std::uint64_t>(last_event_)) == 0) news_.push_back({id, *to});
 }
 
 void FleetFeed::count(const std::string& id, const OpenJob& now, std::optional<JobState> known) {
@@ -79,19 +90,17 @@ void FleetFeed::count(const std::string& id, const OpenJob& now, std::optional<J
     open_[id] = now;
 }
 
-// A job that came and went between two looks was never counted. Those behind a full page of events wait for the next.
-void FleetFeed::read_removed(Postgres& database) {
-  const Answered removed = database.ask({new_removals, {sql_value(last_removed_), sql_value(page)}});
-  for (int row = 0; row < removed.rows(); ++row) {
-    last_removed_ = removed.number(row, 0);
-    const std::string id = removed.text(row, 1);
-    const auto open = open_.find(id);
-    const std::optional<JobState> state = open != open_.end() ? open->second.state : find_state(removed.text(row, 2));
-    if (!state || removed.number(row, 3) > last_event_) continue;
-    const OpenJob job = open != open_.end() ? open->second : OpenJob{};
-    tally_.apply({{job.rank, id, job.owner, state, std::nullopt}});
-    open_.erase(id);
-  }
+// A job that came and went between two looks was never counted.
+void FleetFeed::count_removal(const Answered& removed, int row) {
+  if (removed.number(row, 0) <= last_removed_) return;
+  last_removed_ = removed.number(row, 0);
+  const std::string id = removed.text(row, 1);
+  const auto open = open_.find(id);
+  const std::optional<JobState> state = open != open_.end() ? open->second.state : find_state(removed.text(row, 2));
+  if (!state || removed.number(row, 3) > last_event_) return;
+  const OpenJob job = open != open_.end() ? open->second : OpenJob{};
+  tally_.apply({{job.rank, id, job.owner, state, std::nullopt}});
+  open_.erase(id);
 }
 
 void FleetFeed::made_here(const std::vector<std::uint64_t>& numbers) {

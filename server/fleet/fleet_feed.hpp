@@ -27,6 +27,9 @@ class FleetFeed {
   void start(Postgres& database);
   /// Reads what is new, and counts it. Throws StorageError: then nothing of it is counted yet.
   void read(Postgres& database);
+  /// The same for who asks himself, in another's trip.
+  std::vector<Question> questions() const;
+  void take(const Answered& events, const Answered& removals);
   /// Events that this daemon made itself: they are counted, and no news.
   void made_here(const std::vector<std::uint64_t>& numbers);
   /// What others did, since the last call.
@@ -40,11 +43,11 @@ class FleetFeed {
     std::string owner;
     JobState state = JobState::queued;
   };
-  bool read_events(Postgres& database);
-  void read_removed(Postgres& database);
+  void count_event(const Answered& events, int row);
+  void count_removal(const Answered& removed, int row);
   void count(const std::string& id, const OpenJob& now, std::optional<JobState> known);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   JobTally tally_;
   std::map<std::string, OpenJob> open_;
   std::int64_t last_event_ = 0, last_removed_ = 0;

@@ -49,11 +49,18 @@ JobRow read_job_row(const Answered& answer, int row) {
   return read;
 }
 
-std::vector<JobRow> FleetRows::select(const std::string& rest, const std::vector<SqlValue>& values) {
-  const Answered answer = change_.ask({std::string("SELECT ") + job_columns + " FROM sculptd.job " + rest, values});
+Question FleetRows::selection(const std::string& rest, const std::vector<SqlValue>& values) {
+  return {std::string("SELECT ") + job_columns + " FROM sculptd.job " + rest, values};
+}
+
+std::vector<JobRow> FleetRows::rows_of(const Answered& answer) {
   std::vector<JobRow> rows;
   for (int row = 0; row < answer.rows(); ++row) rows.push_back(read_job_row(answer, row));
   return rows;
+}
+
+std::vector<JobRow> FleetRows::select(const std::string& rest, const std::vector<SqlValue>& values) {
+  return rows_of(change_.ask(selection(rest, values)));
 }
 
 std::optional<JobRow> FleetRows::find(const std::string& id) {
@@ -79,14 +86,13 @@ JobRow FleetRows::insert(const JobRecord& job) {
 bool FleetRows::update(const JobRow& row, JobState from, int attempt) {
   const JobRecord& job = row.job;
   const SqlValue number = sql_value(row.number);
-  const Answered answer = change_.ask(
+  change_.later(
       {"UPDATE sculptd.job SET state=$1, attempt=$2, failures=$3, crashes=$4, isolated=$5, wake_at=$6, started_at=$7, "
        "finished_at=$8, error_code=$9, error_sentence=$10 WHERE number=$11 AND state=$12 AND attempt=$13",
        {sql_value(std::string(name(job.state))), sql_value(job.attempt), sql_value(job.failures),
         sql_value(job.crashes), sql_flag(job.isolated), sql_value(job.wake_at), sql_value(job.started_at),
         sql_value(job.finished_at), sql_value(job.error_code), sql_value(job.error_sentence), number,
         sql_value(std::string(name(from))), sql_value(attempt)}});
-  if (answer.changed() != 1) return false;
   if (is_active(job.state) && !is_active(from)) {
     change_.later(
         {"INSERT INTO sculptd.lease(job, daemon, attempt, until) "

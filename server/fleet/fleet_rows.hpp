@@ -13,7 +13,8 @@ extern const char* const job_columns;
 /// A row of an answer that begins with them. Throws StorageError for a state that nobody knows.
 JobRow read_job_row(const Answered& answer, int row);
 
-/// Of one transaction. `find` and `select` lock what they give until its end.
+/// Of one transaction. Rows that it changes were locked when they were found, so they are as they were read, and the
+/// change goes with the commit.
 class FleetRows : public JobRows {
  public:
   struct Lease {
@@ -25,6 +26,8 @@ class FleetRows : public JobRows {
   std::optional<JobRow> find(const std::string& id) override;
   /// `rest` is what stands behind FROM sculptd.job.
   std::vector<JobRow> select(const std::string& rest, const std::vector<SqlValue>& values);
+  static Question selection(const std::string& rest, const std::vector<SqlValue>& values);
+  static std::vector<JobRow> rows_of(const Answered& answer);
 
   JobRow insert(const JobRecord& job) override;
   bool update(const JobRow& row, JobState from, int attempt) override;

@@ -177,7 +177,7 @@ class PostgresFleetStore : public FleetStore {
 
     void commit() {
       if (part.jobs.take_moves().empty()) return;
-      store.note_own_events(part.commit(store.commit_times_));
+      part.commit(store.commit_times_, store.feed_);
     }
 
     PostgresFleetStore& store;
@@ -193,15 +193,6 @@ class PostgresFleetStore : public FleetStore {
   static JobRecord with_folder(JobRecord job) {
     job.folder = attempt_folder(job);
     return job;
-  }
-
-  void note_own_events(const std::vector<std::uint64_t>& numbers) {
-    feed_.made_here(numbers);
-    try {
-      feed_.read(database_);
-    } catch (const StorageError&) {
-      // What was committed is so; it is counted with the next look.
-    }
   }
 
   std::int64_t write(const Question& question) {

@@ -45,10 +45,14 @@ void PostgresChange::expect_connection() const {
       "the connection to the database broke in the middle of a change, which is undone: try again");
 }
 
-Answered PostgresChange::ask(const Question& question) {
-  if (!open_) return begin_with({question}).back();
-  expect_connection();
-  return database_.ask(question);
+std::vector<Answered> PostgresChange::ask_all(const std::vector<Question>& questions) {
+  if (open_) {
+    expect_connection();
+    return database_.ask_all(questions);
+  }
+  std::vector<Answered> answers = begin_with(questions);
+  answers.erase(answers.begin(), answers.begin() + 2);
+  return answers;
 }
 
 std::uint64_t PostgresChange::now_ms() {
@@ -65,12 +69,14 @@ void PostgresChange::lock_events_later() {
   if (!locked_ && !std::exchange(locks_later_, true)) later_.push_back(lock_question);
 }
 
-std::vector<Answered> PostgresChange::commit(Histogram& times) {
+std::vector<Answered> PostgresChange::commit(Histogram& times, const std::vector<Question>& after) {
   begin();
   expect_connection();
   crash_point(CrashPoint::before_commit);
   const auto begun = std::chrono::steady_clock::now();
+  const auto done = static_cast<std::ptrdiff_t>(later_.size());
   later_.push_back({"COMMIT"});
+  later_.insert(later_.end(), after.begin(), after.end());
   std::vector<Answered> answers;
   try {
     answers = database_.ask_all(later_);
@@ -82,7 +88,7 @@ std::vector<Answered> PostgresChange::commit(Histogram& times) {
   open_ = false;
   times.add(std::chrono::steady_clock::now() - begun);
   crash_point(CrashPoint::after_commit);
-  answers.pop_back();
+  answers.erase(answers.begin() + done);
   return answers;
 }
 

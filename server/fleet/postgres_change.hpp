@@ -25,14 +25,17 @@ class PostgresChange {
   PostgresChange(const PostgresChange&) = delete;
   PostgresChange& operator=(const PostgresChange&) = delete;
 
-  Answered ask(const Question& question);
+  Answered ask(const Question& question) { return ask_all({question}).front(); }
+  /// In one trip.
+  std::vector<Answered> ask_all(const std::vector<Question>& questions);
   /// Asked with the commit, in the order of the calls.
   void later(Question question) { later_.push_back(std::move(question)); }
   /// Before the next event's number is taken and until the end: nobody else has one meanwhile.
   void lock_events_later();
   void lock_events();
-  /// Gives the answers to what was asked later, in order. Throws CommitUnknown too. The time is counted in `times`.
-  std::vector<Answered> commit(Histogram& times);
+  /// Gives the answers to what was asked later, in order, then those to `after`, which is asked behind the commit in
+  /// the same trip. Throws CommitUnknown too. The time is counted in `times`.
+  std::vector<Answered> commit(Histogram& times, const std::vector<Question>& after = {});
   /// The database's wall time when this began.
   std::uint64_t now_ms();
 

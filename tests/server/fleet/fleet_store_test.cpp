@@ -2,60 +2,20 @@
 #include "server/fleet/fleet_store.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <set>
 #include <thread>
 
 #include "server/base/config.hpp"
-#include "server/fleet/postgres.hpp"
-#include "tests/server/temp_folder.hpp"
-#include "tests/server/test_store.hpp"
+#include "tests/server/fleet/fleet_store_fixture.hpp"
 
 namespace sculpt::server {
 namespace {
 
 using enum JobState;
-
-const Ending success{succeeded, {}, {}, {{"trajectory", "ndjson", 12, "abc"}}, Cause::job};
-
-class FleetStoreTest : public testing::Test {
- protected:
-  void SetUp() override {
-    SCULPT_POSTGRES_ONLY();
-    first = open("first");
-    second = open("second");
-    other.emplace(PostgresSource{test_database(file), {}}, std::chrono::seconds(30));
-  }
-
-  std::unique_ptr<FleetStore> open(const std::string& daemon, StoreRules rules = {},
-                                   std::chrono::milliseconds lease = std::chrono::seconds(30)) {
-    return open_test_fleet(file, std::move(rules), daemon, lease);
-  }
-  static std::string add(FleetStore& store, const std::string& key = {}, std::uint64_t memory_bytes = 1) {
-    NewJob job;
-    job.key = key;
-    job.spec = "{}";
-    job.memory_bytes = memory_bytes;
-    return store.submit(job).job.id;
-  }
-  void end_all_leases() { other->ask({"UPDATE sculptd.lease SET until = now() - interval '1 s'"}); }
-  /// Until it is so: what hangs for ever is ended by the test's own limit.
-  static void await(const std::function<bool()>& holds) {
-    while (!holds()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  static FleetHooks quiet() {
-    return {[](const std::string&, JobState) {}, [](const std::string&) {},
-            [](const std::string&) { return std::optional<Progress>(); }};
-  }
-
-  TempFolder folder;
-  std::filesystem::path file = folder.path() / "fleet";
-  std::unique_ptr<FleetStore> first, second;
-  std::optional<Postgres> other;
-};
 
 TEST_F(FleetStoreTest, EachJobIsClaimedOnce) {
   constexpr int jobs = 200;
@@ -79,67 +39,6 @@ TEST_F(FleetStoreTest, EachJobIsClaimedOnce) {
   }
   EXPECT_EQ(claimed.size(), static_cast<std::size_t>(jobs));
   EXPECT_EQ(std::set<std::string>(claimed.begin(), claimed.end()).size(), static_cast<std::size_t>(jobs));
-}
-
-TEST_F(FleetStoreTest, AJobOfASilentDaemonIsTakenAndItsLateEndRefused) {
-  const std::string job = add(*first);
-  ASSERT_EQ(first->claim()->attempt, 1);
-  EXPECT_TRUE(second->wake_due().empty()) << "its lease is good";
-  end_all_leases();
-  EXPECT_EQ(second->wake_due(), std::vector{job});
-  const JobRecord taken = *second->claim();
-  EXPECT_EQ(taken.attempt, 2);
-  EXPECT_EQ(taken.folder, job + "/2") << "where the run that lost it does not write";
-  EXPECT_FALSE(first->finish(job, 1, success));
-  EXPECT_FALSE(first->release(job, 1));
-  EXPECT_EQ(first->late_ends(), 2u);
-  EXPECT_TRUE(second->finish(job, 2, success));
-  EXPECT_EQ(first->find(job)->state, succeeded);
-}
-
-TEST_F(FleetStoreTest, ADaemonThatIsStartedAgainReleasesItsOwnJobsAndNoOthers) {
-  const std::string mine = add(*first);
-  first->claim();
-  const std::string others = add(*first);
-  second->claim();
-  first = open("first");
-  EXPECT_EQ(first->recover(), 1);
-  EXPECT_EQ(first->find(mine)->state, queued);
-  EXPECT_EQ(first->find(others)->state, running);
-}
-
-TEST_F(FleetStoreTest, ALeaseIsRenewedWhileItsDaemonLives) {
-  first = open("third", {}, std::chrono::seconds(3));
-  const std::string job = add(*first);
-  first->claim();
-  const auto until = [&] { return other->ask({"SELECT until FROM sculptd.lease"}).text(0, 0); };
-  const std::string at_first = until();
-  FleetHooks hooks = quiet();
-  hooks.progress = [](const std::string&) { return Progress{Stage::plan, 3, 7}; };
-  first->join("here:1", hooks);
-  second->join("here:2", quiet());
-  await([&] { return until() > at_first; });
-  await([&] { return second->progress(job).has_value(); });
-  EXPECT_EQ(second->progress(job)->done, 3u) << "any daemon knows how far it is";
-  first->leave();
-  second->leave();
-  EXPECT_TRUE(first->finish(job, 1, success));
-}
-
-TEST_F(FleetStoreTest, WhoeverLosesItsLeaseEndsTheRun) {
-  first = open("third", {}, std::chrono::seconds(3));
-  const std::string job = add(*first);
-  first->claim();
-  std::atomic<int> lost = 0;
-  FleetHooks hooks = quiet();
-  hooks.lost = [&](const std::string& which) { lost += which == job; };
-  first->join("here:1", hooks);
-  end_all_leases();
-  second->wake_due();
-  await([&] { return lost > 0 || first->find(job)->state == running; });
-  if (first->find(job)->state == queued) await([&] { return lost > 0; });
-  first->leave();
-  EXPECT_EQ(first->leases_lost(), static_cast<std::uint64_t>(lost));
 }
 
 TEST_F(FleetStoreTest, AFollowerMissesNoEventWhoeverWrites) {
@@ -274,6 +173,25 @@ TEST_F(FleetStoreTest, AConnectionThatWasCutIsMadeAnewAndLosesNothing) {
   EXPECT_TRUE(first->finish(job, 1, success));
   cut();
   EXPECT_EQ(first->find(job)->state, succeeded);
+}
+
+TEST_F(FleetStoreTest, ADaemonNeedsNoRightToMakeTables) {
+  const std::string role = "daemon_" + std::to_string(::getpid());
+  other->run("CREATE ROLE " + role + " LOGIN; GRANT USAGE ON SCHEMA sculptd TO " + role +
+             "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + role +
+             "; GRANT USAGE ON ALL SEQUENCES IN SCHEMA sculptd TO " + role + ";");
+  std::string url = test_database(file);
+  url.replace(url.find("user=sculptd"), std::string("user=sculptd").size(), "user=" + role);
+  {
+    const auto store = open_fleet_store({{url, {}}, {"least", 1, 0}, std::chrono::seconds(30)});
+    store->join("here:1", quiet());
+    const std::string job = add(*store);
+    ASSERT_TRUE(store->claim());
+    EXPECT_TRUE(store->finish(job, 1, success));
+    await([&] { return !first->daemons().empty() && store->sweeps(); });
+    EXPECT_TRUE(store->remove(job));
+  }
+  other->run("DROP OWNED BY " + role + "; DROP ROLE " + role + ";");
 }
 
 TEST(Postgres, ADatabaseThatIsNotThereIsUnavailableNow) {
