@@ -57,9 +57,25 @@ void FleetLeases::stop() {
   }
 }
 
-void FleetLeases::hold(const std::string& job, int attempt, Clock::time_point since) {
+void FleetLeases::hold(const JobRecord& job, Clock::time_point since) {
   const std::lock_guard lock(mutex_);
-  held_[job] = {attempt, since + lease_ - margin(lease_)};
+  held_[job.id] = {job.attempt, job.memory_bytes, job.isolated && job.crashes > 0, since + lease_ - margin(lease_)};
+}
+
+void FleetLeases::let_go_all() {
+  const std::lock_guard lock(mutex_);
+  held_.clear();
+}
+
+AtWork FleetLeases::at_work() const {
+  const std::lock_guard lock(mutex_);
+  AtWork sum;
+  for (const auto& [job, held] : held_) {
+    ++sum.jobs;
+    sum.memory_bytes += held.memory_bytes;
+    sum.suspect |= held.suspect;
+  }
+  return sum;
 }
 
 void FleetLeases::let_go(const std::string& job, int attempt) {

@@ -13,6 +13,7 @@
 #include "core/base/watch.hpp"
 #include "server/fleet/fleet_member.hpp"
 #include "server/fleet/postgres.hpp"
+#include "server/store/job_record.hpp"
 
 namespace sculpt::server {
 
@@ -32,8 +33,10 @@ class FleetLeases {
   void stop();
 
   /// The job was claimed; `since`: from before the claim was asked for, by which the lease counts.
-  void hold(const std::string& job, int attempt, Clock::time_point since);
+  void hold(const JobRecord& job, Clock::time_point since);
   void let_go(const std::string& job, int attempt);
+  void let_go_all();
+  AtWork at_work() const;
 
   /// This daemon is the one that removes what is old.
   bool sweeps() const { return sweeps_; }
@@ -43,6 +46,8 @@ class FleetLeases {
  private:
   struct Held {
     int attempt = 0;
+    std::uint64_t memory_bytes = 0;
+    bool suspect = false;          // it runs in a process of its own because it is suspected
     Clock::time_point safe_until;  // by then the run has to be over, unless renewed
     bool lost = false;
   };

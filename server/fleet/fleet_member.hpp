@@ -18,6 +18,13 @@ struct FleetMember {
   std::uint64_t memory_bytes = 0;  ///< of the jobs that it runs at once; 0: no bound
 };
 
+/// What this daemon runs.
+struct AtWork {
+  int jobs = 0;
+  std::uint64_t memory_bytes = 0;
+  bool suspect = false;  ///< one of them is suspected of crashes
+};
+
 /// Another daemon, or this one, as the database knows it.
 struct FleetDaemon {
   std::string id, address, version;

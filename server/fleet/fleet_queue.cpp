@@ -10,18 +10,15 @@ namespace {
 
 using enum JobState;
 
-// What this daemon has at work, and whether it may claim at all.
-constexpr const char* at_work =
-    "SELECT count(*), coalesce(sum(memory_bytes), 0), "
-    "(SELECT value FROM sculptd.meta WHERE name='queue_paused') = '1', "
-    "(SELECT value FROM sculptd.meta WHERE name='schema')::bigint "
-    "FROM sculptd.lease JOIN sculptd.job ON lease.job = job.number WHERE daemon=$1";
+// Whether a daemon may claim at all.
+constexpr const char* permission =
+    "SELECT (SELECT value FROM sculptd.meta WHERE name='queue_paused') = '1', "
+    "(SELECT value FROM sculptd.meta WHERE name='schema')::bigint";
 // None overtakes one that waits for room here, unless there is never room for it here, but in a daemon that was heard
 // of lately. The row is found and locked by one plain statement: below another one, LIMIT may be asked more than once.
 constexpr const char* next_in_queue =
     "WHERE state='queued' AND (start_by='' OR attempt>0 OR start_by >= coalesce($1, to_char(now() AT TIME ZONE "
-    "'UTC', 'YYYY-MM-DD\"T\"HH24:MI:SS.MS\"Z\"'))) AND (crashes=0 OR NOT EXISTS(SELECT 1 FROM sculptd.lease JOIN "
-    "sculptd.job AS mine ON lease.job = mine.number WHERE daemon=$2 AND mine.isolated AND mine.crashes>0)) AND "
+    "'UTC', 'YYYY-MM-DD\"T\"HH24:MI:SS.MS\"Z\"'))) AND (crashes=0 OR NOT $2) AND rank >= $4 AND "
     "($3::bigint=0 OR memory_bytes<=$3 OR NOT EXISTS(SELECT 1 FROM sculptd.daemon WHERE "
     "seen > now() - interval '1 minute' AND (daemon.memory_bytes=0 OR daemon.memory_bytes>=job.memory_bytes))) "
     "ORDER BY rank, number LIMIT 1 FOR UPDATE SKIP LOCKED";
@@ -51,20 +48,19 @@ std::string schema_too_new(std::int64_t version) {
          ": it takes no jobs any more, update it";
 }
 
-std::optional<JobRow> next_job(FleetChange& change, const FleetMember& member, const StoreRules& rules,
+std::optional<JobRow> next_job(FleetChange& change, const Claimant& claimant, const StoreRules& rules,
                                std::atomic<std::int64_t>& newer_schema) {
   const auto room = static_cast<std::int64_t>(rules.memory_bytes);
   const SqlValue now = rules.now_ms ? sql_value(utc_text(rules.now_ms())) : std::nullopt;
-  const std::vector<Answered> answers =
-      change.transaction.ask_all({{at_work, {sql_value(member.id)}},
-                                  FleetRows::selection(next_in_queue, {now, sql_value(member.id), sql_value(room)})});
-  const Answered& mine = answers[0];
-  if (mine.flag(0, 2) || !knows_schema(mine.number(0, 3), newer_schema)) return std::nullopt;
+  const std::vector<Answered> answers = change.transaction.ask_all(
+      {{permission},
+       FleetRows::selection(next_in_queue, {now, sql_flag(claimant.at_work.suspect), sql_value(room),
+                                            sql_value(claimant.first_rank.value_or(INT64_MIN))})});
+  if (answers[0].flag(0, 0) || !knows_schema(answers[0].number(0, 1), newer_schema)) return std::nullopt;
   std::vector<JobRow> next = FleetRows::rows_of(answers[1]);
   if (next.empty()) return std::nullopt;
-  const bool idle = mine.number(0, 0) == 0;
-  const auto needed = static_cast<std::uint64_t>(mine.number(0, 1)) + next.front().job.memory_bytes;
-  if (!idle && room != 0 && needed > rules.memory_bytes) return std::nullopt;
+  const std::uint64_t needed = claimant.at_work.memory_bytes + next.front().job.memory_bytes;
+  if (claimant.at_work.jobs > 0 && room != 0 && needed > rules.memory_bytes) return std::nullopt;
   return std::move(next.front());
 }
 

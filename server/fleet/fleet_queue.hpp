@@ -8,10 +8,18 @@
 
 namespace sculpt::server {
 
+/// What a daemon has in mind when it looks for a job.
+struct Claimant {
+  AtWork at_work;
+  /// No job is known that is queued with a lower rank; nothing: nobody knows. While somebody holds a transaction open
+  /// the rows of all jobs since are passed on the way to the first that is queued: this leads around them.
+  std::optional<std::int64_t> first_rank;
+};
+
 /// Locks the row until the change ends; rows that others are looking at are passed over. Nothing where JobStore::claim
 /// gives nothing, and where the tables are of a newer version than this program knows: then `newer_schema` is set to
 /// that, and the log says it once.
-std::optional<JobRow> next_job(FleetChange& change, const FleetMember& member, const StoreRules& rules,
+std::optional<JobRow> next_job(FleetChange& change, const Claimant& claimant, const StoreRules& rules,
                                std::atomic<std::int64_t>& newer_schema);
 
 /// One cheap question.

@@ -71,12 +71,13 @@ class PostgresFleetStore : public FleetStore {
   std::optional<JobRecord> claim() override {
     const auto since = FleetLeases::Clock::now();
     Change change(*this);
-    std::optional<JobRow> next = next_job(change.part, fleet_.member, rules_, newer_schema_);
+    std::optional<JobRow> next =
+        next_job(change.part, {leases_.at_work(), feed_.tally().first_rank()}, rules_, newer_schema_);
     if (!next) return std::nullopt;
     JobRow& row = *next;
     start_run(change.jobs, rules_, row);
     change.commit();
-    leases_.hold(row.job.id, row.job.attempt, since);
+    leases_.hold(row.job, since);
     return with_folder(row.job);
   }
 
@@ -95,6 +96,7 @@ class PostgresFleetStore : public FleetStore {
         {sql_value(fleet_.member.id)});
     for (JobRow& row : left) abandon_run(change.jobs, row);
     change.commit();
+    leases_.let_go_all();
     return static_cast<int>(left.size());
   }
 
