@@ -1,7 +1,6 @@
 #include "server/server.hpp"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -18,7 +17,9 @@
 #include "server/net/net.hpp"
 #include "server/net/tls.hpp"
 #include "server/ops/drain_limit.hpp"
+#include "server/ops/fleet_opening.hpp"
 #include "server/ops/service_manager.hpp"
+#include "server/ops/settled_rules.hpp"
 #include "server/ops/store_opening.hpp"
 #include "server/queue/stage_times.hpp"
 #include "server/results/retention.hpp"
@@ -32,35 +33,6 @@ constexpr std::chrono::milliseconds tick_time{250};
 constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
 constexpr int least_checks_at_once = 4;
-
-int cores() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-// One core is left to the I/O thread.
-int worker_count(const Config& config) {
-  return config.workers > 0 ? config.workers : std::max(1, cores() - 1);
-}
-
-std::uint64_t job_memory(const Config& config) {
-  const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
-  const auto page_bytes = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return config.memory_bytes > 0 ? config.memory_bytes : pages * page_bytes / 4 * 3;
-}
-
-StoreRules store_rules(const Config& config) {
-  StoreRules rules;
-  rules.first_backoff_ms = static_cast<std::uint64_t>(config.retry_backoff.count());
-  rules.isolate = config.isolate;
-  rules.max_jobs = config.max_jobs;
-  rules.max_jobs_per_owner = config.max_jobs_per_owner;
-  rules.memory_bytes = job_memory(config);
-  return rules;
-}
-
-JobDefaults job_defaults(const Config& config) {
-  return {std::max(1, cores() / worker_count(config)), std::min(config.memory_cap_bytes, job_memory(config))};
-}
 
 RunJob choose_run(RunJob here, RunJob isolated) {
   return [here = std::move(here), isolated = std::move(isolated)](const JobRecord& job, const Watch& watch) {
@@ -89,32 +61,53 @@ struct Server::Impl {
       : config(wanted),
         planner(std::move(given)),
         folder(config.data),
-        store(open_store(folder, store_rules(config))),
-        blobs(folder.blobs(), config.blob_limit_bytes),
-        artifacts(folder.jobs(), *store, planner),
+        results(config.store.empty() ? static_cast<const FolderPaths&>(folder) : FolderPaths{config.shared}),
+        store(open_any_store()),
+        blobs(results.blobs(), config.blob_limit_bytes),
+        artifacts(results.jobs(), *store, planner),
         passed(config.data / "checked"),
-        isolation{config.worker, blobs.folder(), folder.jobs(), job_defaults(config)},
+        isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
         scheduler(*store,
-                  with_stage_times(choose_run(make_run_job(planner, blobs, folder.jobs(), job_defaults(config)),
+                  with_stage_times(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
                                               make_isolated_run(isolation)),
                                    counters),
                   [this](const std::string& job) { changed(job); }),
         streams(io, *store, reads, scheduler),
         waits(io, *store, reads),
-        retention(*store, blobs, artifacts, folder.jobs()),
+        retention(*store, blobs, artifacts, results.jobs()),
         dispatcher(handlers(), streams, waits),
         listener(context, http, tcp_endpoint(config), make_tls(config)) {
+    isolation.held = folder.jobs();
+    if (fleet != nullptr) scheduler.ask_elsewhere([this](const std::string& job) { return fleet->progress(job); });
     if (!config.unix_socket.empty()) unix_listener.emplace(context, http, unix_endpoint(config), nullptr);
     if (const int left = store->recover(); left > 0)
       spdlog::warn("{} jobs were interrupted and are queued again", left);
     crash_point(CrashPoint::recovered);
   }
 
+  std::unique_ptr<JobStore> open_any_store() {
+    if (config.store.empty()) return open_store(folder, store_rules(config));
+    std::unique_ptr<FleetStore> shared = open_fleet(config, folder, workers, store_rules(config));
+    fleet = shared.get();
+    return shared;
+  }
+
+  // The answers to what other daemons do.
+  FleetHooks fleet_hooks() {
+    const auto on_change = [this](const std::string& job, JobState to) {
+      tell(job);
+      if (to == JobState::cancelling || to == JobState::pausing) scheduler.stop_run(job);
+      if (to == JobState::queued) scheduler.wake();
+    };
+    return {on_change, [this](const std::string& job) { scheduler.abandon_run(job); },
+            [this](const std::string& job) { return scheduler.progress_here(job); }};
+  }
+
   Handlers handlers() {
     Handlers all;
     const auto change = [this](const std::string& job) { changed(job); };
     for (Handlers group :
-         {server_handlers({answers, config, access, connections, *store, planner, workers, started}),
+         {server_handlers({answers, config, access, connections, *store, planner, workers, started, fleet}),
           blob_handlers({answers, blobs, disk}),
           submit_handlers({answers, config, *store, blobs, artifacts, scheduler, planner, job_defaults(config),
                            isolation, admission, checks, passed, change}),
@@ -126,12 +119,16 @@ struct Server::Impl {
     return all;
   }
 
-  // A job changed its state: tells everybody who waits for that. Any thread.
-  void changed(const std::string& job) {
+  void tell(const std::string& job) {
     net::post(io, [this, job] {
       streams.on_changed(job);
       waits.on_changed(job);
     });
+  }
+
+  // A job changed its state: tells everybody who waits for that. Any thread.
+  void changed(const std::string& job) {
+    tell(job);
     disk.add([this, job](const std::stop_token&) {
       try {
         artifacts.discard_leftovers(job);
@@ -158,6 +155,7 @@ struct Server::Impl {
   // On the thread of disk work, where blobs are written.
   void sweep(Connection::Clock::time_point now) {
     next_sweep = now + sweep_time;
+    if (fleet != nullptr && !fleet->sweeps()) return;
     disk.add([this, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
       try {
         retention.sweep(rules, unix_ms());
@@ -199,6 +197,8 @@ struct Server::Impl {
   const int workers = worker_count(config);
   Planner planner;
   DataFolder folder;
+  FolderPaths results;  // the same, or the one that a fleet shares
+  FleetStore* fleet = nullptr;
   std::unique_ptr<JobStore> store;
   net::io_context io{1};
   Blobs blobs;
@@ -219,7 +219,7 @@ struct Server::Impl {
   Answers answers{io, reads};
   Dispatcher dispatcher;
   ConnectionContext context{io, config, connections, counters, dispatcher};
-  HttpSources http{access, tickets, *store, blobs, artifacts, {*store, counters, workers, started},
+  HttpSources http{access, tickets, *store, blobs, artifacts, {*store, counters, workers, started, fleet},
                    reads,  disk,    exports};
   Listener listener;
   std::optional<Listener> unix_listener;
@@ -243,6 +243,7 @@ std::uint16_t Server::port() const {
 
 void Server::run() {
   log_confinement();
+  if (impl_->fleet != nullptr) impl_->fleet->join(host() + ":" + std::to_string(port()), impl_->fleet_hooks());
   impl_->scheduler.start(impl_->workers);
   impl_->listener.start();
   if (impl_->unix_listener) impl_->unix_listener->start();
@@ -256,6 +257,7 @@ void Server::run() {
        {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports})
     queue->stop();
   impl_->checks.stop();
+  if (impl_->fleet != nullptr) impl_->fleet->leave();
 }
 
 void Server::stop() {

@@ -43,7 +43,7 @@ forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/ce
 forbid "verify shares nothing with the planners" "$(include 'core/(collision|search|motion|sweep|doctor|place|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
-server_folders=(base files store confine run queue results access net events api http ops)
+server_folders=(base files store fleet confine run queue results access net events api http ops)
 for ((i = 0; i < ${#server_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${server_folders[*]:i+1}")
   forbid "server/${server_folders[i]} stands below ${above//|/, }" "$(include "server/(${above:+($above)/|}[a-z_]+\.hpp)")" -- "server/${server_folders[i]}"
@@ -62,6 +62,7 @@ forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/pn
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
   "$(door '(cell/cell_(file\.cpp|field\.hpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+forbid "libpq only in fleet/postgres.cpp" "$(include 'libpq')" '^server/fleet/postgres\.cpp$' -- core server proto clients
 forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 
 # No other header of core names a type of theirs.

@@ -85,10 +85,24 @@ std::vector<std::string> count_lines(const Json& counts, int columns) {
   return lines;
 }
 
+/// A line for each daemon that shares the queue.
+std::vector<std::string> fleet_lines(const Json& server) {
+  std::vector<std::string> lines;
+  for (const Json& daemon : server.value("fleet", Json::array())) {
+    char line[256];
+    std::snprintf(line, sizeof line, "%-28.28s  %-16.16s  %3d of %3d at work  heard of %.0f s ago",
+                  text(daemon, "address").c_str(), text(daemon, "server").c_str(), daemon.value("running", 0),
+                  daemon.value("workers", 0), daemon.value("silent_s", 0.0));
+    lines.emplace_back(line);
+  }
+  return lines;
+}
+
 std::vector<std::string> head_lines(const Json& server, const Layout& layout, int columns) {
   std::vector<std::string> lines{text(server, "server") + ", up " + uptime_text(server.at("uptime_s")) + ", " +
                                  text(server, "workers") + " workers"};
   for (std::string& line : count_lines(server.at("jobs"), columns)) lines.push_back(std::move(line));
+  for (std::string& line : fleet_lines(server)) lines.push_back(std::move(line));
   lines.emplace_back();
   lines.push_back(line_of(layout, "JOB", "STATE", "PRIO", "MESH", "N", "PROGRESS"));
   return lines;

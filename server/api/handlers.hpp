@@ -10,6 +10,7 @@
 #include "server/api/dispatcher.hpp"
 #include "server/base/config.hpp"
 #include "server/files/blobs.hpp"
+#include "server/fleet/fleet_store.hpp"
 #include "server/queue/check_desk.hpp"
 #include "server/queue/passed_checks.hpp"
 #include "server/queue/scheduler.hpp"
@@ -29,6 +30,7 @@ struct ServerGroup {
   const Planner& planner;
   int workers;
   std::chrono::steady_clock::time_point started;
+  FleetStore* fleet;  ///< null: the store is this daemon's own
 };
 Handlers server_handlers(const ServerGroup& group);
 

@@ -11,7 +11,8 @@ ViewSources view_sources(const JobGroup& group) {
 
 Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) {
   group.artifacts.check_whole(job, "trajectory");
-  const Replay replay = replay_in_child({job.spec, job.cell_bundle, job.id, 0, job.inherited}, group.isolation, stop);
+  const Replay replay =
+      replay_in_child({job.spec, job.cell_bundle, job.id, 0, job.inherited, job.folder}, group.isolation, stop);
   Json findings = Json::array();
   for (const Finding& finding : replay.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});

@@ -59,20 +59,35 @@ void on_ping(const ServerGroup&, Call call) {
   answer(call, Json::object());
 }
 
+Json fleet_view(FleetStore& fleet) {
+  Json daemons = Json::array();
+  for (const FleetDaemon& daemon : fleet.daemons())
+    daemons.push_back({{"daemon", daemon.id},
+                       {"address", daemon.address},
+                       {"server", daemon.version},
+                       {"workers", daemon.workers},
+                       {"running", daemon.running},
+                       {"memory_bytes", daemon.memory_bytes},
+                       {"silent_s", daemon.silent_s}});
+  return daemons;
+}
+
 void on_server_info(const ServerGroup& group, Call call) {
   proto::read_nothing(call.params);
   group.answers.read(std::move(call), [group] {
     const auto uptime = std::chrono::steady_clock::now() - group.started;
     Json jobs = Json::object();
     for (const auto& [state, count] : group.store.counts()) jobs[name(state)] = count;
-    return Json{{"server", proto::server_name},
-                {"protocol", {proto::protocol_major, proto::protocol_minor}},
-                {"epoch", group.store.epoch()},
-                {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
-                {"workers", group.workers},
-                {"cells", group.planner.cells()},
-                {"queue_paused", group.store.queue_paused()},
-                {"jobs", std::move(jobs)}};
+    Json info{{"server", proto::server_name},
+              {"protocol", {proto::protocol_major, proto::protocol_minor}},
+              {"epoch", group.store.epoch()},
+              {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
+              {"workers", group.workers},
+              {"cells", group.planner.cells()},
+              {"queue_paused", group.store.queue_paused()},
+              {"jobs", std::move(jobs)}};
+    if (group.fleet != nullptr) info["fleet"] = fleet_view(*group.fleet);
+    return info;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <string_view>
 
 #include "core/cell/shipped_cells.hpp"
 
@@ -26,6 +27,20 @@ Config default_config() {
   config.data = home_data_folder();
   config.cells = shipped_cell_folders();
   return config;
+}
+
+std::string without_password(const std::string& url) {
+  const std::size_t start = url.find("://"), end = url.find('@');
+  std::string shown = url;
+  if (start != std::string::npos && end != std::string::npos) {
+    const std::size_t colon = url.find(':', start + 3);
+    if (colon < end) shown = url.substr(0, colon + 1) + "***" + url.substr(end);
+  }
+  for (std::size_t at = 0; (at = shown.find("password=", at)) != std::string::npos;) {
+    at += std::string_view("password=").size();
+    shown.replace(at, std::min(shown.find_first_of("& ", at), shown.size()) - at, "***");
+  }
+  return shown;
 }
 
 void set_listen(const std::string& address, Config& config) {

@@ -20,10 +20,14 @@ struct Config {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7878;  ///< 0: any free one
   std::filesystem::path data;
-  int workers = 0;                           ///< 0: one less than there are cores, at least 1
-  std::vector<std::filesystem::path> cells;  ///< folders with cell files
-  std::string log = "info";                  ///< trace debug info warn error off
-  std::string log_format = "text";           ///< text json
+  std::string store;                          ///< "postgresql://...", shared with other daemons; empty: in `data`
+  std::filesystem::path store_password_file;  ///< empty: none
+  std::filesystem::path shared;               ///< with such a store: blobs and results, for all its daemons
+  std::chrono::milliseconds lease{30000};     ///< of a job; a daemon that is silent for so long has lost it
+  int workers = 0;                            ///< 0: one less than there are cores, at least 1
+  std::vector<std::filesystem::path> cells;   ///< folders with cell files
+  std::string log = "info";                   ///< trace debug info warn error off
+  std::string log_format = "text";            ///< text json
   std::uint64_t blob_limit_bytes = 2ull << 30;
   std::uint64_t memory_cap_bytes = 2ull << 30;  ///< per job
   std::uint64_t memory_bytes = 0;               ///< of all jobs that run at once; 0: three quarters of the machine's
@@ -54,6 +58,8 @@ struct Config {
 /// With the data folder of the user ($XDG_DATA_HOME/sculptd or ~/.local/share/sculptd) and the cells found near the
 /// program or the working folder.
 Config default_config();
+/// The address of a database for logs and for people: with *** in the place of a password.
+std::string without_password(const std::string& url);
 /// "HOST:PORT" or "[V6]:PORT". Throws ConfigError.
 void set_listen(const std::string& address, Config& config);
 

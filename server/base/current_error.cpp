@@ -21,6 +21,8 @@ Json current_error() {
     return proto::error_object("stopping", "the daemon is stopping: try again when it is back");
   } catch (const StorageFull& error) {
     return proto::error_object("storage_full", error.what());
+  } catch (const DatabaseUnavailable& error) {
+    return proto::error_object("db_unavailable", error.what());
   } catch (const StorageError& error) {
     spdlog::error("{}", error.what());
     return proto::error_object("storage_error", error.what());

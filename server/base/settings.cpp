@@ -126,6 +126,16 @@ Setting listen_address(const char* name, Change change, const char* help) {
           }};
 }
 
+Setting database(const char* name, std::string Config::*field, Change change, const char* help) {
+  return {name,
+          "postgresql://...",
+          change,
+          help,
+          true,
+          [=](SettingEntry entry, Config& config) { config.*field = entry.fields.text(entry.name, 4096); },
+          [=](const Config& config) -> Json { return without_password(config.*field); }};
+}
+
 Setting cell_folder(const char* name, Change change, const char* help) {
   return {
       name,
@@ -164,6 +174,14 @@ const std::vector<Setting>& settings() {
   static const std::vector<Setting> table{
       listen_address("listen", at_start, "where to listen; port 0 takes any free one"),
       path("data", &Config::data, at_start, "folder for jobs and results"),
+      database("store", &Config::store, at_start,
+               "database of the jobs, shared with other daemons; without it they are in the data folder"),
+      path("store_password_file", &Config::store_password_file, at_start,
+           "file whose first line is the password of that database; none by default"),
+      path("shared", &Config::shared, at_start,
+           "with such a database: folder for uploads and results that all its daemons reach"),
+      seconds("lease_s", &Config::lease, at_start,
+              "with such a database: a daemon that is silent for so long has lost its jobs to the others"),
       integer("workers", &Config::workers, 0, max_workers, at_start,
               "jobs that run at once; 0: one less than there are cores"),
       cell_folder("cells", at_start, "folder with cell files"),

@@ -17,4 +17,10 @@ class StorageFull : public StorageError {
   using StorageError::StorageError;
 };
 
+/// The database that several daemons share cannot be reached now; nothing was acknowledged, unless the call says so.
+class DatabaseUnavailable : public StorageError {
+ public:
+  using StorageError::StorageError;
+};
+
 }  // namespace sculpt::server

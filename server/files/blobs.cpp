@@ -111,6 +111,8 @@ void Blobs::remove_unused(const std::set<std::string>& needed, std::chrono::seco
   }
   for (const fs::path& file : unneeded) {
     const std::lock_guard lock(removal_);
+    // Opened, so that a network file system asks for the time that another machine may have set.
+    const std::ifstream opened(file);
     const auto used = fs::last_write_time(file, error);
     if (!error && used < oldest) fs::remove(file, error);
   }
@@ -151,14 +153,18 @@ void Blobs::complete(const std::string& sha256, std::uint64_t size) {
         "blob_mismatch", "the uploaded bytes do not have the hash " + sha256 + "; they were dropped: upload them again",
         "/params/sha256");
   }
-  rename_durably(file, place(sha256));
+  try {
+    rename_durably(file, place(sha256));
+  } catch (const StorageError&) {
+    if (!state(sha256).complete) throw;  // another daemon that shares the folder was faster
+  }
 }
 
 std::string Blobs::add(std::string_view bytes) {
   static std::atomic<std::uint64_t> drafts = 0;
   std::string sha256 = sha256_hex(bytes);
   if (use(sha256).complete) return sha256;
-  const fs::path draft = folder_ / (sha256 + "." + std::to_string(drafts++) + ".draft");
+  const fs::path draft = draft_of(folder_ / (sha256 + "." + std::to_string(drafts++)));
   try {
     write_at(draft, 0, bytes);
     rename_durably(draft, place(sha256));

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <random>
 
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
@@ -41,8 +42,13 @@ void end_after_failed_sync(const std::string& what) {
   std::_Exit(EX_IOERR);
 }
 
+fs::path draft_of(const fs::path& file) {
+  static const std::string mine = std::to_string(std::random_device{}());
+  return file.string() + "." + mine + ".draft";
+}
+
 void write_durably(const fs::path& file, std::string_view bytes) {
-  const fs::path draft = file.string() + ".draft";
+  const fs::path draft = draft_of(file);
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();

@@ -17,6 +17,8 @@ namespace sculpt::server {
 // Both throw StorageError and end the process as above.
 /// Makes a file's content durable, and a folder's entries.
 void sync_to_disk(const std::filesystem::path& file_or_folder);
+/// What a file is called until it is written as a whole: another name in each process, for some share a folder.
+std::filesystem::path draft_of(const std::filesystem::path& file);
 /// Writes a whole file so that it is there completely or not at all, also after a power cut.
 void write_durably(const std::filesystem::path& file, std::string_view bytes);
 /// Removes what a process that died left of files that it was writing as a whole, in this folder alone.

@@ -32,7 +32,7 @@ inline constexpr const char* restore_or_adopt =
 
 struct Mark {
   std::string store;          ///< the epoch of the database
-  std::uint64_t changes = 0;  ///< that the database has at least (JobTable::changes)
+  std::uint64_t changes = 0;  ///< that the database has at least (SqliteRows::changes)
 };
 
 /// Nothing where there is no file. Throws StoreLost for one that cannot be read.

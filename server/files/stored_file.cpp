@@ -24,10 +24,22 @@ bool is_regular(int file) {
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
 }
 
+// Each name on the way from the folder is no link. -1: there is none.
+int open_folder(const fs::path& folder, const fs::path& way) {
+  constexpr int flags = O_PATH | O_DIRECTORY | O_CLOEXEC;
+  int at = ::open(folder.c_str(), flags);
+  for (const fs::path& name : way) {
+    const int next = at < 0 ? -1 : ::openat(at, name.c_str(), flags | O_NOFOLLOW);
+    if (at >= 0) ::close(at);
+    at = next;
+  }
+  return at;
+}
+
 }  // namespace
 
 std::optional<StoredFile> StoredFile::open(const fs::path& folder, const std::string& job, const std::string& name) {
-  const int inside = ::open((folder / job).c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  const int inside = open_folder(folder, job);
   if (inside < 0) return std::nullopt;
   const int opened = ::openat(inside, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   const int error = errno;

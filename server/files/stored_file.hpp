@@ -16,7 +16,7 @@ struct FileSeal {
 
 class StoredFile {
  public:
-  /// FOLDER/JOB/NAME; nothing where there is no such regular file, or JOB or NAME is a link.
+  /// FOLDER/JOB/NAME; nothing where there is no such regular file, or JOB (a name, or several) or NAME is a link.
   static std::optional<StoredFile> open(const std::filesystem::path& folder, const std::string& job,
                                         const std::string& name);
   StoredFile(StoredFile&& other) noexcept;

@@ -1,11 +1,12 @@
 #include "server/http/health.hpp"
 
 #include "server/files/durable.hpp"
-#include "server/store/job_store.hpp"
+#include "server/fleet/fleet_store.hpp"
 
 namespace sculpt::server {
 
-std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store) {
+std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_floor_bytes, JobStore& store,
+                          const FleetStore* fleet) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(data, error);
   if (error) return "the data folder cannot be looked at: " + error.message();
@@ -19,7 +20,7 @@ std::string why_not_ready(const std::filesystem::path& data, std::uint64_t disk_
   } catch (const StorageError& fault) {
     return fault.what();
   }
-  return {};
+  return fleet == nullptr ? std::string() : fleet->why_idle();
 }
 
 }  // namespace sculpt::server

@@ -197,9 +197,9 @@ Route find_route(const HttpSources& sources, const ConnectionContext& context, c
     return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
   if (request.target == ready_path) {
     // Copied here: a reload changes the config while the disk is looked at.
-    return {&sources.disk,
-            [&store = sources.store, data = context.config.data, floor = context.config.disk_floor_bytes] {
-              return ready_reply(why_not_ready(data, floor, store));
+    return {&sources.disk, [&store = sources.store, fleet = sources.metrics.fleet, data = context.config.data,
+                            floor = context.config.disk_floor_bytes] {
+              return ready_reply(why_not_ready(data, floor, store, fleet));
             }};
   }
   if (is_page(request.target))

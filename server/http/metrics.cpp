@@ -68,6 +68,18 @@ std::string storage_text(const MetricSources& sources, const std::filesystem::pa
          single("sculptd_disk_free_bytes", "gauge", "Free space where the data folder is.", free_bytes(data));
 }
 
+std::string fleet_text(FleetStore& fleet) {
+  const DatabaseFigures figures = fleet.figures();
+  return single("sculptd_leases_lost_total", "counter", "Runs that were ended because their lease was lost.",
+                fleet.leases_lost()) +
+         single("sculptd_late_ends_total", "counter", "Ends of runs that were dropped: the job was another's by then.",
+                fleet.late_ends()) +
+         single("sculptd_database_oldest_transaction_seconds", "gauge",
+                "Age of the oldest transaction in the database; while it is open claims become slower.",
+                figures.oldest_transaction_s) +
+         single("sculptd_database_dead_rows", "gauge", "Dead rows of the table of jobs.", figures.dead_rows);
+}
+
 std::string process_text(const MetricSources& sources) {
   const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - sources.started;
   return head("sculptd_build_info", "gauge", "Always 1; the label says which build runs.") +
@@ -80,7 +92,7 @@ std::string process_text(const MetricSources& sources) {
 
 std::string metrics_text(const MetricSources& sources, std::size_t connections, const std::filesystem::path& data) {
   return queue_text(sources) + connections_text(sources, connections) + storage_text(sources, data) +
-         process_text(sources);
+         (sources.fleet == nullptr ? "" : fleet_text(*sources.fleet)) + process_text(sources);
 }
 
 }  // namespace sculpt::server

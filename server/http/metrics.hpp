@@ -7,7 +7,7 @@
 #include <string>
 
 #include "server/base/counters.hpp"
-#include "server/store/job_store.hpp"
+#include "server/fleet/fleet_store.hpp"
 
 namespace sculpt::server {
 
@@ -17,6 +17,7 @@ struct MetricSources {
   const Counters& counters;
   int workers;
   std::chrono::steady_clock::time_point started;
+  FleetStore* fleet = nullptr;  ///< null: the store is this daemon's own
 };
 
 /// Text format 0.0.4. `connections` are open, `data` is Config::data: both are known on the I/O thread, and this is for

@@ -21,6 +21,10 @@ void add_folder_command(CLI::App& app, FolderCommand& command) {
 }
 
 int run_folder_command(const FolderCommand& command, const Config& config, std::ostream& out) {
+  if (!config.store.empty()) {
+    throw ConfigError("fsck and adopt look at a data folder with its own database, and the store is " +
+                      without_password(config.store) + ": leave store out to look at the folder");
+  }
   if (command.verb == FolderCommand::Verb::fsck) return run_fsck({config.data}, command.repair, out);
   const DataFolder folder(config.data);
   for (const std::string& sentence : adopt_store(folder)) out << sentence << "\n";

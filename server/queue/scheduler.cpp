@@ -97,11 +97,20 @@ void Scheduler::wake() {
 
 void Scheduler::stop_run(const std::string& job) {
   const std::lock_guard claiming(claiming_);
+  abandon_run(job);
+}
+
+void Scheduler::abandon_run(const std::string& job) {
   const std::lock_guard lock(mutex_);
   if (const auto found = running_.find(job); found != running_.end()) found->second->stop.request_stop();
 }
 
 std::optional<Progress> Scheduler::progress(const std::string& job) const {
+  std::optional<Progress> here = progress_here(job);
+  return here || !elsewhere_ ? here : elsewhere_(job);
+}
+
+std::optional<Progress> Scheduler::progress_here(const std::string& job) const {
   const std::lock_guard lock(mutex_);
   const auto found = running_.find(job);
   if (found == running_.end()) return std::nullopt;

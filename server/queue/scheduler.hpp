@@ -31,8 +31,16 @@ class Scheduler {
   void wake();
   /// Asks a job to stop if it runs. Call after the store says `cancelling` or `pausing`.
   void stop_run(const std::string& job);
-  /// Nothing if the job does not run.
+  /// The same without waiting for a claim, for a job that another daemon has, or may take at any time.
+  void abandon_run(const std::string& job);
+  /// Nothing if the job does not run, here or elsewhere.
   std::optional<Progress> progress(const std::string& job) const;
+  /// Nothing if the job does not run here.
+  std::optional<Progress> progress_here(const std::string& job) const;
+  /// Who knows of runs in other daemons. Call before anybody else uses this.
+  void ask_elsewhere(std::function<std::optional<Progress>(const std::string& job)> elsewhere) {
+    elsewhere_ = std::move(elsewhere);
+  }
 
  private:
   struct Run;
@@ -48,6 +56,7 @@ class Scheduler {
   JobStore& store_;
   RunJob run_;
   std::function<void(const std::string&)> changed_;
+  std::function<std::optional<Progress>(const std::string&)> elsewhere_;
   std::mutex claiming_;  // a claim and the run that it makes known are one step; taken before mutex_
   mutable std::mutex mutex_;
   std::condition_variable_any wake_, time_;

@@ -12,6 +12,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"
 #include "server/files/gzip.hpp"
+#include "server/files/job_folder.hpp"
 #include "server/files/orphans.hpp"
 #include "server/results/exported_file.hpp"
 
@@ -26,10 +27,10 @@ struct Kind {
   bool grows = false;                  // its own form, while the job runs
 };
 
-constexpr std::array kinds{Kind{"trajectory", {"ndjson", "csv", "binary"}, true},
-                           Kind{"timeline", {"tokens", "gzip", nullptr}, true},
-                           Kind{"voxels", {"binvox", nullptr, nullptr}}, Kind{"stock", {"binvox", nullptr, nullptr}},
-                           Kind{"residue", {"ndjson", nullptr, nullptr}}, Kind{"report", {"json", nullptr, nullptr}}};
+constexpr std::array kinds{
+    Kind{"trajectory", {"ndjson", "csv", "binary"}, true}, Kind{"timeline", {"tokens", "gzip", nullptr}, true},
+    Kind{"voxels", {"binvox", nullptr, nullptr}},          Kind{"stock", {"binvox", nullptr, nullptr}},
+    Kind{"residue", {"ndjson", nullptr, nullptr}},         Kind{"report", {"json", nullptr, nullptr}}};
 
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
@@ -122,7 +123,8 @@ bool continues(const WholeRead& so_far, const proto::ArtifactReadParams& wanted,
 
 void Artifacts::discard_leftovers(const std::string& job) const {
   const std::optional<JobRecord> record = store_.find(job);
-  if (record && (!is_final(record->state) || !store_.artifacts(job).empty())) return;
+  if (record && !is_final(record->state)) return;
+  if (record && !store_.artifacts(job).empty()) return remove_other_attempts(folder_, record->folder);
   std::error_code ignored;
   if (!record && !store_.was_removed(job)) {
     if (fs::exists(fs::symlink_status(job_folder(job), ignored))) put_aside(folder_, job);
@@ -138,10 +140,10 @@ Json Artifacts::list(const JobRecord& job) const {
     Json entry{{"artifact", kind.artifact}, {"formats", formats(kind)}};
     if (const std::optional<StoredArtifact> artifact = find_stored(stored, kind.artifact)) {
       entry.update({{"size", artifact->size}, {"final", true}, {"sha256", artifact->sha256}});
-      if (Json made = list_exports(folder_, job.id, kind); !made.empty()) entry["made"] = std::move(made);
+      if (Json made = list_exports(folder_, job.folder, kind); !made.empty()) entry["made"] = std::move(made);
     } else {
       const std::string own = file_name(kind.artifact, kind.formats.front());
-      entry.update({{"size", kind.grows ? size_now(StoredFile::open(folder_, job.id, own)) : 0}, {"final", false}});
+      entry.update({{"size", kind.grows ? size_now(StoredFile::open(folder_, job.folder, own)) : 0}, {"final", false}});
     }
     list.push_back(std::move(entry));
   }
@@ -153,7 +155,7 @@ std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const std::stri
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) return std::nullopt;
   if (format == stored->format) return FileSeal{stored->size, stored->sha256};
-  return read_seal(folder_, job.id, file_name(artifact, format));
+  return read_seal(folder_, job.folder, file_name(artifact, format));
 }
 
 ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const {
@@ -166,9 +168,9 @@ ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead
   const bool grows = kind.grows && is_own(kind, chunk.format) && !is_final(job.state);
   if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
   const std::string name = file_name(wanted.artifact, chunk.format);
-  const std::optional<StoredFile> file = StoredFile::open(folder_, job.id, name);
+  const std::optional<StoredFile> file = StoredFile::open(folder_, job.folder, name);
   if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
-    refuse_damaged(job.id, wanted.artifact, name, fault);
+    refuse_damaged(job, wanted.artifact, name, fault);
   chunk.size = size_now(file);
   if (chunk.final && wanted.offset > chunk.size) {
     throw proto::ProtocolError("params_invalid",
@@ -178,31 +180,32 @@ ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead
   }
   const std::uint64_t left = chunk.size > wanted.offset ? chunk.size - wanted.offset : 0;
   if (file) chunk.bytes = file->read(wanted.offset, std::min<std::uint64_t>(left, wanted.bytes));
-  follow(wanted, chunk, seal.value_or(FileSeal{}), so_far);
+  follow(job, wanted, chunk, seal.value_or(FileSeal{}), so_far);
   return chunk;
 }
 
 // A growing trajectory is followed too: it may be final at its last piece.
-void Artifacts::follow(const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
-                       WholeRead& so_far) const {
+void Artifacts::follow(const JobRecord& job, const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk,
+                       const FileSeal& seal, WholeRead& so_far) const {
   if (wanted.offset == 0) so_far = {wanted.job, wanted.artifact, chunk.format, 0, {}};
   if (!continues(so_far, wanted, chunk.format)) return;
   so_far.hash.add(chunk.bytes);
   so_far.next += chunk.bytes.size();
   if (!chunk.final || so_far.next < chunk.size || so_far.hash.hex() == seal.sha256) return;
   const std::string name = file_name(wanted.artifact, chunk.format);
-  const std::string fault = fault_of(StoredFile::open(folder_, wanted.job, name), seal);
-  if (!fault.empty()) refuse_damaged(wanted.job, wanted.artifact, name, fault);
+  const std::string fault = fault_of(StoredFile::open(folder_, job.folder, name), seal);
+  if (!fault.empty()) refuse_damaged(job, wanted.artifact, name, fault);
   throw StorageError("the " + wanted.artifact + " of job " + wanted.job + " changed while it was read: read it again");
 }
 
-void Artifacts::refuse_damaged(const std::string& job, const std::string& artifact, const std::string& file,
+void Artifacts::refuse_damaged(const JobRecord& record, const std::string& artifact, const std::string& file,
                                const std::string& fault) const {
+  const std::string& job = record.id;
   find_job(store_, job);  // it may be gone by now, and its files with it
   const std::string sentence = "the file " + file + " of job " + job + " is damaged: it " + fault;
   spdlog::error("job={} {}", job, sentence);
   if (is_export(artifact, file)) {
-    break_seal(folder_, job, file);
+    break_seal(folder_, record.folder, file);
     throw proto::ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
   }
   store_.note_damage(job, sentence + ": plan it again with 'sculpt retry " + job + "'");
@@ -212,7 +215,7 @@ void Artifacts::refuse_damaged(const std::string& job, const std::string& artifa
 bool Artifacts::needs_export(const proto::ArtifactReadParams& wanted) const {
   const std::string format = choose_format(wanted);
   if (is_own(find_kind(wanted.artifact), format)) return false;
-  return !read_seal(folder_, wanted.job, file_name(wanted.artifact, format));
+  return !read_seal(folder_, find_job(store_, wanted.job).folder, file_name(wanted.artifact, format));
 }
 
 void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
@@ -224,10 +227,10 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   }
   check_whole(job, wanted.artifact);
   const std::string name = file_name(wanted.artifact, wanted.format);
-  const fs::path file = job_folder(job.id) / name;
-  const fs::path draft = file.string() + ".draft";
+  const fs::path file = folder_ / job.folder / name;
+  const fs::path draft = draft_of(file);
   const Kind& kind = find_kind(wanted.artifact);
-  std::ifstream in(job_folder(job.id) / file_name(kind.artifact, kind.formats.front()), std::ios::binary);
+  std::ifstream in(folder_ / job.folder / file_name(kind.artifact, kind.formats.front()), std::ios::binary);
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);
   rewrite_to(wanted.format, planner_)(in, out);
   out.close();
@@ -235,7 +238,7 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   sync_to_disk(draft);
   crash_point(CrashPoint::export_synced);
   fs::rename(draft, file);
-  write_seal(folder_, job.id, name);
+  write_seal(folder_, job.folder, name);
 }
 
 std::string Artifacts::read_whole(const JobRecord& job, const std::string& artifact) const {
@@ -251,8 +254,8 @@ void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) c
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) refuse_missing(job, artifact);
   const std::string name = file_name(artifact, stored->format);
-  const std::string fault = fault_of(StoredFile::open(folder_, job.id, name), {stored->size, stored->sha256});
-  if (!fault.empty()) refuse_damaged(job.id, artifact, name, fault);
+  const std::string fault = fault_of(StoredFile::open(folder_, job.folder, name), {stored->size, stored->sha256});
+  if (!fault.empty()) refuse_damaged(job, artifact, name, fault);
 }
 
 std::string Artifacts::file_name_of(const proto::ArtifactReadParams& wanted) const {

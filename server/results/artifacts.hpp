@@ -36,7 +36,6 @@ class Artifacts {
       : folder_(std::move(folder)), store_(store), planner_(planner) {}
 
   std::filesystem::path job_folder(const std::string& job) const { return folder_ / job; }
-  std::filesystem::path trajectory(const std::string& job) const { return job_folder(job) / "trajectory.ndjson"; }
 
   /// Removes the files of a job that has ended without artifacts, or was removed; those of one that the store has never
   /// known are put aside (orphans.hpp).
@@ -61,9 +60,9 @@ class Artifacts {
 
  private:
   std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
-  void follow(const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk, const FileSeal& seal,
-              WholeRead& so_far) const;
-  [[noreturn]] void refuse_damaged(const std::string& job, const std::string& artifact, const std::string& file,
+  void follow(const JobRecord& job, const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk,
+              const FileSeal& seal, WholeRead& so_far) const;
+  [[noreturn]] void refuse_damaged(const JobRecord& record, const std::string& artifact, const std::string& file,
                                    const std::string& fault) const;
 
   std::filesystem::path folder_;

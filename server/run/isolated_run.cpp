@@ -10,6 +10,7 @@
 
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/files/job_folder.hpp"
 #include "server/run/child_process.hpp"
 #include "server/run/job_run.hpp"
 
@@ -111,9 +112,10 @@ class Stopper {
 }
 
 Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watch& watch) {
-  prepare_job_folder(isolation.jobs / job.id);
+  const std::filesystem::path folder = prepare_job_folder(isolation.jobs, job.folder);
   ChildProcess child(isolation.worker, run_job_option);
-  child.send(describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s, job.inherited}, isolation));
+  child.send(
+      describe({job.spec, job.cell_bundle, job.id, job.schedule.max_runtime_s, job.inherited, job.folder}, isolation));
   Conversation heard;
   Stopper stopper(watch.stop, isolation.cancel_grace);
   for (bool open = true; open;) {
@@ -125,8 +127,8 @@ Ending run_in_child(const JobRecord& job, const Isolation& isolation, const Watc
   }
   const std::string end = child.wait();
   if (heard.ending) return std::move(*heard.ending);
-  if (end == failed_sync) start_over_after_failed_sync(isolation.jobs / job.id);
-  remove_drafts_in(isolation.jobs / job.id);
+  if (end == failed_sync) start_over_after_failed_sync(folder);
+  remove_drafts_in(folder);
   if (heard.let_go || stopper.asked()) throw Cancelled{};
   throw CrashError("the process that planned it ended with " + (end.empty() ? "exit code 0 and no result" : end));
 }

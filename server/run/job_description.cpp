@@ -34,6 +34,8 @@ std::string describe(const StoredSpec& stored, const Isolation& isolation) {
                             {"spec", stored.spec},
                             {"cell_bundle", stored.cell_bundle},
                             {"inherited", stored.inherited},
+                            {"folder", stored.folder},
+                            {"held", (isolation.held.empty() ? isolation.jobs : isolation.held).string()},
                             {"time_s", stored.time_s},
                             {"blobs", isolation.blobs.string()},
                             {"jobs", isolation.jobs.string()},
@@ -47,12 +49,13 @@ std::optional<DescribedJob> take_description(std::istream& in) try {
   DescribedJob described;
   described.blobs = told.at("blobs").get<std::string>();
   described.jobs = told.at("jobs").get<std::string>();
-  hold_until_exit(described.jobs);
+  hold_until_exit(told.at("held").get<std::string>());
   tie_to_parent(told.at("daemon").get<pid_t>());
   described.job.id = told.at("job");
   described.job.spec = told.at("spec");
   described.job.cell_bundle = told.at("cell_bundle");
   described.job.inherited = told.at("inherited");
+  described.job.folder = told.at("folder");
   described.time_s = told.at("time_s");
   described.defaults = {told.at("threads"), told.at("memory_cap_bytes")};
   return described;

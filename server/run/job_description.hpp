@@ -19,6 +19,7 @@ struct Isolation {
   std::filesystem::path blobs, jobs;
   JobDefaults defaults;
   std::chrono::milliseconds cancel_grace{10000};  ///< a child that was asked to stop is killed after so long
+  std::filesystem::path held{};  ///< what such a process holds until it ends (folder_lock.hpp); empty: `jobs`
 };
 
 /// Of the record of a job.
@@ -27,20 +28,21 @@ struct StoredSpec {
   std::string job = {};     ///< its id, if it has one yet
   std::int64_t time_s = 0;  ///< each of its threads may compute so long; 0: no limit
   std::string inherited = {};
+  std::string folder = {};  ///< of its files, among those of all jobs
 };
 std::string describe(const StoredSpec& stored, const Isolation& isolation);
 
 struct DescribedJob {
-  JobRecord job;  ///< id, spec, cell_bundle and inherited
+  JobRecord job;  ///< id, spec, cell_bundle, inherited and folder
   std::int64_t time_s = 0;
   std::filesystem::path blobs, jobs;
   JobDefaults defaults;
 
-  std::filesystem::path folder() const { return jobs / job.id; }
+  std::filesystem::path folder() const { return jobs / job.folder; }
 };
 
-/// The child's side: ties this process to its parent and reads what the parent has written. Also holds the jobs folder
-/// until this process ends (data_folder.hpp). Nothing when the parent died before it had said all: then there is
+/// The child's side: ties this process to its parent and reads what the parent has written. Also holds
+/// Isolation::held until this process ends. Nothing when the parent died before it had said all: then there is
 /// nothing to do and nobody to tell.
 std::optional<DescribedJob> take_description(std::istream& in);
 

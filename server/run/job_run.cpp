@@ -8,6 +8,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/files/job_folder.hpp"
 #include "server/run/inheritance.hpp"
 
 namespace sculpt::server {
@@ -61,26 +62,14 @@ Ending run_in_folder(const JobRecord& record, const Job& job, const fs::path& fo
   sync_to_disk(folder / timeline_file);
   sync_to_disk(folder);
   crash_point(CrashPoint::artifacts_synced);
-  ending.artifacts = {stored(trajectory, "trajectory", "ndjson"), stored(folder / timeline_file, "timeline", "tokens"),
+  ending.artifacts = {stored(trajectory, "trajectory", "ndjson"),
+                      stored(folder / timeline_file, "timeline", "tokens"),
                       stored(folder / "voxels.binvox", "voxels", "binvox"),
                       stored(folder / "stock.binvox", "stock", "binvox"),
                       stored(folder / "residue.ndjson", "residue", "ndjson"),
                       stored(folder / "report.json", "report", "json")};
   remove_checkpoints(folder);
   return ending;
-}
-
-void prepare_job_folder(const fs::path& folder) {
-  if (fs::is_symlink(fs::symlink_status(folder))) fs::remove(folder);
-  fs::create_directories(folder);
-  std::vector<fs::path> stale;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string kind = entry.path().extension();
-    if (entry.is_symlink() || kind == ".csv" || kind == ".sct" || kind == ".gz" || kind == ".seal")
-      stale.push_back(entry.path());
-  }
-  for (const fs::path& file : stale) fs::remove(file);
-  sync_to_disk(folder.parent_path());
 }
 
 proto::JobSpec read_stored_spec(const JobRecord& job) {
@@ -96,8 +85,7 @@ proto::JobSpec read_stored_spec(const JobRecord& job) {
 
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
   return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
-    const fs::path folder = jobs / record.id;
-    prepare_job_folder(folder);
+    const fs::path folder = prepare_job_folder(jobs, record.folder);
     const Job job = to_job(read_stored_spec(record), record.cell_bundle, blobs, defaults);
     return run_in_folder(record, job, folder, planner, watch);
   };

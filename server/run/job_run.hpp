@@ -10,10 +10,6 @@ namespace sculpt::server {
 /// The spec as it was stored. Throws StorageError when the database gave back something else.
 proto::JobSpec read_stored_spec(const JobRecord& job);
 
-/// Makes the folder of a job's files, durably. An earlier run's checkpoints and trajectory stay, to go on from; not
-/// what was made of its result, and no links.
-void prepare_job_folder(const std::filesystem::path& folder);
-
 /// Runs a job in this process, from its last checkpoint on, in a folder that is there. Everything is durable when it
 /// returns; when it throws, trajectory and checkpoints are left for the next run.
 Ending run_in_folder(const JobRecord& record, const Job& job, const std::filesystem::path& folder,

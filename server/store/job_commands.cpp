@@ -34,6 +34,34 @@ void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::
   }
 }
 
+Submitted repeat_submit(const JobRecord& first, const NewJob& wanted) {
+  if (first.spec == wanted.spec) return {first, true};
+  throw proto::ProtocolError("key_conflict",
+                             "the key '" + wanted.key + "' belongs to job " + first.id +
+                                 ", which has another spec: use a new key for a new job",
+                             "/params/key");
+}
+
+JobRecord make_job(const NewJob& wanted, const std::string& id, std::uint64_t now_ms, std::int64_t rank_ms,
+                   const StoreRules& rules) {
+  JobRecord job;
+  job.id = id;
+  job.key = wanted.key;
+  job.owner = wanted.owner;
+  job.schedule = wanted.schedule;
+  job.spec = wanted.spec;
+  job.cell_bundle = wanted.cell_bundle;
+  job.inherited = wanted.inherited;
+  job.memory_bytes = wanted.memory_bytes;
+  job.rank = rank_ms - static_cast<std::int64_t>(rules.ageing_ms) * wanted.schedule.priority;
+  job.submitted_at = utc_text(now_ms);
+  if (wanted.schedule.not_before > job.submitted_at) {
+    job.state = held;
+    job.wake_at = wanted.schedule.not_before;
+  }
+  return job;
+}
+
 void cancel_job(JobTable& jobs, JobRow& row) {
   const JobState state = row.job.state;
   if (state == cancelled || state == cancelling) return;

@@ -1,8 +1,8 @@
 // How a client's command changes its job. Call inside a transaction.
 #pragma once
 
+#include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
-#include "server/store/job_tally.hpp"
 
 namespace sculpt::server {
 
@@ -14,6 +14,12 @@ void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::
 
 /// Throws ProtocolError `not_found`.
 [[noreturn]] void refuse_unknown(const std::string& id);
+
+/// The job of this key was submitted before. Throws ProtocolError `key_conflict` if it was another one.
+Submitted repeat_submit(const JobRecord& first, const NewJob& wanted);
+/// A job as it is submitted at `now_ms`, with the rank that it has by its priority when ranks count from `rank_ms`.
+JobRecord make_job(const NewJob& wanted, const std::string& id, std::uint64_t now_ms, std::int64_t rank_ms,
+                   const StoreRules& rules);
 
 // What each does: JobStore. They throw ProtocolError `wrong_state`.
 void cancel_job(JobTable& jobs, JobRow& row);

@@ -48,6 +48,7 @@ struct JobRecord {
   std::string wake_at;    ///< while held or backoff: when it is queued
   std::string submitted_at, started_at, finished_at;
   std::string error_code, error_sentence;  ///< of its last failure
+  std::string folder;                      ///< of its files, among those of all jobs
 };
 
 struct StoredArtifact {

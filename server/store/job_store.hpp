@@ -50,7 +50,7 @@ struct JobPage {
 
 /// What the store decides by.
 struct StoreRules {
-  std::function<std::uint64_t()> now_ms = unix_ms;  ///< wall time
+  std::function<std::uint64_t()> now_ms = {};  ///< wall time; empty: the store's own clock
   std::uint64_t ageing_ms = 60'000;  ///< a job overtakes those that wait so long already for each step of priority
   int max_failures = 3;              ///< a job that fails for the third time has failed, even if it could pass
   std::uint64_t first_backoff_ms = 10'000;  ///< doubled with each failure
@@ -59,7 +59,7 @@ struct StoreRules {
   std::uint64_t memory_bytes = 0;  ///< predicted memory of the jobs that run at once; 0: no bound
   int max_jobs = 100'000;          ///< that have not ended
   int max_jobs_per_owner = 10'000;
-  /// Told after each commit, on the thread that made it, how many changes of jobs there are (JobTable::count_change).
+  /// Told after each commit, on the thread that made it, how many changes of jobs there are (SqliteRows::changes).
   std::function<void(std::uint64_t changes)> committed = {};
 };
 

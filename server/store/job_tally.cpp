@@ -42,6 +42,11 @@ std::uint64_t JobTally::open(const std::string& owner) const {
   return open;
 }
 
+std::optional<std::int64_t> JobTally::first_rank() const {
+  const std::lock_guard lock(mutex_);
+  return queue_.empty() ? std::nullopt : std::optional(queue_.begin()->first);
+}
+
 std::uint64_t JobTally::position(std::int64_t rank, const std::string& id) const {
   const std::lock_guard lock(mutex_);
   return queue_.order_of_key({rank, id});

@@ -32,6 +32,8 @@ class JobTally {
   std::map<JobState, std::uint64_t> counts() const;
   /// Jobs that have not ended: of everybody where no owner is given.
   std::uint64_t open(const std::string& owner = {}) const;
+  /// Of the queued job that is first; nothing if none is queued.
+  std::optional<std::int64_t> first_rank() const;
   /// How many queued jobs come before this one, in O(log n).
   std::uint64_t position(std::int64_t rank, const std::string& id) const;
 

@@ -19,11 +19,26 @@ void end_badly(JobTable& jobs, const StoreRules& rules, JobRow& row, Cause cause
     return jobs.move(row, crash ? quarantined : failed, crash ? "crashed" : "finished");
   }
   if (job.state == pausing) return jobs.move(row, paused, crash ? "crashed" : "failed");
-  job.wake_at = utc_text(rules.now_ms() + (rules.first_backoff_ms << (tries - 1)));
+  job.wake_at = utc_text(jobs.now_ms() + (rules.first_backoff_ms << (tries - 1)));
   jobs.move(row, backoff, crash ? "crashed" : "failed");
 }
 
 }  // namespace
+
+void start_run(JobTable& jobs, const StoreRules& rules, JobRow& row) {
+  JobRecord& job = row.job;
+  job.isolated = rules.isolate || job.crashes > 0;
+  if (!job.isolated) ++job.crashes;  // taken back when the run ends while the daemon lives
+  job.error_code.clear();
+  job.error_sentence.clear();
+  jobs.move(row, running, "claimed");
+}
+
+void expire_job(JobTable& jobs, JobRow& row) {
+  row.job.error_code = "expired";
+  row.job.error_sentence = "it could not start by " + row.job.schedule.start_by + ": submit it again with more time";
+  jobs.move(row, expired, "start_by_passed");
+}
 
 void end_run(JobTable& jobs, const StoreRules& rules, JobRow& row, const Ending& ending) {
   JobRecord& job = row.job;

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <mutex>
 
-#include "proto/error_codes.hpp"
 #include "server/base/job_id.hpp"
 #include "server/store/job_commands.hpp"
 #include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
 #include "server/store/run_ending.hpp"
+#include "server/store/sqlite_rows.hpp"
 #include "server/store/sqlite_schema.hpp"
 #include "server/store/store_reader.hpp"
 
@@ -44,15 +44,8 @@ class SqliteStore : public JobStore {
 
   Submitted submit(const NewJob& wanted) override {
     Change change(*this);
-    if (const std::optional<JobRow> first = jobs_.find_key(wanted.key); first && !wanted.key.empty()) {
-      if (first->job.spec != wanted.spec) {
-        throw proto::ProtocolError("key_conflict",
-                                   "the key '" + wanted.key + "' belongs to job " + first->job.id +
-                                       ", which has another spec: use a new key for a new job",
-                                   "/params/key");
-      }
-      return {first->job, true};
-    }
+    if (const std::optional<JobRow> first = rows_.first("key=?", {wanted.key}); first && !wanted.key.empty())
+      return repeat_submit(first->job, wanted);
     refuse_too_many(tally_, rules_, wanted.owner);
     const JobRow row = jobs_.insert(new_record(wanted));
     change.commit();
@@ -63,19 +56,14 @@ class SqliteStore : public JobStore {
     Change change(*this);
     if (queue_is_paused()) return std::nullopt;
     std::optional<JobRow> next =
-        jobs_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
+        rows_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
                                 "(crashes=0 OR NOT EXISTS(SELECT 1 FROM job WHERE isolated=1 AND crashes>0 AND ") +
                         active + ")) ORDER BY rank, number",
                     {jobs_.now()});
     if (!next || !has_room(next->job)) return std::nullopt;
-    JobRecord& job = next->job;
-    job.isolated = rules_.isolate || job.crashes > 0;
-    if (!job.isolated) ++job.crashes;  // taken back when the run ends while the daemon lives
-    job.error_code.clear();
-    job.error_sentence.clear();
-    jobs_.move(*next, running, "claimed");
+    start_run(jobs_, rules_, *next);
     change.commit();
-    return job;
+    return next->job;
   }
 
   bool finish(const std::string& id, int attempt, const Ending& ending) override {
@@ -98,7 +86,7 @@ class SqliteStore : public JobStore {
 
   int recover() override {
     Change change(*this);
-    std::vector<JobRow> left = jobs_.all(std::string(active) + " ORDER BY number", {});
+    std::vector<JobRow> left = rows_.all(std::string(active) + " ORDER BY number", {});
     for (JobRow& row : left) abandon_run(jobs_, row);
     change.commit();
     return static_cast<int>(left.size());
@@ -109,18 +97,15 @@ class SqliteStore : public JobStore {
     const std::string now = jobs_.now();
     // The + keep SQLite to the index of the times: that of the states, or the table, holds the whole queue.
     std::vector<JobRow> late =
-        jobs_.all("start_by<>'' AND start_by<? AND attempt=0 AND +state IN ('held', 'queued') ORDER BY +number", {now});
-    std::vector<JobRow> due = jobs_.all(
+        rows_.all("start_by<>'' AND start_by<? AND attempt=0 AND +state IN ('held', 'queued') ORDER BY +number", {now});
+    std::vector<JobRow> due = rows_.all(
         "state IN ('held', 'backoff') AND wake_at<=?1 AND (start_by='' OR start_by>=?1 OR attempt>0) ORDER BY number",
         {now});
     if (late.empty() && due.empty()) return {};
     Change change(*this, std::move(lock));
     std::vector<std::string> changed;
     for (JobRow& row : late) {
-      row.job.error_code = "expired";
-      row.job.error_sentence =
-          "it could not start by " + row.job.schedule.start_by + ": submit it again with more time";
-      jobs_.move(row, expired, "start_by_passed");
+      expire_job(jobs_, row);
       changed.push_back(row.job.id);
     }
     for (JobRow& row : due) {
@@ -196,7 +181,7 @@ class SqliteStore : public JobStore {
 
  private:
   // What is committed is so, even if the database cannot be asked any more.
-  void tell_changes() try { rules_.committed(jobs_.changes()); } catch (const StorageError&) {
+  void tell_changes() try { rules_.committed(rows_.changes()); } catch (const StorageError&) {
   }
 
   /// One change of the store: its lock, and a transaction that is undone unless committed. What moved is counted when
@@ -230,24 +215,9 @@ class SqliteStore : public JobStore {
 
   // The rank counts from a time that never goes back, so that a clock that was set back lets no new job overtake.
   JobRecord new_record(const NewJob& wanted) {
-    const std::uint64_t now_ms = rules_.now_ms();
+    const std::uint64_t now_ms = jobs_.now_ms();
     last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
-    JobRecord job;
-    job.id = ids_.next(now_ms);
-    job.key = wanted.key;
-    job.owner = wanted.owner;
-    job.schedule = wanted.schedule;
-    job.spec = wanted.spec;
-    job.cell_bundle = wanted.cell_bundle;
-    job.inherited = wanted.inherited;
-    job.memory_bytes = wanted.memory_bytes;
-    job.rank = last_rank_ms_ - ageing() * wanted.schedule.priority;
-    job.submitted_at = utc_text(now_ms);
-    if (wanted.schedule.not_before > job.submitted_at) {
-      job.state = held;
-      job.wake_at = wanted.schedule.not_before;
-    }
-    return job;
+    return make_job(wanted, ids_.next(now_ms), now_ms, last_rank_ms_, rules_);
   }
 
   // A row in a state that nobody knows is not counted.
@@ -282,7 +252,8 @@ class SqliteStore : public JobStore {
   std::mutex mutex_;  // of what changes; the reader and the tally have their own
   StoreRules rules_;
   Database database_;
-  JobTable jobs_{database_, rules_};
+  SqliteRows rows_{database_};
+  JobTable jobs_{rows_, rules_.now_ms ? rules_.now_ms : unix_ms};
   Database readable_;  // closed before the one that writes, which tidies up
   StoreReader reader_{readable_};
   JobTally tally_;

@@ -10,7 +10,7 @@ namespace sculpt::server {
 
 struct StoreFacts {
   std::string epoch;
-  std::uint64_t changes = 0;  ///< see JobTable::count_change; 0 of one that was made before they were counted
+  std::uint64_t changes = 0;  ///< see SqliteRows::changes; 0 of one that was made before they were counted
   std::string damage;         ///< what SQLite's quick_check finds first; empty: nothing, or not looked for
 };
 

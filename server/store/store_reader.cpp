@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/store/job_row.hpp"
+#include "server/store/sqlite_rows.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "tests/server/test_store.hpp"
+
 namespace sculpt::server {
 
 LiveServer::LiveServer(const std::function<void(Config&)>& change) {
@@ -11,6 +13,11 @@ LiveServer::LiveServer(const std::function<void(Config&)>& change) {
   config_.data = folder_.path();
   config_.worker = FAKE_WORKER;
   config_.isolate = false;  // so that `fake` plans
+  if (test_in_postgres()) {
+    config_.store = test_database(folder_.path());
+    config_.shared = folder_.path();
+    config_.lease = std::chrono::seconds(30);
+  }
   if (change) change(config_);
   start();
 }
@@ -18,6 +25,12 @@ LiveServer::LiveServer(const std::function<void(Config&)>& change) {
 void LiveServer::start() {
   server_.emplace(config_, fake.planner());
   thread_ = std::jthread([this] { server_->run(); });
+}
+
+// Of its one attempt, where each has its own.
+std::filesystem::path LiveServer::results(const std::string& job) const {
+  const std::filesystem::path folder = data() / "jobs" / job;
+  return test_in_postgres() ? std::filesystem::directory_iterator(folder)->path() : folder;
 }
 
 void LiveServer::stop() {

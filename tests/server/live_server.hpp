@@ -24,6 +24,8 @@ class LiveServer {
   std::string address() const { return "127.0.0.1:" + std::to_string(server_->port()); }
   client::Client connect() const { return client::Client(address(), "test", {}, 0); }
   const std::filesystem::path& data() const { return folder_.path(); }
+  /// The folder of a job's files.
+  std::filesystem::path results(const std::string& job) const;
   void stop();
   /// The same data folder under a new server.
   void restart(const std::function<void(Config&)>& change = {});

@@ -7,6 +7,7 @@
 
 #include "server/store/sqlite.hpp"
 #include "tests/server/live_server.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -29,6 +30,7 @@ void ask_all(client::Client& client, const std::string& job) {
 // The test takes the database's lock for writing, so that a cancel waits for it as for a slow disk. SQLite gives up
 // after 5 s: where the machine is so busy that all the questions take longer, it is tried again.
 TEST(Reads, AreAnsweredWhileAChangeIsBeingWritten) {
+  SCULPT_SQLITE_ONLY();
   LiveServer live;
   client::Client client = live.connect();
   const std::string done = submit(client, "plain"), held = submit(client, "hold");

@@ -5,6 +5,7 @@
 
 #include "server/store/sqlite.hpp"
 #include "tests/server/live_server.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -175,6 +176,7 @@ TEST(Streams, SubscribersToAllThatNeverReadHarmNobody) {
 }
 
 TEST(Streams, ADamagedEventComesWithoutItsData) {
+  SCULPT_SQLITE_ONLY();
   LiveServer live;
   std::string job;
   {

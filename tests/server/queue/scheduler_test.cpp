@@ -10,6 +10,7 @@
 
 #include "tests/server/fake_planner.hpp"
 #include "tests/server/temp_folder.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -57,7 +58,7 @@ class SchedulerTest : public testing::Test {
   }
 
   TempFolder folder;
-  std::unique_ptr<JobStore> store = open_sqlite_store(folder.path() / "db", rules());
+  std::unique_ptr<JobStore> store = open_test_store(folder.path() / "db", rules());
   std::mutex mutex;
   std::condition_variable changed;
   Gate gate;

@@ -37,7 +37,7 @@ class ArtifactDamage : public testing::TestWithParam<Damage> {
     EXPECT_EQ(final_state(client, job), "succeeded");
     return job;
   }
-  fs::path file(const std::string& job, const std::string& name) const { return live.data() / "jobs" / job / name; }
+  fs::path file(const std::string& job, const std::string& name) const { return live.results(job) / name; }
   // The word of the error that the whole is refused with, read in pieces.
   std::string read_all(const std::string& job, const std::string& artifact, const std::string& format = {}) {
     std::ostringstream out;

@@ -84,7 +84,7 @@ TEST_F(Continuation, OfAJobThatHasNotSucceededIsRefused) {
 
 TEST_F(Continuation, OfADamagedStockIsRefused) {
   const std::string first = finished(client, make_spec(client, "plain"));
-  std::filesystem::resize_file(live.data() / "jobs" / first / "stock.binvox", 3);
+  std::filesystem::resize_file(live.results(first) / "stock.binvox", 3);
   EXPECT_EQ(refused(client, first), "artifact_damaged");
 }
 

@@ -8,6 +8,7 @@
 #include "server/run/inheritance.hpp"
 #include "tests/server/live_server.hpp"
 #include "tests/server/temp_folder.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -24,7 +25,7 @@ class RetentionTest : public testing::Test {
     fs::create_directories(jobs());
     StoreRules store_rules;
     store_rules.now_ms = [this] { return now; };
-    store = open_sqlite_store(folder.path() / "db", store_rules);
+    store = open_test_store(folder.path() / "db", store_rules);
     cell = blobs.add(proto::write_cell_bundle({"gantry", "{}", {{"room.urdf", blobs.add("<robot/>")}}}));
   }
   fs::path jobs() const { return folder.path() / "jobs"; }
@@ -161,7 +162,8 @@ TEST(Retention, ARemovedJobIsGoneAndAPinnedOneSaysSo) {
   EXPECT_EQ(client.call("job.get", {{"job", job}}).at("pinned"), true);
   EXPECT_EQ(client.call("artifact.pin", {{"job", job}, {"pinned", false}}).at("pinned"), false);
   server.stop();
-  ASSERT_TRUE(open_sqlite_store(server.data() / "sculptd.db")->remove(job));
+  const std::filesystem::path file = test_in_postgres() ? server.data() : server.data() / "sculptd.db";
+  ASSERT_TRUE(open_test_store(file)->remove(job));
   server.restart();
   client::Client again = server.connect();
   EXPECT_EQ(refusal(again, "job.get", {{"job", job}}), "gone");

@@ -26,7 +26,7 @@ class IsolatedRunTest : public testing::Test {
   JobRecord job(const std::string& wish) {
     const std::string mesh = blobs.add(wish);
     JobRecord record;
-    record.id = "JOB";
+    record.id = record.folder = "JOB";
     record.cell_bundle = store_cell(fake.planner().read_cell("gantry"), blobs);
     record.spec = R"({"mesh":{"blob":")" + mesh + R"(","name":"wish.stl"},"robot":"gantry","resolution":8})";
     return record;

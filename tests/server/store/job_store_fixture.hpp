@@ -5,6 +5,7 @@
 
 #include "server/store/job_store.hpp"
 #include "tests/server/temp_folder.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 
@@ -21,13 +22,13 @@ class JobStoreTest : public testing::Test {
   }
   void reopen() {
     store.reset();
-    store = open_sqlite_store(file());
+    store = open_test_store(file());
   }
   std::filesystem::path file() const { return folder.path() / "sculptd.db"; }
   JobState state(const std::string& job) { return store->find(job)->state; }
 
   TempFolder folder;
-  std::unique_ptr<JobStore> store = open_sqlite_store(file());
+  std::unique_ptr<JobStore> store = open_test_store(file());
 };
 
 }  // namespace sculpt::server

@@ -62,6 +62,7 @@ TEST_F(JobStoreTest, TheListCanBePagedFromTheNewestAndBetweenTwoJobs) {
 }
 
 TEST_F(JobStoreTest, ADamagedRowIsSetAsideAndThePageGoesOn) {
+  SCULPT_SQLITE_ONLY();
   const std::string first = add(), damaged = add(), last = add();
   store.reset();
   Database(file()).run(("UPDATE job SET state='exploded' WHERE id='" + damaged + "'").c_str());
@@ -176,7 +177,7 @@ TEST_F(JobStoreTest, ALowPriorityIsNeverStarved) {
   std::uint64_t now = 1'700'000'000'000;
   StoreRules rules;
   rules.now_ms = [&] { return now; };
-  store = open_sqlite_store(folder.path() / "aged", rules);
+  store = open_test_store(folder.path() / "aged", rules);
   const std::string patient = add({}, 0);
   for (int minute = 1; minute < 10; ++minute) {
     now += rules.ageing_ms;
@@ -193,10 +194,10 @@ TEST_F(JobStoreTest, AClockThatWasSetBackLetsNobodyOvertake) {
   StoreRules rules;
   rules.now_ms = [&] { return now; };
   for (const bool reopened : {false, true}) {
-    store = open_sqlite_store(folder.path() / "clock", rules);
+    store = open_test_store(folder.path() / "clock", rules);
     const std::string first = add();
     now -= 3'600'000;
-    if (reopened) store = open_sqlite_store(folder.path() / "clock", rules);
+    if (reopened) store = open_test_store(folder.path() / "clock", rules);
     const std::string second = add();
     EXPECT_EQ(store->claim()->id, first);
     EXPECT_EQ(store->claim()->id, second);
@@ -273,6 +274,7 @@ TEST_F(JobStoreTest, TheIdOfARemovedJobIsNeverGivenAgain) {
 }
 
 TEST_F(JobStoreTest, TheDatabaseHasAWriteAheadLog) {
+  SCULPT_SQLITE_ONLY();
   Database other(file());
   Statement mode(other, "PRAGMA journal_mode");
   ASSERT_TRUE(mode.step());

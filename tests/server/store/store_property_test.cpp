@@ -8,6 +8,7 @@
 #include "proto/error_codes.hpp"
 #include "tests/server/store/store_model.hpp"
 #include "tests/server/temp_folder.hpp"
+#include "tests/server/test_store.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -52,7 +53,7 @@ class History {
  private:
   void open() {
     store_.reset();
-    store_ = open_sqlite_store(folder_.path() / "db", rules_);
+    store_ = open_test_store(folder_.path() / "db", rules_);
   }
 
   std::uint64_t below(std::uint64_t bound) { return random_.next() % bound; }

@@ -12,6 +12,7 @@ namespace {
 
 class StoreVersions : public JobStoreTest {
  protected:
+  void SetUp() override { SCULPT_SQLITE_ONLY(); }
   /// Puts a database that a daemon of an older version left in the place of the store's.
   void load(const std::string& sql_file) {
     store.reset();

@@ -1,0 +1,85 @@
+#include "server/ops/fleet_opening.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <string>
+
+#include "server/base/job_id.hpp"
+#include "server/files/durable.hpp"
+#include "server/files/store_mark.hpp"
+
+namespace sculpt::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string first_word(const fs::path& file) {
+  std::ifstream in(file);
+  std::string word;
+  in >> word;
+  return word;
+}
+
+// The same for ever, so that a daemon that is started again knows its jobs.
+std::string own_id(const fs::path& file) {
+  if (!fs::exists(file)) write_durably(file, IdMaker().next(unix_ms()) + "\n");
+  std::string id = first_word(file);
+  if (id.empty()) throw DataFolderError("'" + file.string() + "' is empty: remove it, and the daemon gets a new name");
+  return id;
+}
+
+void check_settings(const Config& config) {
+  if (!config.store.starts_with("postgresql://") && !config.store.starts_with("postgres://")) {
+    throw ConfigError("store must be the address of a PostgreSQL database, postgresql://USER@HOST/NAME, not '" +
+                      without_password(config.store) + "'; without it jobs are kept in the data folder");
+  }
+  if (config.shared.empty()) {
+    throw ConfigError(
+        "with a store that several daemons share, uploads and results have to be where all of them reach them: name "
+        "that folder with shared");
+  }
+}
+
+void make_folders(const FolderPaths& shared) {
+  std::error_code error;
+  for (const fs::path& needed : {shared.folder, shared.blobs(), shared.jobs()}) {
+    fs::create_directories(needed, error);
+    if (error) {
+      throw DataFolderError("cannot create the folder '" + needed.string() + "': " + error.message() +
+                            "; name another with shared");
+    }
+  }
+}
+
+// Whatever is in the folder and unknown to the store is put aside: so it must be the store that it belongs to.
+void check_owner(const FolderPaths& shared, const std::string& epoch) {
+  const fs::path mark = shared.folder / "sculptd.fleet";
+  if (!fs::exists(mark)) write_durably(mark, epoch + "\n");
+  if (const std::string owner = first_word(mark); owner != epoch) {
+    throw StoreLost(
+        "the folder '" + shared.folder.string() + "' belongs to the store " + owner + ", and the database is " + epoch,
+        "restore the database that belongs to it, name another folder with shared, or remove '" + mark.string() +
+            "' to go on with the database as it is");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& own, int workers, StoreRules rules) {
+  check_settings(config);
+  if (fs::exists(own.database()))
+    spdlog::warn("the jobs in '{}' are not served: the store is {}", own.database().string(),
+                 without_password(config.store));
+  const FolderPaths shared{config.shared};
+  make_folders(shared);
+  FleetRules fleet;
+  fleet.source = {config.store, config.store_password_file};
+  fleet.lease = config.lease;
+  fleet.member = {own_id(own.folder / "daemon"), workers, rules.memory_bytes};
+  std::unique_ptr<FleetStore> store = open_fleet_store(std::move(fleet), std::move(rules));
+  check_owner(shared, store->epoch());
+  return store;
+}
+
+}  // namespace sculpt::server

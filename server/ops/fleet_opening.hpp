@@ -1,0 +1,18 @@
+// The daemon's place in a fleet: who it is, the database that it shares, and the folder of results that all of them
+// reach.
+#pragma once
+
+#include <memory>
+
+#include "server/base/config.hpp"
+#include "server/files/data_folder.hpp"
+#include "server/fleet/fleet_store.hpp"
+
+namespace sculpt::server {
+
+/// Makes what is missing of the shared folder; its first daemon writes into it which store it belongs to. Throws
+/// ConfigError (a setting is missing, or is none), DataFolderError, StoreLost (the folder belongs to another store),
+/// StorageError.
+std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& own, int workers, StoreRules rules);
+
+}  // namespace sculpt::server
