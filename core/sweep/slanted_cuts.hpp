@@ -12,8 +12,8 @@
 // A sortie: from the gate, beside the grid, to (7, 6), where the line of (2, 1) is two cells out, in along the line to
 // (3, 2), and with one step more (2, 1) is cut. From there steps across a face or along the axis through lit air are
 // tried to other cuts, those across the axis first; if none is found within 3000 cells (256, if none is as near as 16
-// steps), the ball goes out along the axis and in to the nearest lit one. At last back to the gate. Where the arm cannot
-// follow, the sortie is taken back and the cut that failed given up.
+// steps), the ball goes out along the axis and in to the nearest lit one. At last back to the gate. Where the arm
+// cannot follow, the sortie is taken back and the cut that failed given up.
 #pragma once
 
 #include <functional>

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/base/sha256.hpp"
 #include "core/base/content_key.hpp"
+#include "core/base/sha256.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -41,7 +41,7 @@ class TwoClients(ClientTest):
         daemon = Daemon(self.scratch / "data", "--workers", "1")
         self.server = daemon.address
         mesh = shapes.write_stl(self.scratch / "ball.stl", shapes.ball(24))
-        job = self.fine("submit", mesh, "--resolution", 64, "--robot", "panda-turntable").strip()
+        job = self.fine("submit", mesh, "--resolution", 256, "--robot", "panda-turntable").strip()
         verbs = (["watch", job], ["wait", job], ["fetch", job, "-o", "t.ndjson"])
         waiting = [subprocess.Popen([*client, *verb], env=environment(self.server), cwd=self.scratch, stdout=subprocess.DEVNULL,
                                     stderr=subprocess.PIPE, text=True) for client in (SCULPT, SCULPT_PY) for verb in verbs]
