@@ -43,7 +43,7 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
     return;
   }
   const Around other{second->link, second->pose.translation(), second->radius};
-  pairs_.push_back({&first, second, {motion_, around, other}, false});
+  pairs_.push_back({&first, second, {motion_, around, other}, first_is_mesh});
 }
 
 double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
@@ -70,8 +70,6 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
   if (pair.second == nullptr) return near_material(*pair.first, link_pose, grow);
   const Frame pose = link_pose * pair.first->pose;
   const Frame other = poses[static_cast<std::size_t>(pair.second->link)] * pair.second->pose;
-  if (grow > 0 && pair.first->mesh && pair.second->mesh)
-    return meshes_within(*pair.first->mesh, pose, *pair.second->mesh, other, grow);
   return any_part(*pair.first, grow, [&](const fcl::CollisionGeometryd& part, const Frame& at) {
     return any_part(*pair.second, 0, [&](const fcl::CollisionGeometryd& second, const Frame&) {
       return solids_touch(part, pose * at, second, other);

@@ -25,8 +25,8 @@ class LinkReplay {
   void look_ahead(const TrajectoryPiece& piece);
 
   /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact a pair. Certified
-  /// between its ends, except between a mesh and the material where the mesh's cover overlaps it: there they are tried
-  /// each quarter of a voxel.
+  /// between its ends, except between two meshes and between a mesh and the material where their covers overlap: there
+  /// they are tried each quarter of a voxel.
   void replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact);
 
  private:
@@ -34,7 +34,7 @@ class LinkReplay {
     const SolidBody* first;
     const SolidBody* second;  // null: the material
     KeptClearance clearance;
-    bool sampled;  // a mesh against the material
+    bool sampled;  // a mesh against a mesh or the material
   };
 
   void add_pair(const SolidBody& first, const SolidBody* second);

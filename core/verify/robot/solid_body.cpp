@@ -95,11 +95,6 @@ std::vector<SolidBody> make_solid_bodies(const Robot& robot) {
   return bodies;
 }
 
-bool meshes_within(const SolidMesh& a, const Frame& pose_a, const SolidMesh& b, const Frame& pose_b, double reach) {
-  fcl::DistanceResultd nearest(reach);  // only what is nearer than that is looked for
-  return fcl::distance(&a, pose_a, &b, pose_b, fcl::DistanceRequestd(), nearest) < reach;
-}
-
 bool solids_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
                   const Frame& pose_b) {
   fcl::CollisionRequestd request(1, false);

@@ -26,9 +26,6 @@ struct SolidBody {
 
 std::vector<SolidBody> make_solid_bodies(const Robot& robot);
 
-/// Do the surfaces come nearer to each other than `reach`, above 0? By FCL's distance of triangle meshes.
-bool meshes_within(const SolidMesh& a, const Frame& pose_a, const SolidMesh& b, const Frame& pose_b, double reach);
-
 bool solids_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
                   const Frame& pose_b);
 
