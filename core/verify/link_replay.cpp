@@ -121,8 +121,12 @@ void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, co
   }
 }
 
-void LinkReplay::look_ahead(const TrajectoryPiece& piece) {
+void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool in_limits) {
   for (Pair& pair : pairs_) pair.clearance.forget();
+  if (!in_limits) {
+    ahead_ = OpenItems(piece, pairs_.size());
+    return;
+  }
   ahead_ = OpenItems(motion_, piece, pairs_.size(),
                      [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
                        const Pair& pair = pairs_[at];

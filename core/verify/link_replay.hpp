@@ -21,8 +21,9 @@ class LinkReplay {
              const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart, const StandingVoxels& material,
              double voxel_mm);
 
-  /// To be called before the motions of a piece; what was proved before counts no more.
-  void look_ahead(const TrajectoryPiece& piece);
+  /// To be called before the motions of a piece; what was proved before counts no more. `in_limits`: all of the piece
+  /// is within the joints' limits; elsewhere joints may be anywhere, and nothing is proved ahead.
+  void look_ahead(const TrajectoryPiece& piece, bool in_limits);
 
   /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact a pair. Certified
   /// between its ends, except between two meshes and between a mesh and the material where their covers overlap: there

@@ -15,12 +15,23 @@ struct OpenItems::Trial {
   }
 };
 
+OpenItems::OpenItems(const TrajectoryPiece& piece, std::size_t count) : open_(blocks_of(piece)) {
+  for (std::vector<std::size_t>& items : open_) {
+    items.resize(count);
+    std::iota(items.begin(), items.end(), std::size_t{0});
+  }
+}
+
 OpenItems::OpenItems(const LinkMotion& motion, const TrajectoryPiece& piece, std::size_t count,
                      const MayTouch& may_touch)
-    : open_((piece.keyframes.size() + keyframes_a_block - 1) / keyframes_a_block) {
+    : open_(blocks_of(piece)) {
   std::vector<std::size_t> items(count);
   std::iota(items.begin(), items.end(), std::size_t{0});
   if (!open_.empty()) find({motion, piece, may_touch}, 0, open_.size(), items);
+}
+
+std::size_t OpenItems::blocks_of(const TrajectoryPiece& piece) {
+  return (piece.keyframes.size() + keyframes_a_block - 1) / keyframes_a_block;
 }
 
 /// In blocks `first` to `end` - 1.

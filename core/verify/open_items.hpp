@@ -19,6 +19,8 @@ class OpenItems {
   using MayTouch = std::function<bool(std::size_t item, const std::vector<Frame>& poses, const Configuration& half)>;
 
   OpenItems() = default;
+  /// Nothing is proved: all of them are open all along.
+  OpenItems(const TrajectoryPiece& piece, std::size_t count);
   /// Items 0 to `count` - 1. What is said of them must stay true as long as the object is asked.
   OpenItems(const LinkMotion& motion, const TrajectoryPiece& piece, std::size_t count, const MayTouch& may_touch);
 
@@ -27,6 +29,7 @@ class OpenItems {
 
  private:
   static constexpr std::size_t keyframes_a_block = 8;
+  static std::size_t blocks_of(const TrajectoryPiece& piece);
   struct Trial;
   void find(const Trial& trial, std::size_t first, std::size_t end, const std::vector<std::size_t>& items);
 

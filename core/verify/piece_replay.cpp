@@ -69,8 +69,11 @@ PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::funct
   step_ = &step;
   line_ = piece.first_line;
   // What this worker proved before depends on which pieces it got.
-  links_.look_ahead(piece);
-  tool_.look_ahead(piece);
+  const bool in_limits =
+      within_limits(piece.from) &&
+      std::ranges::all_of(piece.keyframes, [this](const Keyframe& keyframe) { return within_limits(keyframe.q); });
+  links_.look_ahead(piece, in_limits);
+  tool_.look_ahead(piece, in_limits);
   const Configuration* from = &piece.from;
   for (index_ = 0; index_ < piece.keyframes.size(); ++index_, ++line_) {
     const Keyframe& keyframe = piece.keyframes[index_];

@@ -195,8 +195,12 @@ bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxe
   return true;
 }
 
-void ToolReplay::look_ahead(const TrajectoryPiece& piece) {
+void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool in_limits) {
   for (Target& target : targets_) target.clearance.forget();
+  if (!in_limits) {
+    ahead_ = OpenItems(piece, targets_.size());
+    return;
+  }
   ahead_ = OpenItems(motion_, piece, targets_.size(),
                      [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
                        const Target& target = targets_[at];

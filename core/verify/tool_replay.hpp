@@ -17,8 +17,9 @@ class ToolReplay {
   ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
              const StandingVoxels& material, double voxel_mm);
 
-  /// To be called before the motions of a piece; what was proved before counts no more.
-  void look_ahead(const TrajectoryPiece& piece);
+  /// To be called before the motions of a piece; what was proved before counts no more. `in_limits`: all of the piece
+  /// is within the joints' limits; elsewhere joints may be anywhere, and nothing is proved ahead.
+  void look_ahead(const TrajectoryPiece& piece, bool in_limits);
 
   /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact for each part of
   /// the tool and each thing it can touch.

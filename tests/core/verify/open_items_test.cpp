@@ -64,6 +64,14 @@ TEST(OpenItems, LeaveOutNoBallThatAMotionPasses) {
   EXPECT_LT(5 * open, all) << "most should be closed";
 }
 
+TEST(OpenItems, AreAllOpenWhereNothingIsProved) {
+  TrajectoryPiece piece;
+  piece.keyframes.resize(20, {Vec3::Zero(), false, {}, {}});
+  const OpenItems items(piece, 3);
+  for (std::size_t keyframe = 0; keyframe < 20; ++keyframe)
+    EXPECT_EQ(items.of(keyframe), (std::vector<std::size_t>{0, 1, 2}));
+}
+
 TEST(OpenItems, OfAnEmptyPieceAreNotAsked) {
   const Slides slides;
   const LinkMotion motion(slides.cell.robot, {0, 1, 2}, slides.cell.rest, 0);
