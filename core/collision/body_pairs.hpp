@@ -16,8 +16,8 @@ struct BodyPair {
 };
 
 /// `first` and `second`: the numbers of the bodies of the two links. Where not all of their shapes are kept apart, the
-/// bodies that are parts of them are added to `bodies`. The margin is link_margin_m, or where the two are nearer to each
-/// other at home a share of that gap.
+/// bodies that are parts of them are added to `bodies`. The margin is link_margin_m, or where the two are nearer to
+/// each other at home a share of that gap.
 std::vector<BodyPair> pair_bodies(std::vector<Body>& bodies, std::size_t first, std::size_t second,
                                   const CheckedLinks& checked);
 

@@ -137,7 +137,8 @@ bool Support::frees_if_apart(Voxel voxel) const {
   if (left.empty()) return false;
   for (Voxel& neighbour : left) neighbour = neighbour + voxel;
   bool any_held = around.any_rooted();
-  SupportSearch search(standing_, may_fall_, [this](int i, int j) { return rooted(i, j); }, voxel);
+  SupportSearch search(
+      standing_, may_fall_, [this](int i, int j) { return rooted(i, j); }, voxel);
   using Way = SupportSearch::Way;
   while (!left.empty()) {
     const Voxel from = left.back();
