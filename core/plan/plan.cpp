@@ -121,9 +121,9 @@ void check_home(const Scene& scene, const Cell& cell, const Configuration& home)
 }
 
 /// Fields depend on the material where it is not the whole grid: those are not kept.
-FieldStore field_store(const Job& job) {
+FieldStore field_store(const Job& job, Search search) {
   const bool whole_grid = !job.stock.box && !job.stock.mesh && job.clampings.empty();
-  if (job.keep_fields.empty() || !whole_grid) return {};
+  if (job.keep_fields.empty() || !whole_grid || search != Search::sweep) return {};
   return {job.keep_fields, field_key(job.cell, job.resolution, job.seed)};
 }
 
@@ -160,7 +160,7 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   Output output = open_output(written, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
-    const CarveTask task{result.voxels, octree, may_fall, header, field_store(job), search};
+    const CarveTask task{result.voxels, octree, may_fall, header, field_store(job, search), search};
     if (!now.residue) carve(scene, task, carved, log, run);
     count_search(report, now);
     report.plan_sha256 = output.finish().sha256;
