@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/motion/line.hpp"
-#include "core/motion/tool/tool_axes.hpp"
 #include "core/motion/transit.hpp"
 
 namespace sculpt {
@@ -29,16 +28,14 @@ std::vector<Configuration> reversed(std::vector<Configuration> path) {
 
 }  // namespace
 
-Arm::Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
-         Emit emit)
+Arm::Arm(Scene& scene, const PostureAtlas& atlas, const VoxelSet& may_fall, const Configuration& home,
+         const RunContext& run, Emit emit)
     : scene_(scene),
+      atlas_(atlas),
       support_(scene.material().solid(), may_fall),
       home_(home),
-      seed_(seed),
-      stop_(std::move(stop)),
+      run_(run),
       emit_(std::move(emit)),
-      axes_(tool_axes()),
-      atlas_(scene.chain(), scene.grid(), seed),
       q_(home) {
   const int n = scene.grid().n;
   at_ = {n / 2, n / 2, n - 1};
@@ -46,7 +43,7 @@ Arm::Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std:
 }
 
 bool Arm::fits(Voxel voxel, std::size_t axis) const {
-  return scene_.tool_fits({centre(voxel), axes_[axis]}, voxel);
+  return scene_.tool_fits({centre(voxel), axes()[axis]}, voxel);
 }
 
 Vec3 Arm::outside(const Vec3& ball_m, const Vec3& axis) const {
@@ -70,17 +67,17 @@ Vec3 Arm::beside(Voxel voxel, const Vec3& axis) const {
 
 bool Arm::cut_neighbour(Voxel voxel) {
   if (memory_.outside || l1(voxel, at_) != 1 || !fits(voxel, memory_.axis)) return false;
-  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[memory_.axis]}, q_);
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes()[memory_.axis]}, q_);
   if (!q || scene_.certify(q_, *q, voxel) != Contact::none) return false;
   commit({}, *q, voxel);
   return true;
 }
 
 bool Arm::cut_after_hop(Voxel voxel) {
-  if (stop_.stop_requested()) throw Cancelled{};
+  if (run_.watch.stop.stop_requested()) throw Cancelled{};
   if (memory_.outside || !fits(voxel, memory_.axis)) return false;
   // Where the tool ends up does not depend on how far it is lifted.
-  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes_[memory_.axis]}, q_);
+  const auto q = solve_rounded(scene_.chain(), {centre(voxel), axes()[memory_.axis]}, q_);
   if (!q || scene_.contact_at(*q, voxel) != Contact::none) return false;
   const double h = scene_.grid().voxel_m;
   for (int lift = 1; lift <= 2 * scene_.grid().n; lift *= 2)
@@ -89,7 +86,7 @@ bool Arm::cut_after_hop(Voxel voxel) {
 }
 
 bool Arm::hop(Voxel voxel, double lift_m) {
-  const Vec3& axis = axes_[memory_.axis];
+  const Vec3& axis = axes()[memory_.axis];
   const Vec3 here = scene_.chain().tool_pose(q_).ball_m, there = centre(voxel);
   const double height = std::max(here.dot(axis), there.dot(axis)) + lift_m;
   const Vec3 above_here = here + (height - here.dot(axis)) * axis,
@@ -115,7 +112,7 @@ const Arm::Path& Arm::way_out() {
   memory_.way_out = {q_};
   if (memory_.outside) return memory_.way_out;
   const auto path =
-      track_line(scene_, q_, outside(scene_.chain().tool_pose(q_).ball_m, axes_[memory_.axis]), axes_[memory_.axis]);
+      track_line(scene_, q_, outside(scene_.chain().tool_pose(q_).ball_m, axes()[memory_.axis]), axes()[memory_.axis]);
   if (path) {
     memory_.way_out.insert(memory_.way_out.end(), path->begin(), path->end());
   } else {
@@ -132,7 +129,7 @@ std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int e
   if (axis == memory_.axis) seeds.push_back(q_);
   if (const auto at = memory_.hubs.find(axis); at != memory_.hubs.end()) {
     Path hubs = at->second;
-    const Vec3 ball = outside(centre(voxel), axes_[axis]);
+    const Vec3 ball = outside(centre(voxel), axes()[axis]);
     std::ranges::stable_sort(
         hubs, {}, [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); });
     const std::size_t most = effort == 0 ? 3 : max_hubs;
@@ -144,7 +141,7 @@ std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int e
 }
 
 std::optional<Arm::Entry> Arm::find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const {
-  const Vec3& direction = axes_[axis];
+  const Vec3& direction = axes()[axis];
   const auto q = solve_rounded(scene_.chain(), {centre(voxel), direction}, seed);
   if (!q || scene_.contact_at(*q, voxel) != Contact::none) return {};
   const auto first = solve_rounded(scene_.chain(), {beside(voxel, direction), direction}, *q);
@@ -156,45 +153,64 @@ std::optional<Arm::Entry> Arm::find_entry(Voxel voxel, std::size_t axis, const C
   return Entry{reversed(std::move(path)), *q};
 }
 
-bool Arm::cut_after_transit(Voxel voxel, std::size_t axis, int effort) {
-  if (!fits(voxel, axis) || memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut) return false;
+void Arm::find_next_entry(Approach& approach) const {
+  approach.entry.reset();
+  while (!approach.entry && approach.tried < approach.seeds.size()) {
+    if (run_.watch.stop.stop_requested()) throw Cancelled{};
+    approach.entry = find_entry(approach.voxel, approach.axis, approach.seeds[approach.tried++]);
+  }
+}
+
+bool Arm::cut_after_transit(std::span<const Voxel> voxels, std::size_t axis, int effort) {
+  if (voxels.empty()) return false;
+  // Mostly the first one does. Where it does not few others do, so that looking at all of them at once is no waste.
+  return transit_to_one(voxels.first(1), axis, effort) || transit_to_one(voxels.subspan(1), axis, effort);
+}
+
+bool Arm::transit_to_one(std::span<const Voxel> voxels, std::size_t axis, int effort) {
+  if (memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut) return false;
   const std::uint64_t tests = scene_.checks();
-  std::uint64_t starts = 0;
-  if (transit_to(voxel, axis, effort, starts)) return true;
+  std::vector<Approach> approaches(voxels.size());
+  run_.helpers.for_each_index(voxels.size(), [&](std::size_t i) {
+    if (!fits(voxels[i], axis)) return;
+    approaches[i] = {voxels[i], axis, entry_seeds(voxels[i], axis, effort), 0, {}};
+    find_next_entry(approaches[i]);
+  });
+  std::size_t starts = 0;
+  for (Approach& approach : approaches) {
+    if (transit(approach, effort)) return true;
+    starts += approach.tried;
+  }
   memory_.in_vain += scene_.checks() - tests + tests_a_start * starts;
   return false;
 }
 
-/// `starts` counts where IK started.
-bool Arm::transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& starts) {
+bool Arm::transit(Approach& approach, int effort) {
   int failures = 0;
-  for (const Configuration& seed : entry_seeds(voxel, axis, effort)) {
-    if (stop_.stop_requested()) throw Cancelled{};
-    ++starts;
-    const auto entry = find_entry(voxel, axis, seed);
-    if (!entry) continue;
-    const Configuration& hub = entry->from_outside.front();
+  for (; approach.entry; find_next_entry(approach)) {
+    const Entry& entry = *approach.entry;
+    const Configuration& hub = entry.from_outside.front();
     const Path& out = way_out();
     const Path across = cross(out.back(), hub, rrt_iterations[effort]);
     if (across.empty()) {
       if (++failures > 1 + 2 * effort) return false;
       continue;
     }
-    Path& hubs = memory_.hubs[axis];
+    Path& hubs = memory_.hubs[approach.axis];
     if (hubs.size() < max_hubs) hubs.push_back(hub);
     Path to_hub(out);
     to_hub.insert(to_hub.end(), across.begin() + 1, across.end());
     move(shorten(scene_, to_hub));
     memory_.last_outside = trail_.size() - 1;
-    memory_.axis = axis;
-    commit(shorten(scene_, entry->from_outside), entry->cut, voxel);
+    memory_.axis = approach.axis;
+    commit(shorten(scene_, entry.from_outside), entry.cut, approach.voxel);
     return true;
   }
   return false;
 }
 
 Arm::Path Arm::cross(const Configuration& from, const Configuration& to, int iterations) {
-  Transit transit = plan_transit(scene_, from, to, mix(seed_, memory_.queries++), stop_, {iterations});
+  Transit transit = plan_transit(scene_, from, to, mix(run_.seed, memory_.queries++), run_.watch.stop, {iterations});
   if (transit.searched) ++memory_.ompl_calls;
   if (transit.searched && !transit.path.empty()) ++memory_.ompl_solved;
   return std::move(transit.path);
@@ -240,7 +256,7 @@ void Arm::go_home() {
   Path across;
   for (int iterations : rrt_iterations)
     if (across.empty()) across = cross(path.back(), home_, iterations);
-  if (stop_.stop_requested()) throw Cancelled{};
+  if (run_.watch.stop.stop_requested()) throw Cancelled{};
   if (across.empty()) {
     path = reversed(trail_);
   } else {

@@ -3,8 +3,9 @@
 
 #include <functional>
 #include <map>
-#include <stop_token>
+#include <span>
 
+#include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/support.hpp"
 #include "core/motion/posture_atlas.hpp"
@@ -28,15 +29,16 @@ struct ArmMemory {
 };
 
 /// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:
-/// cut edges are free in both directions once their voxel is gone. Single-threaded; the same calls give the same
-/// keyframes. Throws Cancelled once a stop was asked for.
+/// cut edges are free in both directions once their voxel is gone. For one thread at a time; the same calls give the
+/// same keyframes. Throws Cancelled once a stop was asked for.
 class Arm {
  public:
   using Emit = std::function<void(const Keyframe&)>;
 
-  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut. `may_fall`: what cannot be held.
-  Arm(Scene& scene, const VoxelSet& may_fall, const Configuration& home, std::uint64_t seed, std::stop_token stop,
-      Emit emit);
+  /// Stands at `home`, clear of everything. `scene` loses the voxels that are cut; `atlas` is of its chain and grid.
+  /// `may_fall`: what cannot be held.
+  Arm(Scene& scene, const PostureAtlas& atlas, const VoxelSet& may_fall, const Configuration& home,
+      const RunContext& run, Emit emit);
 
   /// Goes on where another one was, whose keyframes these are, all of them: they are not emitted again. Call first.
   void resume(const std::vector<Keyframe>& keyframes, ArmMemory memory);
@@ -47,7 +49,7 @@ class Arm {
   /// The step that led to `at` from the voxel cut before it.
   Voxel last_step() const { return last_step_; }
   const Scene& scene() const { return scene_; }
-  const std::vector<Vec3>& axes() const { return axes_; }
+  const std::vector<Vec3>& axes() const { return atlas_.axes(); }
 
   /// Does a standing voxel hold nothing that would come free without it? Only such voxels may be cut.
   bool holds_nothing(Voxel voxel) const { return !support_.frees(voxel); }
@@ -58,9 +60,10 @@ class Arm {
   bool cut_neighbour(Voxel voxel);
   /// Cuts a voxel after lifting the tool along its axis just far enough, moving across and coming down again.
   bool cut_after_hop(Voxel voxel);
-  /// Cuts a voxel from another direction: leaves the stock, moves freely (OMPL where the direct edge is not free),
-  /// comes in along `axis`. Once far more work was in vain than voxels were cut, it is not tried any more.
-  bool cut_after_transit(Voxel voxel, std::size_t axis, int effort);
+  /// Cuts the first of `voxels` that it comes to from another direction: leaves the stock, moves freely (OMPL where the
+  /// direct edge is not free), comes in along `axis`. Once far more work was in vain than voxels were cut, it is not
+  /// tried any more.
+  bool cut_after_transit(std::span<const Voxel> voxels, std::size_t axis, int effort);
 
   /// Leaves the stock and goes home.
   void go_home();
@@ -71,6 +74,14 @@ class Arm {
     Path from_outside;  // first: clear of the stock; last: beside the voxel
     Configuration cut;
   };
+  /// Ways in to a voxel along an axis, looked for from one seed after the other.
+  struct Approach {
+    Voxel voxel;
+    std::size_t axis = 0;
+    Path seeds;
+    std::size_t tried = 0;       // of the seeds
+    std::optional<Entry> entry;  // from the last of them that were tried
+  };
 
   Vec3 centre(Voxel voxel) const { return scene_.grid().centre(voxel); }
   /// Ball position on the line from the voxel along the axis where the whole tool is outside the grid's cube.
@@ -78,11 +89,14 @@ class Arm {
   /// Ball position before the cut: on the same line, just clear of the voxel.
   Vec3 beside(Voxel voxel, const Vec3& axis) const;
   bool hop(Voxel voxel, double lift_m);
-  bool transit_to(Voxel voxel, std::size_t axis, int effort, std::uint64_t& starts);
+  bool transit_to_one(std::span<const Voxel> voxels, std::size_t axis, int effort);
+  bool transit(Approach& approach, int effort);
   /// From where the arm stands to outside the stock, both included; never fails.
   const Path& way_out();
   std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort) const;
   std::optional<Entry> find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const;
+  /// Goes on to the next seed that has an entry.
+  void find_next_entry(Approach& approach) const;
   /// Free motion between two configurations outside the stock; empty if none was found.
   Path cross(const Configuration& from, const Configuration& to, int iterations);
   void commit(const Path& moves, const Configuration& cut, Voxel voxel);
@@ -91,13 +105,11 @@ class Arm {
   void stand_at(const Keyframe& keyframe);
 
   Scene& scene_;
+  const PostureAtlas& atlas_;
   Support support_;
   Configuration home_;
-  std::uint64_t seed_;
-  std::stop_token stop_;
+  RunContext run_;
   Emit emit_;
-  std::vector<Vec3> axes_;
-  PostureAtlas atlas_;
 
   Configuration q_;
   Voxel at_, last_step_;

@@ -13,7 +13,7 @@ constexpr int max_effort = 2;
 ArmMemory carve_with_arm(Scene& scene, const ArmTask& task, const ArmStart& start, const ArmListener& listener,
                          const RunContext& run) {
   const BlockGraph graph = build_block_graph(task.octree, run.watch);
-  Arm arm(scene, task.may_fall, task.home, run.seed, run.watch.stop, listener.emit);
+  Arm arm(scene, task.atlas, task.may_fall, task.home, run, listener.emit);
   const Voxel first = arm.at();
   arm.resume(start.keyframes, start.memory);
   const auto try_block = [&, tried = std::size_t{0}](int block, int effort) mutable {

@@ -21,6 +21,7 @@ struct ArmStart {
 /// What an arm is to carve, and from where; it must outlive the call.
 struct ArmTask {
   const Octree& octree;
+  const PostureAtlas& atlas;  ///< of the scene's chain and grid
   const VoxelSet& may_fall;  ///< what cannot be held
   const Configuration& home;
 };

@@ -1,6 +1,7 @@
 #include "core/motion/block_carve.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace sculpt {
 namespace {
@@ -69,8 +70,7 @@ class BlockCarve {
                      [](const Choice& a, const Choice& b) { return a.voxels.size() > b.voxels.size(); });
     for (const Choice& choice : choices) {
       const std::size_t most = std::min(choice.voxels.size(), transits_an_axis[effort_]);
-      for (std::size_t i = 0; i < most; ++i)
-        if (arm_.cut_after_transit(choice.voxels[i], choice.axis, effort_)) return true;
+      if (arm_.cut_after_transit(std::span(choice.voxels).first(most), choice.axis, effort_)) return true;
     }
     return false;
   }

@@ -7,7 +7,6 @@
 #include "core/material/cavities.hpp"
 #include "core/material/support.hpp"
 #include "core/motion/behind.hpp"
-#include "core/motion/posture_atlas.hpp"
 
 namespace sculpt {
 namespace {
@@ -65,12 +64,11 @@ Reason explain(const Scene& scene, const Support& support, const ToolRoom& room,
 
 }  // namespace
 
-std::vector<Residue> explain_residue(const Scene& scene, const VoxelGrid& voxels, const VoxelSet& may_fall,
-                                     const RunContext& run) {
+std::vector<Residue> explain_residue(const Scene& scene, const PostureAtlas& atlas, const VoxelGrid& voxels,
+                                     const VoxelSet& may_fall, const RunContext& run) {
   const VoxelSet enclosed = find_enclosed(voxels);
   const Support support(scene.material().solid(), may_fall);
   const ToolRoom room(scene);
-  const PostureAtlas atlas(scene.chain(), scene.grid(), run.seed);
   std::vector<Residue> residue;
   const auto n = static_cast<std::size_t>(voxels.n());
   for (std::size_t word = 0; word < voxels.stock.words().size(); ++word) {

@@ -55,9 +55,9 @@ void carve(Scene& scene, const CarveTask& task, const Carved& before, RunLog& lo
     const SweepRest left = sweep(scene, task, before, log, run);
     scene.leave(left.standing);
     const Octree rest = build_octree(left_to_cut(left, task.voxels.keep), run.watch);
-    carve_blocks(scene, {rest, task.may_fall, home}, before, log, run);
+    carve_blocks(scene, {rest, task.atlas, task.may_fall, home}, before, log, run);
   } else {
-    carve_blocks(scene, {task.octree, task.may_fall, home}, before, log, run);
+    carve_blocks(scene, {task.octree, task.atlas, task.may_fall, home}, before, log, run);
   }
   log.end_carving();
 }

@@ -7,6 +7,7 @@
 #include "core/collision/scene.hpp"
 #include "core/material/octree.hpp"
 #include "core/material/voxel_grid.hpp"
+#include "core/motion/posture_atlas.hpp"
 #include "core/plan/run_log.hpp"
 #include "core/search/search.hpp"
 #include "core/sweep/field/field_store.hpp"
@@ -20,6 +21,7 @@ struct CarveTask {
   const Octree& octree;      ///< of them
   const VoxelSet& may_fall;  ///< what cannot be held
   const TrajectoryHeader& header;
+  const PostureAtlas& atlas;  ///< of the scene's chain and grid
   FieldStore fields;  ///< of the scene, home and seed
   Search search;      ///< octree or voxel where the chain only translates, else sweep or octree
 };

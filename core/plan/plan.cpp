@@ -131,7 +131,7 @@ FieldStore field_store(const Job& job, Search search) {
 const std::vector<Residue>& explain(const Scene& scene, const CarveTask& task, RunLog& log, const RunContext& run) {
   if (!log.now().residue) {
     const bool any_may_fall = scene.chain().translating() && !task.header.held;
-    log.end_plan(explain_residue(scene, task.voxels, any_may_fall ? task.voxels.stock : task.may_fall, run));
+    log.end_plan(explain_residue(scene, task.atlas, task.voxels, any_may_fall ? task.voxels.stock : task.may_fall, run));
   }
   return *log.now().residue;
 }
@@ -154,13 +154,14 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   const TrajectoryHeader header = make_header(job, search, cell, scene.chain(), result.grid);
   check_home(scene, cell, header.home);
   const VoxelSet may_fall = find_unheld(result.voxels);
+  const PostureAtlas atlas(scene.chain(), result.grid, job.seed);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});
   Carved carved{result.voxels.stock, header.home, {}};
   const OutputTask written{place, header, scene.chain(), result.voxels, report.voxels.remove, job.threads};
   Output output = open_output(written, now, carved, watch);
   RunLog log(kept, now, output, scene);
   try {
-    const CarveTask task{result.voxels, octree, may_fall, header, field_store(job, search), search};
+    const CarveTask task{result.voxels, octree, may_fall, header, atlas, field_store(job, search), search};
     if (!now.residue) carve(scene, task, carved, log, run);
     count_search(report, now);
     report.plan_sha256 = output.finish().sha256;

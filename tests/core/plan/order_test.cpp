@@ -42,7 +42,11 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
   const VoxelGrid voxels = make_voxels(job, grid, {});
   const Octree octree = build_octree(voxels, {});
   Scene scene(cell, grid, voxels.stock);
-  Arm arm(scene, find_unheld(voxels), rounded(cell.home(scene.chain())), job.seed, {}, [](const Keyframe&) {});
+  const PostureAtlas atlas(scene.chain(), grid, job.seed);
+  const Helpers helpers(2);
+  const Watch watch;
+  const RunContext run{job.seed, helpers, watch};
+  Arm arm(scene, atlas, find_unheld(voxels), rounded(cell.home(scene.chain())), run, [](const Keyframe&) {});
   std::vector<Block> left;
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) left.push_back(block);
@@ -58,7 +62,7 @@ std::map<Voxel, Reason> carve_in_random_order(const Job& job, std::uint64_t orde
     if (removed == 0) ++effort;
   }
   std::map<Voxel, Reason> residue;
-  for (const Residue& one : explain_residue(scene, voxels, find_unheld(voxels), {job.seed, 1, {}}))
+  for (const Residue& one : explain_residue(scene, atlas, voxels, find_unheld(voxels), run))
     residue[one.voxel] = one.reason;
   return residue;
 }
