@@ -68,7 +68,7 @@ Output open_output(const OutputTask& task, const Checkpoint& at, Carved& carved,
 Verdict replay(const std::filesystem::path& trajectory, const Cell& cell, const JobResult& planned, RunLog& log,
                const Watch& watch) {
   std::ifstream in(trajectory, std::ios::binary);
-  return verify_trajectory(in, cell, planned.voxels, watch, planned.report.threads, log.now().replayed,
+  return verify_trajectory(in, cell, planned.voxels, watch, {planned.report.threads}, log.now().replayed,
                            log.hear_replay());
 }
 

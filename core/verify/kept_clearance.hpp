@@ -1,26 +1,19 @@
 // How far two things were apart once, and whether they can have met since. Internal to verify/. Millimetres.
 #pragma once
 
-#include <vector>
+#include <utility>
 
-#include "core/verify/replay_finding.hpp"
-#include "core/verify/robot/link_motion.hpp"
+#include "core/verify/approach_bound.hpp"
 
 namespace sculpt {
-
-/// A point set around a centre that is fixed to a link.
-struct Around {
-  int link = -1;
-  Vec3 centre = Vec3::Zero();  ///< in the link's frame
-  double radius = 0;
-};
 
 /// A clearance proved at one configuration (the anchor). It holds at every later one that is nearer to the anchor than
 /// the two things need to meet, however long the way between: material only shrinks, links do not change.
 class KeptClearance {
  public:
-  /// `second` of negative radius: it has no bounds (the material), only the first one's motion counts.
-  KeptClearance(const LinkMotion& motion, const Around& first, const Around& second);
+  explicit KeptClearance(ApproachBound bound) : bound_(std::move(bound)) {}
+
+  const ApproachBound& bound() const { return bound_; }
 
   /// Nothing is proved at `at`, where the links are at `poses`, until `prove`.
   void move_anchor(const Configuration& at, const std::vector<Frame>& poses);
@@ -30,24 +23,12 @@ class KeptClearance {
 
   /// Bound on how much nearer to each other the two are, anywhere on the motion, than at the anchor.
   double approach(const JointMotion& motion) const;
-  /// The same, for coordinates that move by no more than `steps` from where `poses` are.
-  double approach(const std::vector<Frame>& poses, const Configuration& steps) const;
   bool covers(const JointMotion& motion) const;
 
-  /// Whether the motion moves one of the two against the other.
-  bool moved_by(const JointMotion& motion) const;
-
  private:
-  struct Side {
-    Around thing;
-    std::vector<MovingJoint> joints;  // from the other thing to this one
-    std::vector<double> arms;         // at the anchor
-  };
-
-  double approach(const Side& side, const JointMotion& motion) const;
-
-  std::vector<Side> sides_;
+  ApproachBound bound_;
   Configuration anchor_;
+  ApproachBound::Arms arms_;  // at the anchor
   double clearance_ = 0;
 };
 

@@ -25,8 +25,8 @@ bool joined_rigidly(const Robot& robot, int a, int b) {
 
 LinkReplay::LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
                        const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart,
-                       const StandingVoxels& material, double voxel_mm)
-    : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(voxel_mm) {
+                       const StandingVoxels& material)
+    : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(material.voxel_mm()) {
   for (const SolidBody& body : bodies)
     if (!joined_rigidly(cell.robot, cell.stock_link, body.link)) add_pair(body, nullptr);
   for (const auto& [first, second] : apart) add_pair(*first, second);
@@ -39,11 +39,12 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
     return add_pair(*second, &first);  // the first one is grown, a mesh cannot
   const Around around{first.link, first.pose.translation(), first.radius};
   if (second == nullptr) {
-    pairs_.push_back({&first, nullptr, {motion_, around, {cell_.stock_link, Vec3::Zero(), -1}}, first_is_mesh});
+    const Around block{cell_.stock_link, Vec3::Zero(), -1};
+    pairs_.push_back({&first, nullptr, KeptClearance({motion_, around, block}), first_is_mesh});
     return;
   }
   const Around other{second->link, second->pose.translation(), second->radius};
-  pairs_.push_back({&first, second, {motion_, around, other}, first_is_mesh});
+  pairs_.push_back({&first, second, KeptClearance({motion_, around, other}), first_is_mesh});
 }
 
 double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
@@ -79,7 +80,7 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
 
 bool LinkReplay::unsettled(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,
                            const OnContact& on_contact) const {
-  const double travel = pair.clearance.approach(poses, steps);
+  const double travel = pair.clearance.bound().at(poses, steps);
   if (!near(pair, poses, travel + slack_mm)) return false;
   const auto& links = cell_.robot.links;
   const std::string names =
@@ -110,7 +111,7 @@ void LinkReplay::certify(const JointMotion& motion, double middle, double half, 
 // Where the motion ended. Worth its cost if it lasts for several motions as long as this one.
 void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, const JointMotion& motion) const {
   KeptClearance& kept = pair.clearance;
-  kept.move_anchor(motion.at(1), poses);
+  kept.move_anchor(motion.to, poses);
   const double travel = kept.approach(motion), gap = sphere_gap(pair, poses);
   if (gap > 0) kept.prove(gap);
   for (double times : {256, 64, 16, 4}) {
@@ -121,28 +122,29 @@ void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, co
   }
 }
 
-void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool in_limits) {
+void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
   for (Pair& pair : pairs_) pair.clearance.forget();
-  if (!in_limits) {
+  if (!prove_ahead) {
     ahead_ = OpenItems(piece, pairs_.size());
     return;
   }
   ahead_ = OpenItems(motion_, piece, pairs_.size(),
                      [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
                        const Pair& pair = pairs_[at];
-                       return near(pair, poses, pair.clearance.approach(poses, half) + slack_mm);
+                       return near(pair, poses, pair.clearance.bound().at(poses, half) + slack_mm);
                      });
 }
 
 void LinkReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {
   std::vector<Pair*> open;
   for (const std::size_t at : ahead_.of(keyframe))
-    if (Pair& pair = pairs_[at]; pair.clearance.moved_by(motion) && !pair.clearance.covers(motion))
+    if (Pair& pair = pairs_[at]; pair.clearance.bound().moved_by(motion) && !pair.clearance.covers(motion))
       open.push_back(&pair);
   if (open.empty()) return;
   certify(motion, 0.5, 0.5, open, on_contact);
+  if (material_.thorough()) return;
   std::vector<Frame> poses;
-  motion_.place_links(motion.at(1), poses);
+  motion_.place_links(motion.to, poses);
   for (Pair* pair : open) renew_clearance(*pair, poses, motion);
 }
 

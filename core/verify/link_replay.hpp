@@ -8,7 +8,7 @@
 #include "core/verify/open_items.hpp"
 #include "core/verify/replay_finding.hpp"
 #include "core/verify/robot/solid_body.hpp"
-#include "core/verify/standing_voxels.hpp"
+#include "core/verify/material/standing_voxels.hpp"
 
 namespace sculpt {
 
@@ -18,12 +18,12 @@ class LinkReplay {
  public:
   /// All arguments but `apart` (what must be kept apart, apart from the material) must outlive the replay.
   LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
-             const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart, const StandingVoxels& material,
-             double voxel_mm);
+             const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart, const StandingVoxels& material);
 
-  /// To be called before the motions of a piece; what was proved before counts no more. `in_limits`: all of the piece
-  /// is within the joints' limits; elsewhere joints may be anywhere, and nothing is proved ahead.
-  void look_ahead(const TrajectoryPiece& piece, bool in_limits);
+  /// To be called before the motions of a piece; what was proved before counts no more. `prove_ahead`: what whole
+  /// stretches of the piece cannot touch is found out first. Only for a piece within the joints' limits: elsewhere
+  /// joints may be anywhere.
+  void look_ahead(const TrajectoryPiece& piece, bool prove_ahead);
 
   /// A motion, or a part of it, to the keyframe of this index in the piece. Tells at most one contact a pair. Certified
   /// between its ends, except between two meshes and between a mesh and the material where their covers overlap: there

@@ -20,18 +20,24 @@ std::string text(double value) {
   return out.str();
 }
 
-// The voxels of a cut, in order.
-std::vector<Voxel> run_of(const Keyframe& keyframe) {
-  const Voxel way = sign(keyframe.last - keyframe.first);
-  std::vector<Voxel> voxels;
-  for (int part = 0; part < run_length(keyframe); ++part) voxels.push_back(keyframe.first + way * part);
-  return voxels;
-}
+// The voxels of a cut, in order; of none if it is a move.
+class Run {
+ public:
+  explicit Run(const Keyframe& keyframe)
+      : first_(keyframe.first), way_(sign(keyframe.last - keyframe.first)), length_(run_length(keyframe)) {}
+
+  int length() const { return length_; }
+  Voxel operator[](int part) const { return first_ + way_ * part; }
+
+ private:
+  Voxel first_, way_;
+  int length_;
+};
 
 }  // namespace
 
 ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, const TrajectoryHeader& the_header,
-                         std::vector<int> the_joints)
+                         std::vector<int> the_joints, bool is_thorough)
     : cell(the_cell),
       voxels(the_voxels),
       header(the_header),
@@ -40,7 +46,8 @@ ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, cons
       tool(make_tool(cell.tool, grid.voxel_m)),
       motion(cell.robot, joints, cell.rest, cell.stock_link),
       bodies(make_solid_bodies(cell.robot)),
-      pairs(choose_pairs(cell, joints, motion, bodies)) {}
+      pairs(choose_pairs(cell, joints, motion, bodies)),
+      thorough(is_thorough) {}
 
 void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::uint64_t line, PieceFindings& found) {
   for (std::size_t at = 0; at < scene.joints.size(); ++at) {
@@ -54,14 +61,15 @@ void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::u
 
 PieceReplay::PieceReplay(const ReplayScene& scene)
     : scene_(scene),
-      voxel_mm_(1000 * scene.grid.voxel_m),
-      material_(scene.voxels.stock, voxel_mm_),
-      tool_(scene.cell, scene.tool, scene.motion, scene.bodies, material_, voxel_mm_),
-      links_(scene.cell, scene.motion, scene.bodies, scene.pairs.checked, material_, voxel_mm_) {}
+      material_(scene.voxels.stock, 1000 * scene.grid.voxel_m, scene.thorough),
+      tool_(scene.cell, scene.tool, scene.motion, scene.bodies, material_),
+      links_(scene.cell, scene.motion, scene.bodies, scene.pairs.checked, material_) {}
 
 void PieceReplay::skip(const TrajectoryPiece& piece) {
-  for (const Keyframe& keyframe : piece.keyframes)
-    for (const Voxel voxel : run_of(keyframe)) material_.remove(voxel);
+  for (const Keyframe& keyframe : piece.keyframes) {
+    const Run run(keyframe);
+    for (int part = 0; part < run.length(); ++part) material_.remove(run[part]);
+  }
 }
 
 PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::function<void()>& step) {
@@ -69,11 +77,11 @@ PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::funct
   step_ = &step;
   line_ = piece.first_line;
   // What this worker proved before depends on which pieces it got.
-  const bool in_limits =
-      within_limits(piece.from) &&
+  const bool prove_ahead =
+      !scene_.thorough && within_limits(piece.from) &&
       std::ranges::all_of(piece.keyframes, [this](const Keyframe& keyframe) { return within_limits(keyframe.q); });
-  links_.look_ahead(piece, in_limits);
-  tool_.look_ahead(piece, in_limits);
+  links_.look_ahead(piece, prove_ahead);
+  tool_.look_ahead(piece, prove_ahead);
   const Configuration* from = &piece.from;
   for (index_ = 0; index_ < piece.keyframes.size(); ++index_, ++line_) {
     const Keyframe& keyframe = piece.keyframes[index_];
@@ -96,7 +104,7 @@ bool PieceReplay::within_limits(const Configuration& q) const {
 void PieceReplay::replay_keyframe(const Configuration& from, const Keyframe& keyframe) {
   // Out of its limits a joint can be anywhere: the finding is made, and a replay could take for ever.
   const bool possible = within_limits(from) && within_limits(keyframe.q);
-  const JointMotion whole{from, keyframe.q - from};
+  const JointMotion whole(from, keyframe.q);
   if (possible && run_length(keyframe) > 1) {
     (*step_)();
     if (run_is_free(whole, keyframe)) return;
@@ -108,32 +116,31 @@ void PieceReplay::replay_keyframe(const Configuration& from, const Keyframe& key
 // it; in between, the tool must keep off what it has yet to cut. Where this cannot be proved nothing is said: the parts
 // of the run then decide.
 bool PieceReplay::run_is_free(const JointMotion& motion, const Keyframe& keyframe) {
-  const std::vector<Voxel> run = run_of(keyframe);
-  for (const Voxel voxel : run)
-    if (scene_.voxels.label(voxel) != Label::remove || !material_.contains(voxel)) return false;
+  const Run run(keyframe);
+  for (int part = 0; part < run.length(); ++part)
+    if (scene_.voxels.label(run[part]) != Label::remove || !material_.contains(run[part])) return false;
   if (!tool_.keeps_off_the_rest(motion, keyframe.first, keyframe.last, 1000 * scene_.header.tolerance_m)) return false;
   bool free = true;
   const auto on_contact = [&free](const std::string&, double) { free = false; };
   links_.replay(index_, motion, on_contact);
   if (!free) return false;
-  for (const Voxel voxel : run) material_.remove(voxel);
+  for (int part = 0; part < run.length(); ++part) material_.remove(run[part]);
   tool_.replay(index_, motion, on_contact);
   if (free) {
-    found_.voxels_checked += run.size();
+    found_.voxels_checked += static_cast<std::uint64_t>(run.length());
   } else {
-    for (const Voxel voxel : run) material_.put_back(voxel);
+    for (int part = 0; part < run.length(); ++part) material_.put_back(run[part]);
   }
   return free;
 }
 
 void PieceReplay::replay_parts(const JointMotion& whole, const Keyframe& keyframe, bool possible) {
-  const std::vector<Voxel> run = run_of(keyframe);
-  const std::size_t parts = std::max<std::size_t>(1, run.size());
-  for (std::size_t part = 0; part < parts; ++part) {
+  const Run run(keyframe);
+  const int parts = std::max(1, run.length());
+  for (int part = 0; part < parts; ++part) {
     (*step_)();
-    const double begin = static_cast<double>(part) / static_cast<double>(parts),
-                 end = static_cast<double>(part + 1) / static_cast<double>(parts);
-    const JointMotion motion{whole.at(begin), whole.at(end) - whole.at(begin)};
+    const double begin = static_cast<double>(part) / parts, end = static_cast<double>(part + 1) / parts;
+    const JointMotion motion(whole.at(begin), whole.at(end));
     const auto on_contact = [&](const std::string& what, double t) {
       find(what + " at " + text(100 * (begin + t * (end - begin))) + " % of the motion to this keyframe");
     };

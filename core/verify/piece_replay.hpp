@@ -14,7 +14,8 @@ namespace sculpt {
 
 /// What all workers of a replay share; nobody changes it.
 struct ReplayScene {
-  ReplayScene(const Cell& cell, const VoxelGrid& voxels, const TrajectoryHeader& header, std::vector<int> joints);
+  ReplayScene(const Cell& cell, const VoxelGrid& voxels, const TrajectoryHeader& header, std::vector<int> joints,
+              bool thorough);
 
   const Cell& cell;
   const VoxelGrid& voxels;
@@ -25,6 +26,7 @@ struct ReplayScene {
   LinkMotion motion;
   std::vector<SolidBody> bodies;
   CheckedPairs pairs;
+  bool thorough;  ///< FCL decides all, motion by motion
 };
 
 /// Finds the joints of `q` outside their limits.
@@ -42,7 +44,7 @@ class PieceReplay {
   /// `step` is called before every motion or part of one; what it throws passes through.
   PieceFindings replay(const TrajectoryPiece& piece, const std::function<void()>& step);
 
-  const VoxelSet& left() const { return material_.voxels(); }
+  VoxelSet left() const { return material_.voxels(); }
 
  private:
   bool within_limits(const Configuration& q) const;
@@ -53,7 +55,6 @@ class PieceReplay {
   void find(std::string sentence) { found_.find(line_, std::move(sentence)); }
 
   const ReplayScene& scene_;
-  double voxel_mm_;
   StandingVoxels material_;
   ToolReplay tool_;
   LinkReplay links_;

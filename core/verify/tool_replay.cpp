@@ -23,45 +23,78 @@ Frame along(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& motion,
-                       const std::vector<SolidBody>& bodies, const StandingVoxels& material, double voxel_mm)
+                       const std::vector<SolidBody>& bodies, const StandingVoxels& material)
     : cell_(cell),
       motion_(motion),
       material_(material),
-      voxel_(voxel_mm),
+      voxel_(material.voxel_mm()),
       ball_(mm * tool.ball_radius_m),
       shank_(mm * tool.shank_radius_m),
       stickout_(mm * tool.stickout_m) {
   const Around around{cell.tool_link, Vec3(0, 0, stickout_ / 2), stickout_ / 2 + std::max(ball_, shank_)};
   const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
-  const Around block{cell.stock_link, Vec3::Zero(), -1};
-  targets_.push_back({nullptr, grid, cell.stock_link, motion.joints_between(cell.stock_link, cell.tool_link),
-                      Vec3::Zero(), Vec3::Constant(material.side_mm()), KeptClearance(motion, around, block)});
+  add_target(motion, {nullptr, 0, grid, cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
+              ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
   for (const SolidBody& body : bodies) {
-    const Around other{body.link, body.pose.translation(), body.radius};
-    Target target{&body,
-                  body.pose,
-                  body.link,
-                  motion.joints_between(body.link, cell.tool_link),
-                  -body.half,
-                  body.half,
-                  KeptClearance(motion, around, other)};
-    if (!target.joints.empty()) targets_.push_back(std::move(target));  // else it moves with the tool
+    if (motion.joints_between(body.link, cell.tool_link).empty()) continue;  // it moves with the tool
+    add_target(motion, {&body, 0, body.pose, body.link, body.pose, -body.half, body.half,
+                ApproachBound(motion, around, {body.link, body.pose.translation(), body.radius})});
   }
 }
 
-Vec3 ToolReplay::ball_at(const Configuration& q) const {
-  return motion_.place(cell_.tool_link, q) * Vec3(0, 0, stickout_);
+void ToolReplay::add_target(const LinkMotion& motion, Target target) {
+  for (target.view = 0; target.view < views_.size(); ++target.view) {
+    const LinkChain still = motion.chain(views_[target.view].link, target.link);
+    if (!still.is_rigid()) continue;
+    target.in_view = still.rigid() * target.pose;
+    break;
+  }
+  if (target.view == views_.size())
+    views_.push_back({target.link, motion.chain(target.link, cell_.tool_link), {}, {}});
+  targets_.push_back(std::move(target));
 }
 
-ToolReplay::Line ToolReplay::line_in(const Target& target, const std::vector<Frame>& poses) const {
-  const Frame tool = (poses[static_cast<std::size_t>(target.link)] * target.pose).inverse() *
-                     poses[static_cast<std::size_t>(cell_.tool_link)];
-  return {tool * Vec3(0, 0, stickout_), tool.translation()};
+Vec3 ToolReplay::ball_at(const Configuration& q) {
+  Placed placed;
+  place(q, views_[targets_.front().view], placed);
+  return placed.line.ball;
 }
 
-ToolReplay::Line ToolReplay::line_in_material(const Configuration& q) const {
-  const Frame tool = targets_.front().pose.inverse() * motion_.place(cell_.tool_link, q);
-  return {tool * Vec3(0, 0, stickout_), tool.translation()};
+void ToolReplay::place(const Configuration& q, const View& view, Placed& placed) const {
+  placed.q = q;
+  view.chain.place(q, placed.place);
+  placed.line = {placed.place.link * Vec3(0, 0, stickout_), placed.place.link.translation()};
+}
+
+void ToolReplay::place_ends(const JointMotion& motion, View& view) const {
+  const auto is_at = [](const Placed& placed, const Configuration& q) {
+    return placed.q.size() == q.size() && placed.q == q;
+  };
+  if (!is_at(view.before, motion.from)) {
+    std::swap(view.before, view.after);
+    if (!is_at(view.before, motion.from)) place(motion.from, view, view.before);
+  }
+  if (!is_at(view.after, motion.to)) place(motion.to, view, view.after);
+}
+
+ToolReplay::Line ToolReplay::seen_from(const Target& target, const Line& line) const {
+  const Frame from_view = target.in_view.inverse();
+  return {from_view * line.ball, from_view * line.top};
+}
+
+// Of any point of the line.
+double ToolReplay::sagitta(const LinkChain& chain, const Placed& start, const Placed& end,
+                           const Configuration& step) const {
+  return chain.sagitta(start.place, end.place, step, Vec3(0, 0, stickout_), Vec3::Zero());
+}
+
+// Whether this can be told from the ends of the motion.
+bool ToolReplay::is_clear(const Target& target, const JointMotion& motion) const {
+  const View& view = views_[target.view];
+  const Sweep sweep{seen_from(target, view.before.line), seen_from(target, view.after.line),
+                    sagitta(view.chain, view.before, view.after, motion.step)};
+  return !ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + slack_mm) &&
+         !(has_shank() && swept_shank_meets(target, sweep));
 }
 
 bool ToolReplay::touches(const Target& target, const fcl::CollisionGeometryd& part, const Frame& pose, const Vec3& low,
@@ -122,35 +155,32 @@ bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) con
   return shank_meets(target, middle, way + slack_mm, way + 1.1 * tilt * shank_ + slack_mm);
 }
 
-ToolReplay::Finding ToolReplay::settle(const Task& task, const std::vector<Frame>& start,
-                                       const std::vector<Frame>& middle, const std::vector<Frame>& end,
-                                       const Configuration& steps) const {
+ToolReplay::Finding ToolReplay::settle(const Task& task, const Placed& start, const Placed& middle, const Placed& end,
+                                       const Configuration& step) const {
   const Target& target = *task.target;
-  Sweep sweep{line_in(target, start), line_in(target, end), line_in(target, middle), 0};
-  const Frame& tool = middle[static_cast<std::size_t>(cell_.tool_link)];
-  sweep.sagitta = sagitta_bound(target.joints, middle, steps, tool * Vec3(0, 0, stickout_));
+  const Sweep sweep{seen_from(target, start.line), seen_from(target, end.line),
+                    sagitta(views_[target.view].chain, start, end, step)};
   double way = (sweep.end.ball - sweep.start.ball).norm() / 2;
+  const Line half_way = seen_from(target, middle.line);
   if (task.shank) {
-    sweep.sagitta = std::max(sweep.sagitta, sagitta_bound(target.joints, middle, steps, tool.translation()));
     way = std::max(way, (sweep.end.top - sweep.start.top).norm() / 2);
     if (!swept_shank_meets(target, sweep)) return Finding::free;
-    if (shank_meets(target, sweep.middle, 0, 0)) return Finding::touches;
+    if (shank_meets(target, half_way, 0, 0)) return Finding::touches;
   } else {
     if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + slack_mm)) return Finding::free;
-    if (ball_meets(target, sweep.middle.ball, sweep.middle.ball, 0)) return Finding::touches;
+    if (ball_meets(target, half_way.ball, half_way.ball, 0)) return Finding::touches;
   }
   return way + sweep.sagitta < too_close_voxels * voxel_ ? Finding::too_close : Finding::unknown;
 }
 
-void ToolReplay::certify(const JointMotion& motion, double from, double to, const std::vector<Frame>& start,
-                         const std::vector<Frame>& end, const std::vector<Task>& open,
-                         const OnContact& on_contact) const {
-  const double t = (from + to) / 2;
-  std::vector<Frame> middle;
-  motion_.place_links(motion.at(t), middle);
+void ToolReplay::certify(const Stretch& stretch, const std::vector<Task>& open, const OnContact& on_contact) const {
+  const double t = (stretch.from + stretch.to) / 2;
+  Placed middle;
+  place(stretch.motion.at(t), stretch.view, middle);
   std::vector<Task> left;
   for (const Task& task : open) {
-    const Finding finding = settle(task, start, middle, end, (to - from) / 2 * motion.step);
+    const Finding finding = settle(task, stretch.start, middle, stretch.end,
+                                   (stretch.to - stretch.from) * stretch.motion.step);
     if (finding == Finding::free) continue;
     if (finding == Finding::unknown) {
       left.push_back(task);
@@ -163,41 +193,52 @@ void ToolReplay::certify(const JointMotion& motion, double from, double to, cons
     on_contact(names + (finding == Finding::touches ? " touch" : " are too close to prove that they do not touch"), t);
   }
   if (left.empty()) return;
-  certify(motion, from, t, start, middle, left, on_contact);
-  certify(motion, t, to, middle, end, left, on_contact);
+  certify({stretch.motion, stretch.view, stretch.from, t, stretch.start, middle}, left, on_contact);
+  certify({stretch.motion, stretch.view, t, stretch.to, middle, stretch.end}, left, on_contact);
 }
 
 // What still stands of the run lies beyond the plane between the voxel being cut and the next one.
-bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxel last, double tolerance_mm) const {
+bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxel last, double tolerance_mm) {
   const Target& material = targets_.front();
+  View& view = views_[material.view];
+  place_ends(motion, view);
   const auto point = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
   const int parts = l1(first, last) + 1;
   const Vec3 way = point(last - first) / (parts - 1);
-  std::vector<Frame> poses;
-  motion_.place_links(motion.at(0.5), poses);
-  const Frame tool = poses[static_cast<std::size_t>(cell_.tool_link)];
-  const auto sagitta_at = [&](const Vec3& at) { return sagitta_bound(material.joints, poses, motion.step / 2, at); };
-  const double whole_sagitta = std::max(sagitta_at(tool * Vec3(0, 0, stickout_)), sagitta_at(tool.translation()));
-  const double room =
-      whole_sagitta / (parts * parts) + slack_mm;  // a part has the same second derivative, and 1/n the time
-
-  Line before = line_in_material(motion.from);
-  for (int part = 0; part < parts; ++part) {
-    const Line after = line_in_material(motion.at(static_cast<double>(part + 1) / parts));
+  const auto stays_off = [&](int part, const Line& before, const Line& after, double off, double room) {
     const Vec3 centre = voxel_ * (point(first) + part * way + Vec3::Constant(0.5));
-    if (!((after.ball - centre).norm() <= tolerance_mm)) return false;
+    if (!((after.ball - centre).norm() + off <= tolerance_mm)) return false;
     const double ball = std::max(way.dot(before.ball), way.dot(after.ball));
     const double shank = std::max({ball, way.dot(before.top), way.dot(after.top)});
     const double reach = std::max(ball + ball_, shank + shank_) + room;
-    if (part + 1 < parts && !(reach <= way.dot(centre) + voxel_ / 2)) return false;
+    return part + 1 == parts || reach <= way.dot(centre) + voxel_ / 2;
+  };
+  const double stray = sagitta(view.chain, view.before, view.after, motion.step);
+  const Line first_line = seen_from(material, view.before.line), last_line = seen_from(material, view.after.line);
+  const auto between = [&](int part) {
+    const double t = static_cast<double>(part) / parts;
+    return Line{first_line.ball + t * (last_line.ball - first_line.ball),
+                first_line.top + t * (last_line.top - first_line.top)};
+  };
+  int part = 0;
+  while (part < parts && stays_off(part, between(part), between(part + 1), stray, stray + slack_mm)) ++part;
+  if (part == parts) return true;
+
+  // A part has the same second derivative, and 1/n the time.
+  const double room = stray / (parts * parts) + slack_mm;
+  Line before = first_line;
+  Placed placed;
+  for (part = 0; part < parts; ++part) {
+    place(motion.at(static_cast<double>(part + 1) / parts), view, placed);
+    const Line after = seen_from(material, placed.line);
+    if (!stays_off(part, before, after, 0, room)) return false;
     before = after;
   }
   return true;
 }
 
-void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool in_limits) {
-  for (Target& target : targets_) target.clearance.forget();
-  if (!in_limits) {
+void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
+  if (!prove_ahead) {
     ahead_ = OpenItems(piece, targets_.size());
     return;
   }
@@ -205,53 +246,33 @@ void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool in_limits) {
                      [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
                        const Target& target = targets_[at];
                        return target.body == nullptr ||
-                              comes_near(target, poses, target.clearance.approach(poses, half) + slack_mm);
+                              comes_near(target, poses, target.approach.at(poses, half) + slack_mm);
                      });
 }
 
 // Of a capsule around ball and shank.
 bool ToolReplay::comes_near(const Target& target, const std::vector<Frame>& poses, double grow) const {
-  const Line line = line_in(target, poses);
-  return ball_meets(target, line.ball, line.top, std::max(ball_, shank_) - ball_ + grow);
-}
-
-// Where the motion ended.
-void ToolReplay::renew_clearance(Target& target, const std::vector<Frame>& poses, const JointMotion& motion) const {
-  KeptClearance& kept = target.clearance;
-  kept.move_anchor(motion.at(1), poses);
-  const double travel = kept.approach(motion);
-  for (double times : {256, 64, 16, 4}) {
-    if (comes_near(target, poses, times * travel + slack_mm)) continue;
-    kept.prove(times * travel);
-    return;
-  }
-}
-
-// Of the links that the tool is looked at from: all, or just the one that carries the material.
-void ToolReplay::place_ends(const Configuration& q, bool all, std::vector<Frame>& poses) const {
-  if (all) return motion_.place_links(q, poses);
-  poses.resize(cell_.robot.links.size());
-  for (const int link : {cell_.stock_link, cell_.tool_link})
-    poses[static_cast<std::size_t>(link)] = motion_.place(link, q);
+  const Frame tool = (poses[static_cast<std::size_t>(target.link)] * target.pose).inverse() *
+                     poses[static_cast<std::size_t>(cell_.tool_link)];
+  return ball_meets(target, tool * Vec3(0, 0, stickout_), tool.translation(), std::max(ball_, shank_) - ball_ + grow);
 }
 
 void ToolReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {
   if (motion.step.isZero(0)) return;
-  std::vector<Task> open;
-  std::vector<Target*> uncovered;
+  std::vector<std::vector<Task>> open(views_.size());
   for (const std::size_t at : ahead_.of(keyframe)) {
-    Target& target = targets_[at];
-    const bool is_link = target.body != nullptr;
-    if (is_link && (!target.clearance.moved_by(motion) || target.clearance.covers(motion))) continue;
-    if (is_link) uncovered.push_back(&target);
-    open.push_back({&target, false});
-    if (shank_ > 0 && stickout_ > 0) open.push_back({&target, true});
+    const Target& target = targets_[at];
+    View& view = views_[target.view];
+    if (!view.chain.moved_by(motion.step)) continue;
+    place_ends(motion, view);
+    if (!material_.thorough() && is_clear(target, motion)) continue;
+    open[target.view].push_back({&target, false});
+    if (has_shank()) open[target.view].push_back({&target, true});
   }
-  std::vector<Frame> start, end;
-  place_ends(motion.from, !uncovered.empty(), start);
-  place_ends(motion.at(1), !uncovered.empty(), end);
-  certify(motion, 0, 1, start, end, open, on_contact);
-  for (Target* target : uncovered) renew_clearance(*target, end, motion);
+  for (std::size_t at = 0; at < views_.size(); ++at) {
+    const View& view = views_[at];
+    if (!open[at].empty()) certify({motion, view, 0, 1, view.before, view.after}, open[at], on_contact);
+  }
 }
 
 }  // namespace sculpt

@@ -9,7 +9,7 @@
 
 #include "core/trajectory/keyframe.hpp"
 #include "core/trajectory/reader.hpp"
-#include "core/verify/cut_log.hpp"
+#include "core/verify/material/cut_log.hpp"
 
 namespace sculpt {
 

@@ -13,7 +13,7 @@
 
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/reader.hpp"
-#include "core/verify/held_voxels.hpp"
+#include "core/verify/material/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/robot/urdf_differences.hpp"
 #include "core/verify/trajectory_pieces.hpp"
@@ -143,12 +143,12 @@ class Crew {
 
 class Replay {
  public:
-  Replay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, int threads,
+  Replay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, ReplaySettings settings,
          ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note)
       : cell_(cell),
         voxels_(voxels),
         watch_(watch),
-        threads_(threads),
+        settings_(settings),
         done_(std::move(done)),
         note_(note),
         reader_(in),
@@ -203,11 +203,11 @@ class Replay {
   }
 
   void replay_keyframes() {
-    const ReplayScene scene(cell_, voxels_, header(), joints_);
+    const ReplayScene scene(cell_, voxels_, header(), joints_, settings_.thorough);
     verdict_.exempt_pairs = scene.pairs.exempt;
     for (const std::string& contact : scene.pairs.contacts) find(contact);
     find_broken_limits(scene, header().home, reader_.line(), found_);
-    Crew crew(reader_, scene, watch_, std::max(1, threads_), std::move(done_), note_);
+    Crew crew(reader_, scene, watch_, std::max(1, settings_.threads), std::move(done_), note_);
     crew.run();
     found_.add(std::move(crew.found()));
     verdict_.left = std::move(crew.left());
@@ -236,7 +236,7 @@ class Replay {
   const Cell& cell_;
   const VoxelGrid& voxels_;
   const Watch& watch_;
-  const int threads_;
+  const ReplaySettings settings_;
   ReplayedPieces done_;
   const std::function<void(const ReplayedPieces&)>& note_;
   TrajectoryReader reader_;
@@ -247,9 +247,9 @@ class Replay {
 
 }  // namespace
 
-Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch, int threads,
-                          ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note) {
-  return Replay(in, cell, voxels, watch, threads, std::move(done), note).run();
+Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
+                          ReplaySettings settings, ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note) {
+  return Replay(in, cell, voxels, watch, settings, std::move(done), note).run();
 }
 
 }  // namespace sculpt

@@ -25,17 +25,21 @@ struct Verdict {
   std::vector<ExemptPair> exempt_pairs;  ///< links with shapes that were not kept apart
 };
 
-/// Replays the ndjson trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell
+struct ReplaySettings {
+  int threads = 1;        ///< each has a material of its own; the verdict is the same at any number
+  bool thorough = false;  ///< FCL and octomap decide all, motion by motion; slow, and of the same verdict
+};
+
+/// Replays the trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell
 /// and grid, start and end at home, joint limits kept, every removed voxel a remove voxel removed once with the ball
 /// within tolerance of its centre, no contact of tool or link with material, room or itself at any time (the tool may
-/// touch the voxel being cut, nothing else may), nothing of keep removed; and, unless the
-/// chain only translates and the header does not say `held`, no removal frees a piece of the material that the table
-/// held, but for parts of the target that nothing can hold. Throws InputError
-/// `trajectory_invalid` for text that is no trajectory; Cancelled. The verdict is the same at any number of threads
-/// (each one has a material of its own); `watch` is told from the calling one. `note` is told how far it is after each
-/// piece, from any of them but one at a time; with that as `done` a replay of the same trajectory goes on from there.
+/// touch the voxel being cut, nothing else may), nothing of keep removed; and, unless the chain only translates and the
+/// header does not say `held`, no removal frees a piece of the material that the table held, but for parts of the
+/// target that nothing can hold. Throws InputError `trajectory_invalid` for text that is no trajectory; Cancelled.
+/// `watch` is told from the calling thread. `note` is told how far it is after each piece, from any thread but one at a
+/// time; with that as `done` a replay of the same trajectory goes on from there.
 Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
-                          int threads = 1, ReplayedPieces done = {},
+                          ReplaySettings settings = {}, ReplayedPieces done = {},
                           const std::function<void(const ReplayedPieces&)>& note = {});
 
 }  // namespace sculpt

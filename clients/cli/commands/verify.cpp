@@ -32,7 +32,7 @@ struct VerifyOptions {
   std::string mesh, robot;
   std::optional<int> resolution;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  bool json = false;
+  bool json = false, thorough = false;
   PlacementOptions placement;
 };
 
@@ -105,7 +105,7 @@ int verify_file(const VerifyOptions& options) {
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   check_resolution(job.resolution);
   const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
-  const Verdict verdict = verify_trajectory(*trajectory, cell, voxels, watch, options.threads);
+  const Verdict verdict = verify_trajectory(*trajectory, cell, voxels, watch, {options.threads, options.thorough});
   progress.clear();
   return print_verdict(options, to_json(options, verdict));
 }
@@ -136,6 +136,8 @@ void add_verify(CLI::App& app, Invocation& invocation) {
       ->required();
   command.add_option("--mesh", options->mesh, "FILE only: the sculpture that was planned")->type_name("MESH");
   command.add_option("--robot", options->robot, "FILE only: the cell that it was planned for")->type_name("CELL");
+  command.add_flag("--thorough", options->thorough,
+                   "FILE only: FCL and octomap decide all, motion by motion; slow, and of the same verdict");
   command.add_option("--resolution", options->resolution, "FILE only: default is what the file's header says")
       ->type_name("N");
   command.add_option("--threads", options->threads, "FILE only: worker threads; the verdict is the same at any number")

@@ -71,15 +71,29 @@ Frame LinkMotion::move(const Step& step, const Configuration& q) {
   return local;
 }
 
-Frame LinkMotion::from_root(int link, const Configuration& q) const {
-  const int joint = robot_->links[static_cast<std::size_t>(link)].parent_joint;
-  if (joint < 0) return Frame::Identity();
-  const Step& step = steps_[static_cast<std::size_t>(joint)];
-  return from_root(step.parent, q) * move(step, q);
-}
-
-Frame LinkMotion::place(int link, const Configuration& q) const {
-  return from_root(stock_link_, q).inverse() * from_root(link, q);
+LinkChain LinkMotion::chain(int from, int to) const {
+  LinkChain chain;
+  Frame still = Frame::Identity();
+  int here = from;
+  for (const int joint : path(*robot_, from, to)) {
+    const Step& step = steps_[static_cast<std::size_t>(joint)];
+    const bool outwards = step.parent == here;
+    here = outwards ? step.child : step.parent;
+    if (step.coordinate < 0) {
+      const Frame moved = move(step, {});
+      still = still * (outwards ? moved : moved.inverse());
+      continue;
+    }
+    const Frame along(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), step.axis));
+    if (outwards) still = still * step.origin;
+    const double sign = outwards ? 1 : -1;
+    chain.hops_.push_back(
+        {still * along, step.kind == JointKind::revolute, step.coordinate, sign * step.rate, sign * step.constant});
+    still = along.inverse();
+    if (!outwards) still = still * step.origin.inverse();
+  }
+  chain.after_ = still;
+  return chain;
 }
 
 std::vector<int> LinkMotion::path(const Robot& robot, int from, int to) {
@@ -115,26 +129,6 @@ double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Fr
                     const Vec3& centre, double radius) {
   return motion_limit(joints, lever_arms(joints, poses, centre, radius),
                       [&](int coordinate) { return std::abs(steps[coordinate]); });
-}
-
-// The second derivative by two joints is the turn of the nearer one applied to the velocity that the farther one gives,
-// so it is at most (step of the nearer) * (speed by the farther); a shift nearer than the other joint does not bend
-// anything.
-double sagitta_bound(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
-                     const Configuration& steps, const Vec3& centre) {
-  double turning = 0;  // steps of all turning joints nearer than the current one
-  for (const MovingJoint& joint : joints)
-    if (joint.turns) turning += std::abs(joint.rate * steps[joint.coordinate]);
-  double moved = 0, second = 0;
-  for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
-    const double step = std::abs(joint->rate * steps[joint->coordinate]);
-    if (step == 0) continue;
-    if (joint->turns) turning -= step;
-    const double speed = joint->turns ? step * (axis_distance(*joint, poses, centre) + moved) : step;
-    second += speed * (2 * std::max(turning, 0.0) + (joint->turns ? step : 0));
-    moved += speed;
-  }
-  return second / 2;
 }
 
 }  // namespace sculpt

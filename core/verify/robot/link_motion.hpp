@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cell/cell.hpp"
+#include "core/verify/robot/link_chain.hpp"
 
 namespace sculpt {
 
@@ -26,8 +27,8 @@ class LinkMotion {
   /// Pose of every link; `poses` is resized.
   void place_links(const Configuration& q, std::vector<Frame>& poses) const;
 
-  /// The same of one link only, bit by bit.
-  Frame place(int link, const Configuration& q) const;
+  /// From the one link to the other.
+  LinkChain chain(int from, int to) const;
 
   /// The moving joints on the tree path from one link to another, nearest to `from` first.
   std::vector<MovingJoint> joints_between(int from, int to) const;
@@ -46,7 +47,6 @@ class LinkMotion {
   };
 
   static Frame move(const Step& step, const Configuration& q);
-  Frame from_root(int link, const Configuration& q) const;
 
   const Robot* robot_;
   int stock_link_;
@@ -74,11 +74,5 @@ double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<do
 /// The same, from where `poses` are.
 double motion_limit(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses, const Configuration& steps,
                     const Vec3& centre, double radius);
-
-/// Bound on how far the point `centre` strays from the straight line between its two end positions while the
-/// coordinates move linearly by 2 * steps, with `poses` half-way: half the largest second derivative. 0 where all
-/// joints are prismatic.
-double sagitta_bound(const std::vector<MovingJoint>& joints, const std::vector<Frame>& poses,
-                     const Configuration& steps, const Vec3& centre);
 
 }  // namespace sculpt

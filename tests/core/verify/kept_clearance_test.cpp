@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/verify/standing_voxels.hpp"
+#include "core/verify/material/standing_voxels.hpp"
 #include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {

@@ -138,7 +138,7 @@ TEST(RandomFaults, AreFoundExactlyWhenTheyDoHarm) {
       Breaker{random, program.keyframes}.apply(fault, program.voxel_m());
       const Harm harm = sample(program, program.header(), land.voxels);
       std::istringstream in(program.text());
-      const Verdict verdict = verify_trajectory(in, cell, land.voxels, {}, 1 + static_cast<int>(seed % 3));
+      const Verdict verdict = verify_trajectory(in, cell, land.voxels, {}, {1 + static_cast<int>(seed % 3)});
       if (harm.wrong || harm.least_gap < -0.01) {
         EXPECT_FALSE(verdict.clean) << harm.least_gap;
         ++harmful[fault];

@@ -28,7 +28,7 @@ GantryProgram long_program(const Cell& cell, const Landscape& land, std::size_t 
 
 Verdict verdict_of(const std::string& text, const Cell& cell, const VoxelGrid& voxels, int threads) {
   std::istringstream in(text);
-  return verify_trajectory(in, cell, voxels, {}, threads);
+  return verify_trajectory(in, cell, voxels, {}, {threads});
 }
 
 void expect_same(const Verdict& a, const Verdict& b) {
@@ -96,7 +96,7 @@ TEST(Threads, BrokenTextAndAStopEndAllOfThem) {
                         if (++told == told_last) source.request_stop();
                       }};
     std::istringstream in(text);
-    EXPECT_THROW(verify_trajectory(in, cell, land.voxels, watch, threads), Cancelled);
+    EXPECT_THROW(verify_trajectory(in, cell, land.voxels, watch, {threads}), Cancelled);
     EXPECT_EQ(told, told_last);
   }
 }

@@ -1,4 +1,4 @@
-#include "core/verify/held_voxels.hpp"
+#include "core/verify/material/held_voxels.hpp"
 
 #include <algorithm>
 #include <utility>

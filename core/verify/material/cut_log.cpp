@@ -1,8 +1,8 @@
-#include "core/verify/cut_log.hpp"
+#include "core/verify/material/cut_log.hpp"
 
 #include <algorithm>
 
-#include "core/verify/held_voxels.hpp"
+#include "core/verify/material/held_voxels.hpp"
 
 namespace sculpt {
 namespace {

@@ -1,5 +1,5 @@
 // What comes loose, against a flood after every single voxel.
-#include "core/verify/held_voxels.hpp"
+#include "core/verify/material/held_voxels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "core/material/loose_pieces.hpp"
-#include "core/verify/cut_log.hpp"
+#include "core/verify/material/cut_log.hpp"
 #include "tests/core/material/shapes.hpp"
 
 namespace sculpt {
