@@ -40,11 +40,11 @@ void LinkReplay::add_pair(const SolidBody& first, const SolidBody* second) {
   const Around around{first.link, first.pose.translation(), first.radius};
   if (second == nullptr) {
     const Around block{cell_.stock_link, Vec3::Zero(), -1};
-    pairs_.push_back({&first, nullptr, KeptClearance({motion_, around, block}), first_is_mesh});
+    pairs_.push_back({&first, nullptr, KeptClearance({motion_, around, block}), first_is_mesh, {}});
     return;
   }
   const Around other{second->link, second->pose.translation(), second->radius};
-  pairs_.push_back({&first, second, KeptClearance({motion_, around, other}), first_is_mesh});
+  pairs_.push_back({&first, second, KeptClearance({motion_, around, other}), first_is_mesh, {}});
 }
 
 double LinkReplay::sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const {
@@ -71,6 +71,9 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
   if (pair.second == nullptr) return near_material(*pair.first, link_pose, grow);
   const Frame pose = link_pose * pair.first->pose;
   const Frame other = poses[static_cast<std::size_t>(pair.second->link)] * pair.second->pose;
+  const Frame seen = pose.inverse() * other;
+  if (fcl::obbDisjoint<double>(seen.linear(), seen.translation(), pair.first->half.array() + grow, pair.second->half))
+    return false;
   return any_part(*pair.first, grow, [&](const fcl::CollisionGeometryd& part, const Frame& at) {
     return any_part(*pair.second, 0, [&](const fcl::CollisionGeometryd& second, const Frame&) {
       return solids_touch(part, pose * at, second, other);
@@ -128,11 +131,28 @@ void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
     ahead_ = OpenItems(piece, pairs_.size());
     return;
   }
-  ahead_ = OpenItems(motion_, piece, pairs_.size(),
-                     [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
-                       const Pair& pair = pairs_[at];
-                       return near(pair, poses, pair.clearance.bound().at(poses, half) + slack_mm);
-                     });
+  ahead_ = OpenItems(motion_, piece, pairs_.size(), [this](std::size_t at, const OpenItems::Box& box) {
+    return may_touch_in(pairs_[at], box);
+  });
+}
+
+bool LinkReplay::may_touch_in(Pair& pair, const OpenItems::Box& box) const {
+  const ApproachBound& bound = pair.clearance.bound();
+  if (!near(pair, box.poses, bound.at(box.poses, box.half) + slack_mm)) return false;
+  const std::vector<MovingJoint>& joints = bound.joints();
+  const int coordinate = joints.empty() ? 0 : joints.front().coordinate;
+  const bool moved_by_one = std::ranges::all_of(joints, [&](const auto& one) { return one.coordinate == coordinate; });
+  if (pair.second == nullptr || !moved_by_one) return true;
+  const auto is_free = [&](double middle, double half) {
+    Configuration at = Configuration::Zero(box.middle.size()), steps = at;
+    at[coordinate] = middle;
+    steps[coordinate] = half;
+    std::vector<Frame> poses;
+    motion_.place_links(at, poses);
+    return !near(pair, poses, bound.at(poses, steps) + slack_mm);
+  };
+  const double middle = box.middle[coordinate], half = box.half[coordinate];
+  return !pair.ranges.hold(middle - half, middle + half, is_free);
 }
 
 void LinkReplay::replay(std::size_t keyframe, const JointMotion& motion, const OnContact& on_contact) {

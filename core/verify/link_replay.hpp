@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/verify/free_ranges.hpp"
 #include "core/verify/kept_clearance.hpp"
 #include "core/verify/open_items.hpp"
 #include "core/verify/replay_finding.hpp"
@@ -35,13 +36,15 @@ class LinkReplay {
     const SolidBody* first;
     const SolidBody* second;  // null: the material
     KeptClearance clearance;
-    bool sampled;  // a mesh against a mesh or the material
+    bool sampled;       // a mesh against a mesh or the material
+    FreeRanges ranges;  // of the coordinate that moves them, where there is only one
   };
 
   void add_pair(const SolidBody& first, const SolidBody* second);
   double sphere_gap(const Pair& pair, const std::vector<Frame>& poses) const;
   bool near(const Pair& pair, const std::vector<Frame>& poses, double grow) const;
   bool near_material(const SolidBody& body, const Frame& pose, double grow) const;
+  bool may_touch_in(Pair& pair, const OpenItems::Box& box) const;
   void certify(const JointMotion& motion, double middle, double half, const std::vector<Pair*>& open,
                const OnContact& on_contact) const;
   /// True when the pair needs a closer look at the two halves of the interval.

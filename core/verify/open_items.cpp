@@ -42,12 +42,11 @@ void OpenItems::find(const Trial& trial, std::size_t first, std::size_t end, con
     low = low.cwiseMin(trial.piece.keyframes[keyframe].q);
     high = high.cwiseMax(trial.piece.keyframes[keyframe].q);
   }
-  std::vector<Frame> poses;
-  trial.motion.place_links((low + high) / 2, poses);
-  const Configuration half = (high - low) / 2;
+  Box box{(low + high) / 2, (high - low) / 2, {}};
+  trial.motion.place_links(box.middle, box.poses);
   std::vector<std::size_t> open;
   for (const std::size_t item : items)
-    if (trial.may_touch(item, poses, half)) open.push_back(item);
+    if (trial.may_touch(item, box)) open.push_back(item);
   if (open.empty()) return;
   if (end - first == 1) {
     open_[first] = std::move(open);

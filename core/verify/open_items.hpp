@@ -14,9 +14,13 @@ namespace sculpt {
 /// then halves of it for those that are still open, down to a few keyframes.
 class OpenItems {
  public:
-  /// Could this item touch something while the coordinates are no more than `half` from where the links are at `poses`?
-  /// A "no" must be certain.
-  using MayTouch = std::function<bool(std::size_t item, const std::vector<Frame>& poses, const Configuration& half)>;
+  /// Configurations no more than `half` from the middle.
+  struct Box {
+    Configuration middle, half;
+    std::vector<Frame> poses;  ///< of the links, in the middle
+  };
+  /// Could this item touch something in the box? A "no" must be certain.
+  using MayTouch = std::function<bool(std::size_t item, const Box& box)>;
 
   OpenItems() = default;
   /// Nothing is proved: all of them are open all along.

@@ -243,10 +243,10 @@ void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
     return;
   }
   ahead_ = OpenItems(motion_, piece, targets_.size(),
-                     [this](std::size_t at, const std::vector<Frame>& poses, const Configuration& half) {
+                     [this](std::size_t at, const OpenItems::Box& box) {
                        const Target& target = targets_[at];
                        return target.body == nullptr ||
-                              comes_near(target, poses, target.approach.at(poses, half) + slack_mm);
+                              comes_near(target, box.poses, target.approach.at(box.poses, box.half) + slack_mm);
                      });
 }
 

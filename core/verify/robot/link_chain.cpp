@@ -61,7 +61,9 @@ LinkChain::Drive LinkChain::drive(const Place& place, const Configuration& step)
 // most the product of their rates and the distance from the axis of the farthest of them: over all choices of n, with
 // S_k the sum of rates up to the k-th joint, (S_k^n - S_(k-1)^n) times that distance. A joint that shifts has only a
 // first derivative, in n places among those of nearer ones.
-double LinkChain::fourth_derivative(const Place& place, const Configuration& step, const Vec3& point) const {
+double LinkChain::fourth_derivative(const Place& place, const Configuration& step, const Vec3& a,
+                                    const Vec3& b) const {
+  const auto fourth_power = [](double x) { return x * x * x * x; };
   double moved = 0, turning = 0, bound = 0;
   for (std::size_t joint = hops_.size(); joint-- > 0;)
     if (hops_[joint].turns) turning += std::abs(hops_[joint].rate * step[hops_[joint].coordinate]);
@@ -75,9 +77,10 @@ double LinkChain::fourth_derivative(const Place& place, const Configuration& ste
       continue;
     }
     // Where the joint is on its way the point may be nearer or farther by what the farther joints move it.
-    const double arm = place.axes[joint].way.cross(point - place.axes[joint].at).norm() + moved;
+    const auto& [at, way] = place.axes[joint];
+    const double arm = std::sqrt(std::max(way.cross(a - at).squaredNorm(), way.cross(b - at).squaredNorm())) + moved;
     const double nearer = std::max(0.0, turning - rate);
-    bound += (std::pow(turning, 4) - std::pow(nearer, 4)) * arm;
+    bound += (fourth_power(turning) - fourth_power(nearer)) * arm;
     turning = nearer;
     moved += rate * arm;
   }
@@ -89,13 +92,11 @@ double LinkChain::fourth_derivative(const Place& place, const Configuration& ste
 double LinkChain::sagitta(const Place& start, const Place& end, const Configuration& step, const Vec3& a,
                           const Vec3& b) const {
   const Drive first = drive(start, step), last = drive(end, step);
-  double largest = 0, fourth = 0;
-  for (const Vec3& point : {a, b}) {
-    const Vec3 there = end.link * point;
-    largest = std::max({largest, first.acceleration_of(start.link * point).norm(), last.acceleration_of(there).norm()});
-    fourth = std::max(fourth, fourth_derivative(end, step, there));
-  }
-  return (largest + fourth / 8) / 8;
+  const Vec3 a_there = end.link * a, b_there = end.link * b;
+  const double largest = std::max({first.acceleration_of(start.link * a).norm(),
+                                   first.acceleration_of(start.link * b).norm(), last.acceleration_of(a_there).norm(),
+                                   last.acceleration_of(b_there).norm()});
+  return (largest + fourth_derivative(end, step, a_there, b_there) / 8) / 8;
 }
 
 bool LinkChain::moved_by(const Configuration& step) const {

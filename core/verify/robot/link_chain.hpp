@@ -46,7 +46,7 @@ class LinkChain {
   struct Drive;
 
   Drive drive(const Place& place, const Configuration& step) const;
-  double fourth_derivative(const Place& place, const Configuration& step, const Vec3& point) const;
+  double fourth_derivative(const Place& place, const Configuration& step, const Vec3& a, const Vec3& b) const;
 
   std::vector<Hop> hops_;
   Frame after_ = Frame::Identity();

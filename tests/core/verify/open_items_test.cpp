@@ -42,8 +42,9 @@ TEST(OpenItems, LeaveOutNoBallThatAMotionPasses) {
     for (int ball = 0; ball < 20; ++ball) balls.push_back(1000 * place());
     constexpr double radius_mm = 250;
     const OpenItems items(motion, piece, balls.size(),
-                          [&](std::size_t ball, const std::vector<Frame>& poses, const Configuration& half) {
-                            return (poses[3].translation() - balls[ball]).norm() <= radius_mm + 1000 * half.norm();
+                          [&](std::size_t ball, const OpenItems::Box& box) {
+                            EXPECT_LT((box.poses[3].translation() - 1000 * box.middle).norm(), 1e-6);
+                            return (1000 * box.middle - balls[ball]).norm() <= radius_mm + 1000 * box.half.norm();
                           });
     for (std::size_t keyframe = 0; keyframe < keyframes; ++keyframe) {
       const Configuration& from = keyframe == 0 ? piece.from : piece.keyframes[keyframe - 1].q;
@@ -77,7 +78,7 @@ TEST(OpenItems, OfAnEmptyPieceAreNotAsked) {
   const LinkMotion motion(slides.cell.robot, {0, 1, 2}, slides.cell.rest, 0);
   TrajectoryPiece piece;
   piece.from = Vec3::Zero();
-  OpenItems(motion, piece, 3, [](std::size_t, const std::vector<Frame>&, const Configuration&) {
+  OpenItems(motion, piece, 3, [](std::size_t, const OpenItems::Box&) {
     ADD_FAILURE() << "asked";
     return true;
   });

@@ -98,21 +98,6 @@ Eigen::Matrix4d pose_by_matrices(const Sample& sample, int link, const Configura
   return pose;
 }
 
-TEST(LinkMotion, PlacesOneLinkAsItPlacesAll) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    const Cell cell = random_cell(random);
-    const LinkMotion motion(cell.robot, {0, 1, 2, 3, 4, 5, 6, 7}, cell.rest, static_cast<int>(seed % 10));
-    Configuration q(8);
-    for (double& value : q) value = random.between(-2, 2);
-    std::vector<Frame> poses;
-    motion.place_links(q, poses);
-    for (int link = 0; link < 10; ++link)
-      ASSERT_TRUE(motion.place(link, q).matrix() == poses[static_cast<std::size_t>(link)].matrix()) << "link " << link;
-  }
-}
-
 TEST(LinkMotion, AgreesWithPlainMatrixProducts) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -175,32 +160,68 @@ TEST(MotionLimit, IsNeverExceededAndNotIdle) {
   EXPECT_LT(tightest, 1.2);
 }
 
-TEST(BendLimit, IsNeverExceededAndZeroWithoutTurns) {
+TEST(LinkChain, PlacesALinkAsTheTreeDoes) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Sample sample(seed);
+    const std::vector<Frame> poses = sample.poses(0);
+    for (int base = 0; base < 10; ++base)
+      for (int link = 0; link < 10; ++link) {
+        const LinkChain chain = sample.motion.chain(base, link);
+        LinkChain::Place place;
+        chain.place(sample.from, place);
+        const Frame expected = poses[static_cast<std::size_t>(base)].inverse() * poses[static_cast<std::size_t>(link)];
+        EXPECT_LT((place.link.matrix() - expected.matrix()).norm(), 1e-9);
+        const auto joints = sample.motion.joints_between(base, link);
+        EXPECT_EQ(chain.is_rigid(), joints.empty());
+        if (chain.is_rigid()) {
+          EXPECT_LT((chain.rigid().matrix() - expected.matrix()).norm(), 1e-9);
+        }
+        for (Eigen::Index at = 0; at < sample.from.size(); ++at) {
+          Configuration step = Configuration::Zero(sample.from.size());
+          step[at] = 1;
+          EXPECT_EQ(chain.moved_by(step),
+                    std::ranges::any_of(joints, [&](const MovingJoint& joint) { return joint.coordinate == at; }));
+        }
+      }
+  }
+}
+
+// Sampled, all points of a segment; small motions and large ones.
+TEST(LinkChain, NothingStraysFromTheStraightWayByMoreThanItsSagitta) {
   double tightest = 1e9;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Sample sample(seed);
-    const std::vector<Frame> start = sample.poses(0), middle = sample.poses(0.5), end = sample.poses(1);
-    const Vec3 local =
-        200 * Vec3(sample.random.between(-1, 1), sample.random.between(-1, 1), sample.random.between(-1, 1));
+    const double share = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 0.2 : 0.02;
+    const Configuration step = share * sample.step, to = sample.from + step;
+    const auto number = [&] { return 200 * sample.random.between(-1, 1); };
+    const Vec3 a(number(), number(), number()), b(number(), number(), number());
     for (int base = 0; base < 10; ++base)
       for (int link = 0; link < 10; ++link) {
-        const auto joints = sample.motion.joints_between(base, link);
-        const auto b = static_cast<std::size_t>(base), l = static_cast<std::size_t>(link);
-        const double limit = sagitta_bound(joints, middle, 0.5 * sample.step.cwiseAbs(), middle[l] * local);
-        if (std::none_of(joints.begin(), joints.end(), [](const MovingJoint& joint) { return joint.turns; })) {
-          EXPECT_EQ(limit, 0);
-        }
-        const auto place = [&](const std::vector<Frame>& poses) { return Vec3(poses[b].inverse() * poses[l] * local); };
+        const LinkChain chain = sample.motion.chain(base, link);
+        LinkChain::Place start, end, here;
+        chain.place(sample.from, start);
+        chain.place(to, end);
+        const double limit = chain.sagitta(start, end, step, a, b);
         double most = 0;
-        for (int s = 0; s <= 20; ++s)
-          most = std::max(
-              most, (place(sample.poses(s / 20.0)) - (1 - s / 20.0) * place(start) - s / 20.0 * place(end)).norm());
-        EXPECT_LE(most, limit + 1e-9);
-        if (most > 1) tightest = std::min(tightest, limit / most);
+        for (int s = 0; s <= 20; ++s) {
+          chain.place(sample.from + s / 20.0 * step, here);
+          for (const double along : {0.0, 0.3, 1.0}) {
+            const Vec3 point = a + along * (b - a);
+            const Vec3 straight = (1 - s / 20.0) * (start.link * point) + s / 20.0 * (end.link * point);
+            most = std::max(most, (here.link * point - straight).norm());
+          }
+        }
+        EXPECT_LE(most, limit + 1e-9) << base << " " << link;
+        if (most > 1e-3) tightest = std::min(tightest, limit / most);
+        const auto joints = sample.motion.joints_between(base, link);
+        if (std::ranges::none_of(joints, [](const MovingJoint& joint) { return joint.turns; })) {
+          EXPECT_LT(limit, 1e-9);
+        }
       }
   }
-  EXPECT_LT(tightest, 1.5);
+  EXPECT_LT(tightest, 1.1);
 }
 
 }  // namespace
