@@ -14,6 +14,7 @@
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/job_key.hpp"
+#include "core/plan/replay_beside.hpp"
 #include "core/plan/report_figures.hpp"
 #include "core/plan/run_log.hpp"
 #include "core/sweep/follow.hpp"
@@ -63,13 +64,6 @@ Output open_output(const OutputTask& task, const Checkpoint& at, Carved& carved,
     if (keyframe.cut) carved.standing.erase(keyframe.first, keyframe.last);
   };
   return {task, at.file, visit, watch};
-}
-
-Verdict replay(const std::filesystem::path& trajectory, const Cell& cell, const JobResult& planned, RunLog& log,
-               const Watch& watch) {
-  std::ifstream in(trajectory, std::ios::binary);
-  return verify_trajectory(in, cell, planned.voxels, watch, {planned.report.threads}, log.now().replayed,
-                           log.hear_replay());
 }
 
 void name_job(Report& report, const Job& job) {
@@ -131,15 +125,25 @@ FieldStore field_store(const Job& job, Search search) {
 const std::vector<Residue>& explain(const Scene& scene, const CarveTask& task, RunLog& log, const RunContext& run) {
   if (!log.now().residue) {
     const bool any_may_fall = scene.chain().translating() && !task.header.held;
-    log.end_plan(explain_residue(scene, task.atlas, task.voxels, any_may_fall ? task.voxels.stock : task.may_fall, run));
+    log.end_plan(
+        explain_residue(scene, task.atlas, task.voxels, any_may_fall ? task.voxels.stock : task.may_fall, run));
   }
   return *log.now().residue;
+}
+
+/// The file is whole.
+void finish(Output& output, ReplayBeside& replay, Report& report) {
+  report.plan_sha256 = output.finish().sha256;
+  replay.end();
 }
 
 JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, CheckpointFolder kept) {
   const Stopwatch total;
   const Helpers helpers(job.threads);
   Watch watch = told;
+  std::stop_source stop;  // of the planning; a finding of the replay stops it too
+  watch.stop = stop.get_token();
+  const std::stop_callback pass_on(told.stop, [&stop] { stop.request_stop(); });
   const RunContext run{job.seed, helpers, watch};
   JobResult result;
   Report& report = result.report;
@@ -156,26 +160,33 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   const VoxelSet may_fall = find_unheld(result.voxels);
   const PostureAtlas atlas(scene.chain(), result.grid, job.seed);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});
+  ReplayBeside replay({place.trajectory, cell, result.voxels, job.threads}, now.replayed,
+                      [&stop] { stop.request_stop(); });
   Carved carved{result.voxels.stock, header.home, {}};
   const OutputTask written{place, header, scene.chain(), result.voxels, report.voxels.remove, job.threads};
   Output output = open_output(written, now, carved, watch);
-  RunLog log(kept, now, output, scene);
+  output.tell_of_growth([&replay] { replay.grow(); });
+  RunLog log(kept, now, output, replay, scene);
   try {
     const CarveTask task{result.voxels, octree, may_fall, header, atlas, field_store(job, search), search};
     if (!now.residue) carve(scene, task, carved, log, run);
     count_search(report, now);
-    report.plan_sha256 = output.finish().sha256;
+    finish(output, replay, report);
     count_path(report, output.figures(), result.grid.voxel_m, log.checks());
     result.residue = explain(scene, task, log, run);
     count_residue(report, result.residue);
     report.seconds.plan = planning.seconds();
 
     const Stopwatch verifying;
-    count_replay(report, replay(place.trajectory, cell, result, log, watch));
+    count_replay(report, replay.wait(watch, [&log] { log.note_replay(); }));
     report.seconds.verify = verifying.seconds();
   } catch (const Cancelled&) {
-    log.save_at_stop();
-    throw;
+    if (!replay.alarmed() || told.stop.stop_requested()) {
+      log.save_at_stop();
+      throw;
+    }
+    if (report.plan_sha256.empty()) finish(output, replay, report);
+    count_replay(report, replay.wait(told, [] {}));
   }
   report.seconds.total = total.seconds();
   report.peak_memory_bytes = peak_memory_bytes();

@@ -7,7 +7,7 @@
 #include "core/base/watch.hpp"
 #include "core/collision/scene.hpp"
 #include "core/material/octree.hpp"
-#include "core/plan/path_figures.hpp"
+#include "core/plan/output/path_figures.hpp"
 #include "core/plan/report.hpp"
 #include "core/verify/verify.hpp"
 

@@ -38,12 +38,9 @@ ArmListener RunLog::hear_arm() {
           }};
 }
 
-std::function<void(const ReplayedPieces&)> RunLog::hear_replay() {
-  return [this](const ReplayedPieces& replayed) {
-    now_.replayed = replayed;
-    note_state();
-    save_if_due();
-  };
+void RunLog::note_replay() {
+  note_state();
+  save_if_due();
 }
 
 void RunLog::end_sweep(const SweepRest& left) {
@@ -84,6 +81,7 @@ void RunLog::note_state() {
 void RunLog::save() {
   if (!unsaved_) return;
   now_.file = output_.sync();
+  now_.replayed = replay_.replayed();
   kept_.save(now_);
   unsaved_ = false;
 }

@@ -2,14 +2,14 @@
 // are.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "core/collision/scene.hpp"
 #include "core/motion/arm_carve.hpp"
 #include "core/motion/gantry/gantry.hpp"
 #include "core/plan/checkpoint_folder.hpp"
-#include "core/plan/output.hpp"
+#include "core/plan/output/output.hpp"
+#include "core/plan/replay_beside.hpp"
 #include "core/sweep/sweep.hpp"
 
 namespace sculpt {
@@ -20,8 +20,8 @@ namespace sculpt {
 class RunLog {
  public:
   /// All must outlive the object. `found`: the checkpoint that was found, or an empty one.
-  RunLog(CheckpointFolder& kept, Checkpoint& found, Output& to, const Scene& scene)
-      : now_(found), output_(to), kept_(kept), scene_(scene) {
+  RunLog(CheckpointFolder& kept, Checkpoint& found, Output& to, const ReplayBeside& replay, const Scene& scene)
+      : now_(found), output_(to), replay_(replay), kept_(kept), scene_(scene) {
     go_on();
   }
 
@@ -34,13 +34,14 @@ class RunLog {
   SweepListener hear_sweep();
   GantryListener hear_gantry();
   ArmListener hear_arm();
-  std::function<void(const ReplayedPieces&)> hear_replay();
 
   void end_sweep(const SweepRest& left);
   void end_arm(const ArmMemory& memory) { now_.arm = memory; }
   void end_carving();
   /// Of a plan whose output is finished.
   void end_plan(std::vector<Residue> residue);
+  /// While only the replay goes on.
+  void note_replay();
   /// Keeps what units have finished. A stop does not fail for want of space: what cannot be kept is done again.
   void save_at_stop();
 
@@ -57,6 +58,7 @@ class RunLog {
 
   Checkpoint& now_;
   Output& output_;
+  const ReplayBeside& replay_;
   CheckpointFolder& kept_;
   const Scene& scene_;
   std::uint64_t earlier_checks_ = 0;  ///< by the runs before, less what this one did again

@@ -59,9 +59,9 @@ void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::u
   }
 }
 
-PieceReplay::PieceReplay(const ReplayScene& scene)
+PieceReplay::PieceReplay(const ReplayScene& scene, const VoxelSet& standing)
     : scene_(scene),
-      material_(scene.voxels.stock, 1000 * scene.grid.voxel_m, scene.thorough),
+      material_(standing, 1000 * scene.grid.voxel_m, scene.thorough),
       tool_(scene.cell, scene.tool, scene.motion, scene.bodies, material_),
       links_(scene.cell, scene.motion, scene.bodies, scene.pairs.checked, material_) {}
 

@@ -36,7 +36,7 @@ void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::u
 class PieceReplay {
  public:
   /// The scene must outlive this.
-  explicit PieceReplay(const ReplayScene& scene);
+  PieceReplay(const ReplayScene& scene, const VoxelSet& standing);
 
   /// Applies the removals of a piece that somebody else replays.
   void skip(const TrajectoryPiece& piece);

@@ -12,12 +12,15 @@ constexpr std::chrono::milliseconds idle_every(100);
 
 }  // namespace
 
-TrajectoryPieces::TrajectoryPieces(TrajectoryReader& reader, int workers)
-    : reader_(reader),
-      at_(reader.header().home),
-      cuts_(reader.header().grid.n),
-      unseen_(static_cast<std::size_t>(workers)),
-      busy_(static_cast<std::size_t>(workers), false) {}
+TrajectoryPieces::TrajectoryPieces(TrajectoryReader& reader)
+    : reader_(reader), at_(reader.header().home), cuts_(reader.header().grid.n), unseen_(1), busy_(1, false) {}
+
+std::size_t TrajectoryPieces::join() {
+  const std::lock_guard lock(mutex_);
+  unseen_.emplace_back();
+  busy_.push_back(false);
+  return unseen_.size() - 1;
+}
 
 TrajectoryPieces::Piece TrajectoryPieces::read() {
   const auto piece = std::make_shared<TrajectoryPiece>();

@@ -28,8 +28,11 @@ class TrajectoryPieces {
 
   static constexpr std::size_t keyframes_a_piece = 1024;
 
-  /// The reader must outlive this and stand after the header.
-  TrajectoryPieces(TrajectoryReader& reader, int workers);
+  /// For worker 0. The reader must outlive this and stand after the header.
+  explicit TrajectoryPieces(TrajectoryReader& reader);
+
+  /// One more worker; it has seen all that was given out until now. Returns its number.
+  std::size_t join();
 
   /// The next piece that nobody has, and in `before` all pieces since this worker's last one, in order: others replay
   /// them. Null when the pieces of all workers are done; `before` then holds the rest. Reading runs at most a few dozen

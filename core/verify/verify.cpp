@@ -49,12 +49,12 @@ std::vector<int> expected_joints(const Cell& cell) {
 // Workers and what they find. The calling thread is one of them; it alone tells the watch.
 class Crew {
  public:
-  Crew(TrajectoryReader& reader, const ReplayScene& scene, const Watch& watch, int workers, ReplayedPieces done,
-       const std::function<void(const ReplayedPieces&)>& note)
-      : pieces_(reader, workers),
+  Crew(TrajectoryReader& reader, const ReplayScene& scene, const Watch& watch, const ReplaySettings& settings,
+       ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note)
+      : pieces_(reader),
         scene_(scene),
         watch_(watch),
-        workers_(workers),
+        settings_(settings),
         to_remove_(scene.voxels.stock.size() - scene.voxels.keep.size()),
         removed_(done.found.voxels_checked),
         left_(scene.voxels.stock),
@@ -63,12 +63,8 @@ class Crew {
         replayed_(std::move(done)) {}
 
   void run() {
-    {
-      std::vector<std::jthread> others;
-      for (int worker = 1; worker < workers_; ++worker)
-        others.emplace_back([this, worker] { work(static_cast<std::size_t>(worker)); });
-      work(0);
-    }
+    work(0, scene_.voxels.stock);
+    others_.clear();
     if (failure_) std::rethrow_exception(failure_);
   }
 
@@ -79,9 +75,9 @@ class Crew {
   const CutLog& cuts() const { return pieces_.cuts(); }
 
  private:
-  void work(std::size_t worker) {
+  void work(std::size_t worker, const VoxelSet& standing) {
     try {
-      replay_pieces(worker);
+      replay_pieces(worker, standing);
     } catch (...) {
       pieces_.abandon();
       const std::lock_guard lock(mutex_);
@@ -89,14 +85,16 @@ class Crew {
     }
   }
 
-  void replay_pieces(std::size_t worker) {
+  void replay_pieces(std::size_t worker, const VoxelSet& standing) {
     std::optional<PieceReplay> replay;  // costs a material: made for a worker who gets to do something
     const std::function<void()> step = [this, worker] { tell(worker); };
     std::vector<TrajectoryPieces::Piece> before;
     for (;;) {
+      if (worker == 0 && !called_ && !(settings_.alone && settings_.alone()))
+        call_others(replay ? replay->left() : standing);
       const TrajectoryPieces::Piece piece = pieces_.next(worker, before, step);
       if (!piece && worker != 0) return;
-      if (!replay) replay.emplace(scene_);
+      if (!replay) replay.emplace(scene_, standing);
       for (const auto& missed : before) replay->skip(*missed);
       if (!piece) break;
       if (piece->index < known_) {
@@ -108,6 +106,15 @@ class Crew {
       add(piece->index, std::move(found));
     }
     left_ = replay->left();
+  }
+
+  // They begin where the calling thread is, which was alone until now.
+  void call_others(const VoxelSet& standing) {
+    called_ = true;
+    for (int other = 1; other < settings_.threads; ++other) {
+      const std::size_t worker = pieces_.join();
+      others_.emplace_back([this, worker, standing] { work(worker, standing); });
+    }
   }
 
   void tell(std::size_t worker) {
@@ -129,7 +136,7 @@ class Crew {
   TrajectoryPieces pieces_;
   const ReplayScene& scene_;
   const Watch& watch_;
-  const int workers_;
+  const ReplaySettings& settings_;
   const std::uint64_t to_remove_;
   std::atomic<std::uint64_t> removed_ = 0;
   VoxelSet left_;  // the calling thread's
@@ -139,6 +146,8 @@ class Crew {
   std::exception_ptr failure_;
   std::map<std::size_t, PieceFindings> early_;
   ReplayedPieces replayed_;
+  bool called_ = false;
+  std::vector<std::jthread> others_;  // last: they use all else
 };
 
 class Replay {
@@ -148,7 +157,7 @@ class Replay {
       : cell_(cell),
         voxels_(voxels),
         watch_(watch),
-        settings_(settings),
+        settings_(std::move(settings)),
         done_(std::move(done)),
         note_(note),
         reader_(in),
@@ -207,7 +216,7 @@ class Replay {
     verdict_.exempt_pairs = scene.pairs.exempt;
     for (const std::string& contact : scene.pairs.contacts) find(contact);
     find_broken_limits(scene, header().home, reader_.line(), found_);
-    Crew crew(reader_, scene, watch_, std::max(1, settings_.threads), std::move(done_), note_);
+    Crew crew(reader_, scene, watch_, settings_, std::move(done_), note_);
     crew.run();
     found_.add(std::move(crew.found()));
     verdict_.left = std::move(crew.left());
@@ -248,8 +257,9 @@ class Replay {
 }  // namespace
 
 Verdict verify_trajectory(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const Watch& watch,
-                          ReplaySettings settings, ReplayedPieces done, const std::function<void(const ReplayedPieces&)>& note) {
-  return Replay(in, cell, voxels, watch, settings, std::move(done), note).run();
+                          ReplaySettings settings, ReplayedPieces done,
+                          const std::function<void(const ReplayedPieces&)>& note) {
+  return Replay(in, cell, voxels, watch, std::move(settings), std::move(done), note).run();
 }
 
 }  // namespace sculpt

@@ -34,7 +34,29 @@ StandingVoxels::StandingVoxels(const VoxelSet& standing, double voxel_mm, bool t
     side = (side + 3) / 4;
     levels_.push_back({side, std::vector<std::uint64_t>(side * side * side)});
   }
-  for_each_voxel(standing, [this](Voxel v) { put_back(v); });
+  // Rows of a brick are four voxels of a row of the set, and n is a multiple of four.
+  const auto n = static_cast<std::size_t>(n_);
+  for (std::size_t word = 0; word < standing.words().size(); ++word)
+    for (std::uint64_t bits = standing.words()[word]; bits != 0;) {
+      const int row = std::countr_zero(bits) & ~3;
+      const std::size_t at = 64 * word + static_cast<std::size_t>(row);
+      const Voxel first{static_cast<int>(at % n), static_cast<int>(at / n % n), static_cast<int>(at / n / n)};
+      const std::uint64_t four = bits >> row & 0xf;
+      count_ += static_cast<std::size_t>(std::popcount(four));
+      Level& finest = levels_.front();
+      finest.words[finest.index(brick_of(first))] |= four << bit_of(first);
+      bits &= ~(std::uint64_t{0xf} << row);
+    }
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+    const Level& fine = levels_[level];
+    Level& coarse = levels_[level + 1];
+    for (std::size_t at = 0; at < fine.words.size(); ++at)
+      if (fine.words[at] != 0) {
+        const Voxel brick{static_cast<int>(at % fine.side), static_cast<int>(at / fine.side % fine.side),
+                          static_cast<int>(at / fine.side / fine.side)};
+        coarse.words[coarse.index(brick_of(brick))] |= std::uint64_t{1} << bit_of(brick);
+      }
+  }
 }
 
 VoxelSet StandingVoxels::voxels() const {
@@ -42,10 +64,12 @@ VoxelSet StandingVoxels::voxels() const {
   const Level& finest = levels_.front();
   const int side = static_cast<int>(finest.side);
   for (std::size_t at = 0; at < finest.words.size(); ++at)
-    for (std::uint64_t bits = finest.words[at]; bits != 0; bits &= bits - 1) {
-      const int brick = static_cast<int>(at), bit = std::countr_zero(bits);
-      standing.insert({4 * (brick % side) + (bit & 3), 4 * (brick / side % side) + (bit >> 2 & 3),
-                       4 * (brick / side / side) + (bit >> 4)});
+    for (std::uint64_t bits = finest.words[at]; bits != 0;) {
+      const int brick = static_cast<int>(at), row = std::countr_zero(bits) & ~3;
+      const std::size_t first = standing.index(
+          {4 * (brick % side), 4 * (brick / side % side) + (row >> 2 & 3), 4 * (brick / side / side) + (row >> 4)});
+      standing.words()[first >> 6] |= (bits >> row & 0xf) << (first & 63);
+      bits &= ~(std::uint64_t{0xf} << row);
     }
   return standing;
 }

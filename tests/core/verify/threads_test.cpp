@@ -26,9 +26,10 @@ GantryProgram long_program(const Cell& cell, const Landscape& land, std::size_t 
   return program;
 }
 
-Verdict verdict_of(const std::string& text, const Cell& cell, const VoxelGrid& voxels, int threads) {
+Verdict verdict_of(const std::string& text, const Cell& cell, const VoxelGrid& voxels, int threads,
+                   std::function<bool()> alone = {}) {
   std::istringstream in(text);
-  return verify_trajectory(in, cell, voxels, {}, {threads});
+  return verify_trajectory(in, cell, voxels, {}, {threads, false, std::move(alone)});
 }
 
 void expect_same(const Verdict& a, const Verdict& b) {
@@ -60,6 +61,10 @@ TEST(Threads, TheVerdictIsTheSameAtAnyNumber) {
     for (int threads : {2, 3, 7}) {
       SCOPED_TRACE(std::to_string(threads) + " threads");
       expect_same(alone, verdict_of(text, cell, land.voxels, threads));
+      // The others come late, or not at all.
+      for (int asked_last : {1, 3, 100})
+        expect_same(alone, verdict_of(text, cell, land.voxels, threads,
+                                      [asked = 0, asked_last]() mutable { return ++asked < asked_last; }));
     }
   }
 }
@@ -111,7 +116,8 @@ TEST(TrajectoryPieces, EveryWorkerSeesEveryPieceOnceAndInOrder) {
   std::istringstream in(program.text());
   TrajectoryReader reader(in);
   constexpr std::size_t workers = 3;
-  TrajectoryPieces source(reader, workers);
+  TrajectoryPieces source(reader);
+  for (std::size_t worker = 1; worker < workers; ++worker) EXPECT_EQ(source.join(), worker);
   std::vector<std::vector<std::size_t>> seen(workers);
   std::mutex mutex;
   std::set<std::size_t> own;
@@ -137,6 +143,27 @@ TEST(TrajectoryPieces, EveryWorkerSeesEveryPieceOnceAndInOrder) {
     for (std::size_t at = 0; at < pieces; ++at) EXPECT_EQ(indices[at], at);
   }
   EXPECT_EQ(source.end(), program.header().home);
+}
+
+TEST(TrajectoryPieces, WhoJoinsLateSeesWhatComesAfter) {
+  const Cell cell = gantry_cell();
+  GantryProgram program(cell, 8);
+  for (std::size_t at = 0; at < 5 * TrajectoryPieces::keyframes_a_piece - 5; ++at)
+    program.move(Vec3(static_cast<double>(at % 5), 4, 9));
+  program.go_home();
+  std::istringstream in(program.text());
+  TrajectoryReader reader(in);
+  TrajectoryPieces source(reader);
+  std::vector<TrajectoryPieces::Piece> before;
+  for (std::size_t at = 0; at < 2; ++at) EXPECT_EQ(source.next(0, before, [] {})->index, at);
+  const std::size_t late = source.join();
+  EXPECT_EQ(source.next(0, before, [] {})->index, 2u);
+  EXPECT_EQ(source.next(late, before, [] {})->index, 3u);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before.front()->index, 2u);
+  EXPECT_EQ(source.next(0, before, [] {})->index, 4u);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before.front()->index, 3u);
 }
 
 }  // namespace

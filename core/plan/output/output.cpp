@@ -1,4 +1,4 @@
-#include "core/plan/output.hpp"
+#include "core/plan/output/output.hpp"
 
 #include <stdexcept>
 #include <utility>
@@ -59,6 +59,11 @@ void Output::start_writing(int threads) {
   send();
   if (threads > 1)
     beside_.emplace([this](const std::vector<Keyframe>& batch) { write(batch); }, [this] { take_mark(); });
+}
+
+void Output::tell_of_growth(std::function<void()> grown) {
+  grown_ = std::move(grown);
+  grown_();
 }
 
 void Output::add(std::vector<Keyframe> batch) {
@@ -132,6 +137,7 @@ void Output::send() {
   file_.flush();
   if (timeline_) timeline_->flush();
   check();
+  if (grown_) grown_();
 }
 
 void Output::take_mark() {

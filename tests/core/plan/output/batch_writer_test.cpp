@@ -1,4 +1,4 @@
-#include "core/plan/batch_writer.hpp"
+#include "core/plan/output/batch_writer.hpp"
 
 #include <gtest/gtest.h>
 

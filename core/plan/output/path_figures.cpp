@@ -1,4 +1,4 @@
-#include "core/plan/path_figures.hpp"
+#include "core/plan/output/path_figures.hpp"
 
 #include <cmath>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/watch.hpp"
-#include "core/plan/batch_writer.hpp"
-#include "core/plan/path_figures.hpp"
+#include "core/plan/output/batch_writer.hpp"
+#include "core/plan/output/path_figures.hpp"
 #include "core/trajectory/binary/binary.hpp"
 #include "core/trajectory/form.hpp"
 #include "core/trajectory/timeline.hpp"
@@ -47,6 +47,9 @@ class Output {
   void add(const Keyframe& keyframe);
   /// What was added so far will be in the file soon.
   void flush();
+  /// `grown` is called now, and whenever more of the file can be read, on the thread that writes. Before anything is
+  /// added.
+  void tell_of_growth(std::function<void()> grown);
   /// That many were added, and stay of an earlier run.
   std::uint64_t keyframes() const { return keyframes_; }
   /// A run could go on after what was added so far.
@@ -81,6 +84,7 @@ class Output {
   std::uint64_t started_bytes_ = 0;  ///< that the disk was told of
   std::uint64_t keyframes_ = 0, removed_ = 0, remove_;
   const Watch& watch_;
+  std::function<void()> grown_;
   std::vector<Keyframe> waiting_;
   std::optional<BatchWriter> beside_;  ///< of jobs with more than one thread; last: what it writes to must outlive it
 };
