@@ -50,13 +50,13 @@ for ((i = 0; i < ${#server_folders[@]}; ++i)); do
 done
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
-fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/standing_voxels|verify/tool_replay'
+fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/material/(standing_voxels|material_tree|convex_probe)|verify/tool_replay'
 forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'mesh/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
 forbid "TinyXML-2 only in mesh/collada.cpp and verify/robot/urdf_text.cpp" "$(include 'tinyxml2')" "$(door '(mesh/collada|verify/robot/urdf_text)\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_/]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/shape/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_/]+\.[ch]pp')" -- core server clients
-forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/solid_body|standing_voxels|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
+forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/solid_body|material/(standing_voxels|material_tree|convex_probe)|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/field/posture_lanes\.cpp')" -- core server proto clients
 forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
