@@ -1,5 +1,5 @@
-// Trajectory -> verdict: replays what was emitted with its own kinematics, FCL and octomap. Includes nothing of search/
-// or motion/.
+// Trajectory -> verdict: replays what was emitted with its own kinematics, its own material and FCL. Includes nothing of
+// search/ or motion/.
 #pragma once
 
 #include <functional>
