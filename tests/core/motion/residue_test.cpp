@@ -8,13 +8,17 @@
 namespace sculpt {
 namespace {
 
-/// Residue of a scene in which only `standing` is left, all of it to be removed.
+/// Residue of a scene in which only the stock of `voxels` is left.
+std::vector<Residue> explain(const Cell& cell, const VoxelGrid& voxels) {
+  const Scene scene(cell, cell.grid(voxels.n()), voxels.stock);
+  const PostureAtlas atlas(scene.chain(), scene.grid(), 0);
+  return explain_residue(scene, atlas, voxels, find_unheld(voxels), {0, 2, {}});
+}
+
 std::vector<Residue> explain(const Cell& cell, const VoxelSet& keep, Voxel left) {
   VoxelSet standing = keep;
   standing.insert(left);
-  const VoxelGrid voxels{standing, keep};
-  const Scene scene(cell, cell.grid(keep.n()), standing);
-  return explain_residue(scene, voxels, find_unheld(voxels), {0, 2, {}});
+  return explain(cell, {standing, keep});
 }
 
 TEST(Residue, AVoxelInTheOpenThatWasLeftLacksATransit) {
@@ -57,8 +61,7 @@ TEST(Residue, BelowAVoxelThatWasLeftForReachTheToolIsNotToBlame) {
   standing.insert({4, 4, 2});
   standing.insert({4, 4, 5});
   const Cell cell = parse_cell(files);
-  const VoxelGrid voxels{standing, keep};
-  const auto residue = explain_residue(Scene(cell, cell.grid(8), standing), voxels, find_unheld(voxels), {0, 2, {}});
+  const auto residue = explain(cell, {standing, keep});
   ASSERT_EQ(residue.size(), 2u);
   EXPECT_EQ(residue[0].reason, Reason::behind_out_of_reach);
   EXPECT_EQ(residue[1].reason, Reason::out_of_reach);
