@@ -34,6 +34,10 @@ class Run {
   int length_;
 };
 
+bool within_limits(const Joint& joint, double value) {
+  return value >= joint.lower - joint_slack && value <= joint.upper + joint_slack;
+}
+
 }  // namespace
 
 ReplayScene::ReplayScene(const Cell& the_cell, const VoxelGrid& the_voxels, const TrajectoryHeader& the_header,
@@ -53,7 +57,7 @@ void find_broken_limits(const ReplayScene& scene, const Configuration& q, std::u
   for (std::size_t at = 0; at < scene.joints.size(); ++at) {
     const Joint& joint = scene.cell.robot.joints[static_cast<std::size_t>(scene.joints[at])];
     const double value = q[static_cast<Eigen::Index>(at)];
-    if (value < joint.lower - joint_slack || value > joint.upper + joint_slack)
+    if (!within_limits(joint, value))
       found.find(line, "joint " + joint.name + " at " + text(value) + " is outside its limits " + text(joint.lower) +
                            " to " + text(joint.upper));
   }
@@ -93,11 +97,10 @@ PieceFindings PieceReplay::replay(const TrajectoryPiece& piece, const std::funct
 }
 
 bool PieceReplay::within_limits(const Configuration& q) const {
-  for (std::size_t at = 0; at < scene_.joints.size(); ++at) {
-    const Joint& joint = scene_.cell.robot.joints[static_cast<std::size_t>(scene_.joints[at])];
-    const double value = q[static_cast<Eigen::Index>(at)];
-    if (value < joint.lower - joint_slack || value > joint.upper + joint_slack) return false;
-  }
+  for (std::size_t at = 0; at < scene_.joints.size(); ++at)
+    if (!sculpt::within_limits(scene_.cell.robot.joints[static_cast<std::size_t>(scene_.joints[at])],
+                               q[static_cast<Eigen::Index>(at)]))
+      return false;
   return true;
 }
 

@@ -1,8 +1,8 @@
 // Does a trajectory touch anything? Asked of dense samples, with nothing of the planner's or the replay's code: own
 // kinematics, own shapes, points on the surfaces of what moves, looked up in what they may not be in.
 //   mutant_sampler CELL.json TRAJECTORY.ndjson        exit 0: free, 1: something overlaps, 2: it cannot say
-// For cells of boxes, cylinders and spheres whose whole grid is clamped. It cannot prove that a trajectory is free: what
-// lies between its samples it does not see.
+// For cells of boxes, cylinders and spheres whose whole grid is clamped. It cannot prove that a trajectory is free:
+// what lies between its samples it does not see.
 #include <tinyxml2.h>
 
 #include <Eigen/Geometry>
@@ -58,10 +58,10 @@ Pose origin(const tinyxml2::XMLElement* element) {
 struct Solid {
   enum class Kind { box, cone, ball } kind = Kind::box;
   Pose pose = Pose::Identity();
-  Vec half = Vec::Zero();      // box; z also of a cone
-  double low = 0, high = 0;    // radii at both ends
-  std::vector<Vec> points;     // on the surface, in the link
-  double reach = 0;            // from the middle to the farthest point
+  Vec half = Vec::Zero();    // box; z also of a cone
+  double low = 0, high = 0;  // radii at both ends
+  std::vector<Vec> points;   // on the surface, in the link
+  double reach = 0;          // from the middle to the farthest point
 
   /// How deep a point of the link is inside; negative outside.
   double depth(const Vec& at) const {
@@ -148,8 +148,7 @@ class Machine {
     const auto file = path.parent_path() / cell.at("urdf").get<std::string>();
     if (urdf.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) throw std::runtime_error("no URDF: " + file.string());
     const auto* robot = urdf.FirstChildElement("robot");
-    for (const auto* e = robot->FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
-      add_link(e);
+    for (const auto* e = robot->FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) add_link(e);
     for (const auto* e = robot->FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint"))
       add_joint(e);
     put_parents_first();
@@ -204,7 +203,8 @@ class Machine {
  private:
   void add_link(const tinyxml2::XMLElement* element) {
     Link link{element->Attribute("name"), {}};
-    for (const auto* e = element->FirstChildElement("collision"); e != nullptr; e = e->NextSiblingElement("collision")) {
+    for (const auto* e = element->FirstChildElement("collision"); e != nullptr;
+         e = e->NextSiblingElement("collision")) {
       const auto* geometry = e->FirstChildElement("geometry");
       Solid solid;
       solid.pose = origin(e);
@@ -391,7 +391,8 @@ class Sampler {
     for (std::size_t part = 0; part < parts; ++part) {
       if (!run.empty()) standing_[index(run[part])] = false;  // the voxel being cut may be touched
       for (int sample = 1; sample <= samples; ++sample) {
-        const double t = (static_cast<double>(part) + static_cast<double>(sample) / samples) / static_cast<double>(parts);
+        const double t =
+            (static_cast<double>(part) + static_cast<double>(sample) / samples) / static_cast<double>(parts);
         for (std::size_t c = 0; c < q.size(); ++c) q[c] = at_[c] + t * (to[c] - at_[c]);
         std::string found = look(q);
         if (!found.empty()) return found + " at " + std::to_string(100 * t) + " % of the motion";
@@ -449,12 +450,14 @@ class Sampler {
       if (in_material(tool * point, deep_voxels)) return "the tool is in the material";
     const int stock_group = group(machine_.stock), tool_group = group(machine_.tool);
     for (std::size_t at = 0; at < machine_.links.size(); ++at) {
-      const Pose in_stock = from_root * poses[at], to_link = poses[at].inverse() * poses[static_cast<std::size_t>(machine_.tool)];
+      const Pose in_stock = from_root * poses[at],
+                 to_link = poses[at].inverse() * poses[static_cast<std::size_t>(machine_.tool)];
       const int of = machine_.group[at];
       for (const Solid& solid : machine_.links[at].solids) {
         if (of != stock_group && comes_to_the_grid(in_stock * solid.pose.translation(), solid.reach))
           for (const Vec& point : solid.points)
-            if (in_material(in_stock * point, deep_m / voxel_)) return link(static_cast<int>(at)).name + " is in the material";
+            if (in_material(in_stock * point, deep_m / voxel_))
+              return link(static_cast<int>(at)).name + " is in the material";
         const Vec middle = to_link * Vec(0, 0, stickout_ / 2);
         const bool apart =
             (middle - solid.pose.translation()).norm() > solid.reach + stickout_ / 2 + std::max(ball_, shank_);
