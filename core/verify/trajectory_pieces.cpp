@@ -15,11 +15,10 @@ constexpr std::chrono::milliseconds idle_every(100);
 TrajectoryPieces::TrajectoryPieces(TrajectoryReader& reader)
     : reader_(reader), at_(reader.header().home), cuts_(reader.header().grid.n), unseen_(1), busy_(1, false) {}
 
-std::size_t TrajectoryPieces::join() {
+void TrajectoryPieces::join(std::size_t count) {
   const std::lock_guard lock(mutex_);
-  unseen_.emplace_back();
-  busy_.push_back(false);
-  return unseen_.size() - 1;
+  unseen_.resize(unseen_.size() + count);
+  busy_.resize(unseen_.size(), false);
 }
 
 TrajectoryPieces::Piece TrajectoryPieces::read() {

@@ -31,8 +31,8 @@ class TrajectoryPieces {
   /// For worker 0. The reader must outlive this and stand after the header.
   explicit TrajectoryPieces(TrajectoryReader& reader);
 
-  /// One more worker; it has seen all that was given out until now. Returns its number.
-  std::size_t join();
+  /// So many more workers, numbered on from those there are; they have seen all that was given out until now.
+  void join(std::size_t count);
 
   /// The next piece that nobody has, and in `before` all pieces since this worker's last one, in order: others replay
   /// them. Null when the pieces of all workers are done; `before` then holds the rest. Reading runs at most a few dozen

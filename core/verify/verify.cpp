@@ -111,10 +111,10 @@ class Crew {
   // They begin where the calling thread is, which was alone until now.
   void call_others(const VoxelSet& standing) {
     called_ = true;
-    for (int other = 1; other < settings_.threads; ++other) {
-      const std::size_t worker = pieces_.join();
+    const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
+    pieces_.join(threads - 1);
+    for (std::size_t worker = 1; worker < threads; ++worker)
       others_.emplace_back([this, worker, standing] { work(worker, standing); });
-    }
   }
 
   void tell(std::size_t worker) {
