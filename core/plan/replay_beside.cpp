@@ -1,23 +1,15 @@
 #include "core/plan/replay_beside.hpp"
 
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <utility>
+
+#include "core/base/background.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr std::chrono::milliseconds look_every(50);
-constexpr int nicer_by = 10;
-
-/// Of this thread only, as Linux has it.
-void lower_priority() {
-  const int nice = getpriority(PRIO_PROCESS, 0);
-  setpriority(PRIO_PROCESS, 0, std::min(19, nice + nicer_by));
-}
 
 }  // namespace
 
@@ -37,7 +29,6 @@ void ReplayBeside::sound_alarm() {
 }
 
 void ReplayBeside::run() {
-  lower_priority();
   std::optional<Verdict> verdict;
   std::exception_ptr failure;
   try {
@@ -45,7 +36,12 @@ void ReplayBeside::run() {
                         removed_ = at.done;
                         to_remove_ = at.total;
                       }};
-    const ReplaySettings settings{task_.threads, false, [this] { return !file_.ended(); }};
+    // Asked first when there are other threads already, which keep theirs.
+    const auto alone = [this, lowered = false]() mutable {
+      if (!std::exchange(lowered, true)) work_in_background();
+      return !file_.ended();
+    };
+    const ReplaySettings settings{task_.threads, false, alone};
     verdict = verify_trajectory(file_.in(), task_.cell, task_.voxels, watch, settings, replayed(),
                                 [this](const ReplayedPieces& so_far) { note(so_far); });
   } catch (...) {

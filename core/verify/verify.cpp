@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <condition_variable>
 #include <exception>
 #include <istream>
 #include <map>
@@ -63,7 +64,12 @@ class Crew {
         replayed_(std::move(done)) {}
 
   void run() {
+    for (std::size_t worker = 1; worker < threads(); ++worker)
+      others_.emplace_back([this, worker] {
+        if (wait_for_call()) work(worker, *called_with_);
+      });
     work(0, scene_.voxels.stock);
+    dismiss();
     others_.clear();
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -90,7 +96,7 @@ class Crew {
     const std::function<void()> step = [this, worker] { tell(worker); };
     std::vector<TrajectoryPieces::Piece> before;
     for (;;) {
-      if (worker == 0 && !called_ && !(settings_.alone && settings_.alone()))
+      if (worker == 0 && !called_with_ && !(settings_.alone && settings_.alone()))
         call_others(replay ? replay->left() : standing);
       const TrajectoryPieces::Piece piece = pieces_.next(worker, before, step);
       if (!piece && worker != 0) return;
@@ -109,13 +115,30 @@ class Crew {
   }
 
   // They begin where the calling thread is, which was alone until now.
-  void call_others(const VoxelSet& standing) {
-    called_ = true;
-    const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
-    pieces_.join(threads - 1);
-    for (std::size_t worker = 1; worker < threads; ++worker)
-      others_.emplace_back([this, worker, standing] { work(worker, standing); });
+  void call_others(VoxelSet standing) {
+    pieces_.join(threads() - 1);
+    {
+      const std::lock_guard lock(mutex_);
+      called_with_ = std::move(standing);
+    }
+    called_.notify_all();
   }
+
+  void dismiss() {
+    {
+      const std::lock_guard lock(mutex_);
+      dismissed_ = true;
+    }
+    called_.notify_all();
+  }
+
+  bool wait_for_call() {
+    std::unique_lock lock(mutex_);
+    called_.wait(lock, [this] { return called_with_ || dismissed_; });
+    return called_with_.has_value();
+  }
+
+  std::size_t threads() const { return static_cast<std::size_t>(std::max(1, settings_.threads)); }
 
   void tell(std::size_t worker) {
     if (watch_.stop.stop_requested()) throw Cancelled{};
@@ -146,7 +169,9 @@ class Crew {
   std::exception_ptr failure_;
   std::map<std::size_t, PieceFindings> early_;
   ReplayedPieces replayed_;
-  bool called_ = false;
+  std::condition_variable called_;
+  std::optional<VoxelSet> called_with_;  // what stood when the others were called; stays as it is
+  bool dismissed_ = false;
   std::vector<std::jthread> others_;  // last: they use all else
 };
 

@@ -28,7 +28,8 @@ struct Verdict {
 struct ReplaySettings {
   int threads = 1;                   ///< each has a material of its own; the verdict is the same at any number
   bool thorough = false;             ///< FCL and octomap decide all, motion by motion; slow, and of the same verdict
-  std::function<bool()> alone = {};  ///< until it says no the calling thread does without the others; nothing: never
+  /// Until it says no the calling thread, which asks, does without the others; they are there by then. Nothing: never.
+  std::function<bool()> alone = {};
 };
 
 /// Replays the trajectory in `in` in the given cell on the given material. Clean means: header agrees with cell

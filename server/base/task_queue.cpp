@@ -1,6 +1,6 @@
 #include "server/base/task_queue.hpp"
 
-#include "server/base/background.hpp"
+#include "core/base/background.hpp"
 
 namespace sculpt::server {
 

@@ -7,7 +7,7 @@
 #include <new>
 #include <system_error>
 
-#include "server/base/background.hpp"
+#include "core/base/background.hpp"
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"
 

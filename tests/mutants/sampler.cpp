@@ -1,3 +1,4 @@
+// Above 300 lines: a program by itself, so that nothing of it can be shared with what it judges.
 // Does a trajectory touch anything? Asked of dense samples, with nothing of the planner's or the replay's code: own
 // kinematics, own shapes, points on the surfaces of what moves, looked up in what they may not be in.
 //   mutant_sampler CELL.json TRAJECTORY.ndjson        exit 0: free, 1: something overlaps, 2: it cannot say

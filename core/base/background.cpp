@@ -1,10 +1,10 @@
-#include "server/base/background.hpp"
+#include "core/base/background.hpp"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 
-namespace sculpt::server {
+namespace sculpt {
 
 // Linux keeps a nice value for each thread, which POSIX knows for whole processes only. 0 is the calling thread.
 void work_in_background() {
@@ -12,4 +12,4 @@ void work_in_background() {
   setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + more, most));
 }
 
-}  // namespace sculpt::server
+}  // namespace sculpt
