@@ -87,6 +87,13 @@ TEST_F(ConfinementTest, NoSocketsProgramsProcessesAndSignalsToOthers) {
                               ::prlimit(::getppid(), RLIMIT_CORE, &none, nullptr) == 0;
                      }),
             0);
+  EXPECT_EQ(confined(wanted,
+                     [] {
+                       return ::setpriority(PRIO_PROCESS, static_cast<id_t>(::getppid()), 19) == 0 ||
+                              ::setpriority(PRIO_PGRP, 0, 19) == 0 || ::setpriority(PRIO_USER, 0, 19) == 0;
+                     }),
+            0);
+  EXPECT_EQ(confined(wanted, [] { return ::setpriority(PRIO_PROCESS, 0, 19) == 0; }), 1) << "its own it may lower";
   const int ran = confined(wanted, [] { return ::execl("/bin/sh", "sh", "-c", "exit 7", nullptr) == 0; });
   EXPECT_EQ(ran, 0) << "7 if the program ran";
 }
