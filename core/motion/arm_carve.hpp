@@ -22,7 +22,7 @@ struct ArmStart {
 struct ArmTask {
   const Octree& octree;
   const PostureAtlas& atlas;  ///< of the scene's chain and grid
-  const VoxelSet& may_fall;  ///< what cannot be held
+  const VoxelSet& may_fall;   ///< what cannot be held
   const Configuration& home;
 };
 

@@ -22,8 +22,8 @@ struct CarveTask {
   const VoxelSet& may_fall;  ///< what cannot be held
   const TrajectoryHeader& header;
   const PostureAtlas& atlas;  ///< of the scene's chain and grid
-  FieldStore fields;  ///< of the scene, home and seed
-  Search search;      ///< octree or voxel where the chain only translates, else sweep or octree
+  FieldStore fields;          ///< of the scene, home and seed
+  Search search;              ///< octree or voxel where the chain only translates, else sweep or octree
 };
 
 /// What an earlier run carved.

@@ -8,8 +8,8 @@
 
 namespace sculpt {
 
-/// Things that only one coordinate moves against each other are asked about over cells of it, once each: 8 rad or m wide,
-/// halves of those, and so on. What is said of a range depends on nothing but the range.
+/// Things that only one coordinate moves against each other are asked about over cells of it, once each: 8 rad or m
+/// wide, halves of those, and so on. What is said of a range depends on nothing but the range.
 class FreeRanges {
  public:
   /// Whether they surely touch nowhere within `half` of `middle`.

@@ -26,7 +26,11 @@ bool joined_rigidly(const Robot& robot, int a, int b) {
 LinkReplay::LinkReplay(const Cell& cell, const LinkMotion& motion, const std::vector<SolidBody>& bodies,
                        const std::vector<std::pair<const SolidBody*, const SolidBody*>>& apart,
                        const StandingVoxels& material)
-    : cell_(cell), motion_(motion), material_(material), origin_(1000 * cell.stock_origin_m), voxel_(material.voxel_mm()) {
+    : cell_(cell),
+      motion_(motion),
+      material_(material),
+      origin_(1000 * cell.stock_origin_m),
+      voxel_(material.voxel_mm()) {
   for (const SolidBody& body : bodies)
     if (!joined_rigidly(cell.robot, cell.stock_link, body.link)) add_pair(body, nullptr);
   for (const auto& [first, second] : apart) add_pair(*first, second);
@@ -131,9 +135,8 @@ void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
     ahead_ = OpenItems(piece, pairs_.size());
     return;
   }
-  ahead_ = OpenItems(motion_, piece, pairs_.size(), [this](std::size_t at, const OpenItems::Box& box) {
-    return may_touch_in(pairs_[at], box);
-  });
+  ahead_ = OpenItems(motion_, piece, pairs_.size(),
+                     [this](std::size_t at, const OpenItems::Box& box) { return may_touch_in(pairs_[at], box); });
 }
 
 bool LinkReplay::may_touch_in(Pair& pair, const OpenItems::Box& box) const {

@@ -34,11 +34,11 @@ ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& mot
   const Around around{cell.tool_link, Vec3(0, 0, stickout_ / 2), stickout_ / 2 + std::max(ball_, shank_)};
   const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
   add_target(motion, {nullptr, 0, grid, cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
-              ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
+                      ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
   for (const SolidBody& body : bodies) {
     if (motion.joints_between(body.link, cell.tool_link).empty()) continue;  // it moves with the tool
     add_target(motion, {&body, 0, body.pose, body.link, body.pose, -body.half, body.half,
-                ApproachBound(motion, around, {body.link, body.pose.translation(), body.radius})});
+                        ApproachBound(motion, around, {body.link, body.pose.translation(), body.radius})});
   }
 }
 
@@ -49,8 +49,7 @@ void ToolReplay::add_target(const LinkMotion& motion, Target target) {
     target.in_view = still.rigid() * target.pose;
     break;
   }
-  if (target.view == views_.size())
-    views_.push_back({target.link, motion.chain(target.link, cell_.tool_link), {}, {}});
+  if (target.view == views_.size()) views_.push_back({target.link, motion.chain(target.link, cell_.tool_link), {}, {}});
   targets_.push_back(std::move(target));
 }
 
@@ -179,8 +178,8 @@ void ToolReplay::certify(const Stretch& stretch, const std::vector<Task>& open, 
   place(stretch.motion.at(t), stretch.view, middle);
   std::vector<Task> left;
   for (const Task& task : open) {
-    const Finding finding = settle(task, stretch.start, middle, stretch.end,
-                                   (stretch.to - stretch.from) * stretch.motion.step);
+    const Finding finding =
+        settle(task, stretch.start, middle, stretch.end, (stretch.to - stretch.from) * stretch.motion.step);
     if (finding == Finding::free) continue;
     if (finding == Finding::unknown) {
       left.push_back(task);
@@ -242,12 +241,10 @@ void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
     ahead_ = OpenItems(piece, targets_.size());
     return;
   }
-  ahead_ = OpenItems(motion_, piece, targets_.size(),
-                     [this](std::size_t at, const OpenItems::Box& box) {
-                       const Target& target = targets_[at];
-                       return target.body == nullptr ||
-                              comes_near(target, box.poses, target.approach.at(box.poses, box.half) + slack_mm);
-                     });
+  ahead_ = OpenItems(motion_, piece, targets_.size(), [this](std::size_t at, const OpenItems::Box& box) {
+    const Target& target = targets_[at];
+    return target.body == nullptr || comes_near(target, box.poses, target.approach.at(box.poses, box.half) + slack_mm);
+  });
 }
 
 // Of a capsule around ball and shank.

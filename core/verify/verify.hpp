@@ -1,5 +1,5 @@
-// Trajectory -> verdict: replays what was emitted with its own kinematics, its own material and FCL. Includes nothing of
-// search/ or motion/.
+// Trajectory -> verdict: replays what was emitted with its own kinematics, its own material and FCL. Includes nothing
+// of search/ or motion/.
 #pragma once
 
 #include <functional>
@@ -26,8 +26,8 @@ struct Verdict {
 };
 
 struct ReplaySettings {
-  int threads = 1;                   ///< each has a material of its own; the verdict is the same at any number
-  bool thorough = false;             ///< FCL and octomap decide all, motion by motion; slow, and of the same verdict
+  int threads = 1;        ///< each has a material of its own; the verdict is the same at any number
+  bool thorough = false;  ///< FCL and octomap decide all, motion by motion; slow, and of the same verdict
   /// Until it says no the calling thread, which asks, does without the others; they are there by then. Nothing: never.
   std::function<bool()> alone = {};
 };

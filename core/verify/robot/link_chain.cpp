@@ -6,8 +6,8 @@
 namespace sculpt {
 
 struct LinkChain::Drive {
-  Vec3 spin = Vec3::Zero(), spin_rate = Vec3::Zero();     // of the link
-  Vec3 at = Vec3::Zero(), acceleration = Vec3::Zero();    // of a point of it
+  Vec3 spin = Vec3::Zero(), spin_rate = Vec3::Zero();   // of the link
+  Vec3 at = Vec3::Zero(), acceleration = Vec3::Zero();  // of a point of it
 
   Vec3 acceleration_of(const Vec3& point) const {
     const Vec3 arm = point - at;
@@ -38,8 +38,8 @@ void LinkChain::place(const Configuration& q, Place& place) const {
   place.link.linear() = turn * after_.linear();
 }
 
-// Joint rates are constant over the motion. A joint that turns adds its spin to that of all nearer ones, which also turn
-// its axis; one that shifts has its way turned by them.
+// Joint rates are constant over the motion. A joint that turns adds its spin to that of all nearer ones, which also
+// turn its axis; one that shifts has its way turned by them.
 LinkChain::Drive LinkChain::drive(const Place& place, const Configuration& step) const {
   Drive drive;
   for (std::size_t joint = 0; joint < hops_.size(); ++joint) {
@@ -61,8 +61,7 @@ LinkChain::Drive LinkChain::drive(const Place& place, const Configuration& step)
 // most the product of their rates and the distance from the axis of the farthest of them: over all choices of n, with
 // S_k the sum of rates up to the k-th joint, (S_k^n - S_(k-1)^n) times that distance. A joint that shifts has only a
 // first derivative, in n places among those of nearer ones.
-double LinkChain::fourth_derivative(const Place& place, const Configuration& step, const Vec3& a,
-                                    const Vec3& b) const {
+double LinkChain::fourth_derivative(const Place& place, const Configuration& step, const Vec3& a, const Vec3& b) const {
   const auto fourth_power = [](double x) { return x * x * x * x; };
   double moved = 0, turning = 0, bound = 0;
   for (std::size_t joint = hops_.size(); joint-- > 0;)
@@ -87,15 +86,15 @@ double LinkChain::fourth_derivative(const Place& place, const Configuration& ste
   return bound;
 }
 
-// The acceleration strays from the straight line between its two ends by at most an eighth of its own second derivative,
-// and a point strays from the straight way by at most an eighth of the largest acceleration.
+// The acceleration strays from the straight line between its two ends by at most an eighth of its own second
+// derivative, and a point strays from the straight way by at most an eighth of the largest acceleration.
 double LinkChain::sagitta(const Place& start, const Place& end, const Configuration& step, const Vec3& a,
                           const Vec3& b) const {
   const Drive first = drive(start, step), last = drive(end, step);
   const Vec3 a_there = end.link * a, b_there = end.link * b;
-  const double largest = std::max({first.acceleration_of(start.link * a).norm(),
-                                   first.acceleration_of(start.link * b).norm(), last.acceleration_of(a_there).norm(),
-                                   last.acceleration_of(b_there).norm()});
+  const double largest =
+      std::max({first.acceleration_of(start.link * a).norm(), first.acceleration_of(start.link * b).norm(),
+                last.acceleration_of(a_there).norm(), last.acceleration_of(b_there).norm()});
   return (largest + fourth_derivative(end, step, a_there, b_there) / 8) / 8;
 }
 

@@ -7,7 +7,8 @@
 
 namespace sculpt {
 
-/// The moving joints between two links, and what stands still between those as one frame. Made by LinkMotion. Immutable.
+/// The moving joints between two links, and what stands still between those as one frame. Made by LinkMotion.
+/// Immutable.
 class LinkChain {
  public:
   /// All in the frame of the link that is looked from.

@@ -41,11 +41,10 @@ TEST(OpenItems, LeaveOutNoBallThatAMotionPasses) {
     std::vector<Vec3> balls;
     for (int ball = 0; ball < 20; ++ball) balls.push_back(1000 * place());
     constexpr double radius_mm = 250;
-    const OpenItems items(motion, piece, balls.size(),
-                          [&](std::size_t ball, const OpenItems::Box& box) {
-                            EXPECT_LT((box.poses[3].translation() - 1000 * box.middle).norm(), 1e-6);
-                            return (1000 * box.middle - balls[ball]).norm() <= radius_mm + 1000 * box.half.norm();
-                          });
+    const OpenItems items(motion, piece, balls.size(), [&](std::size_t ball, const OpenItems::Box& box) {
+      EXPECT_LT((box.poses[3].translation() - 1000 * box.middle).norm(), 1e-6);
+      return (1000 * box.middle - balls[ball]).norm() <= radius_mm + 1000 * box.half.norm();
+    });
     for (std::size_t keyframe = 0; keyframe < keyframes; ++keyframe) {
       const Configuration& from = keyframe == 0 ? piece.from : piece.keyframes[keyframe - 1].q;
       const Configuration step = piece.keyframes[keyframe].q - from;

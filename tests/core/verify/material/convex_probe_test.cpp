@@ -76,8 +76,7 @@ TEST(ConvexProbe, OfACapsuleSaysWhatItsPointsSay) {
       const Vec3 at = pose * Vec3(0, 0, length * (sample / 1000.0 - 0.5));
       least = std::min(least, (at.cwiseAbs().array() - half).max(0.0).matrix().norm());
     }
-    const Meeting meeting =
-        ConvexProbe::of(fcl::Capsuled(radius, length), pose)->with_cube(Vec3::Zero(), half);
+    const Meeting meeting = ConvexProbe::of(fcl::Capsuled(radius, length), pose)->with_cube(Vec3::Zero(), half);
     if (least > radius + 0.01) {
       EXPECT_EQ(meeting, Meeting::apart) << least << " " << radius;
     }
