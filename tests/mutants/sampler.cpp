@@ -1,6 +1,7 @@
 // Above 300 lines: a program by itself, so that nothing of it can be shared with what it judges.
-// Does a trajectory touch anything? Asked of dense samples, with nothing of the planner's or the replay's code: own
-// kinematics, own shapes, points on the surfaces of what moves, looked up in what they may not be in.
+// Does a trajectory touch anything, or remove what it does not come to? Asked of dense samples, with nothing of the
+// planner's or the replay's code: own kinematics, own shapes, points on the surfaces of what moves, looked up in what
+// they may not be in.
 //   mutant_sampler CELL.json TRAJECTORY.ndjson        exit 0: free, 1: something overlaps, 2: it cannot say
 // For cells of boxes, cylinders and spheres whose whole grid is clamped. It cannot prove that a trajectory is free:
 // what lies between its samples it does not see.
@@ -280,6 +281,7 @@ class Sampler {
     machine_.name_coordinates(names_);
     at_ = header.at("home").get<std::vector<double>>();
     n_ = header.at("resolution");
+    tolerance_ = header.at("tolerance_m");
     const Json& stock = machine.cell.at("stock");
     voxel_ = stock.at("size_m").get<double>() / n_;
     for (int axis = 0; axis < 3; ++axis) origin_[axis] = stock.at("origin_m").at(static_cast<std::size_t>(axis));
@@ -398,8 +400,14 @@ class Sampler {
         std::string found = look(q);
         if (!found.empty()) return found + " at " + std::to_string(100 * t) + " % of the motion";
       }
+      if (!run.empty() && !ball_is_in(run[part], q)) return "the ball is not where it removes a voxel";
     }
     return {};
+  }
+
+  bool ball_is_in(const Cell& cell, const std::vector<double>& q) const {
+    const Vec centre = origin_ + voxel_ * Vec(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
+    return (tool_in_stock(machine_.place(q)) * Vec(0, 0, stickout_) - centre).norm() <= tolerance_ + deep_m;
   }
 
   /// How far ball and top of the tool go at most, seen from the stock, by a few samples.
@@ -476,7 +484,7 @@ class Sampler {
   std::vector<std::string> names_;
   std::vector<double> at_;
   int n_ = 0;
-  double voxel_ = 0, ball_ = 0, shank_ = 0, stickout_ = 0;
+  double voxel_ = 0, tolerance_ = 0, ball_ = 0, shank_ = 0, stickout_ = 0;
   Vec origin_ = Vec::Zero();
   std::vector<bool> standing_;
   std::vector<Vec> tool_points_;
