@@ -22,6 +22,9 @@ class Helpers {
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
 
+  /// That of the one that asks among them.
+  int threads() const { return 1 + static_cast<int>(threads_.size()); }
+
   /// Calls `work(i)` once for every i below `count`, on the thread that asks and on those that are free. Returns when
   /// all are done; if some threw, rethrows what the lowest i threw. Any thread, also from within `work`.
   void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work) const;

@@ -27,8 +27,8 @@ bool any_child(const ShapeTree& tree, const Node& node, const Frame& pose, const
 /// Goes down two trees at once, in the frame of the second one.
 class TreePair {
  public:
-  TreePair(const ShapeTree& first, const Frame& pose, const ShapeTree& second)
-      : first_(first), pose_(pose), second_(second) {}
+  TreePair(const ShapeTree& first, const Frame& pose, const ShapeTree& second, const Vec3& slide)
+      : first_(first), pose_(pose), second_(second), slide_(slide) {}
 
   bool within(double reach) const {
     return within(first_.root(), first_.root().shape.placed(pose_), second_.root(), reach);
@@ -37,7 +37,8 @@ class TreePair {
  private:
   bool within(const Node& one, const Convex& placed, const Node& other, double reach) const {
     const bool to_decide = one.is_leaf() && other.is_leaf();
-    if (separate(placed, other.shape, std::nextafter(reach, 1e9), effort(to_decide)).gap > reach) return false;
+    const Separation plane = separate(placed, other.shape, std::nextafter(reach, 1e9), effort(to_decide));
+    if (plane.gap - std::abs(plane.normal.dot(slide_)) > reach) return false;
     if (to_decide) return true;
     if (extent(one) >= extent(other))
       return any_child(first_, one, pose_,
@@ -50,6 +51,7 @@ class TreePair {
   const ShapeTree& first_;
   const Frame& pose_;
   const ShapeTree& second_;
+  Vec3 slide_;
 };
 
 /// A body's tree against the standing voxels. Lengths in voxel edges.
@@ -117,11 +119,16 @@ double hull_distance(const Body& a, const Frame& pose_a, const Body& b, const Fr
 }
 
 bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double reach_m) {
-  if (hull_distance(a, pose_a, b, pose_b) > reach_m) return false;
+  return hull_distance(a, pose_a, b, pose_b) <= reach_m &&
+         near_sliding_body(a, pose_a, Vec3::Zero(), b, pose_b, reach_m);
+}
+
+bool near_sliding_body(const Body& a, const Frame& pose_a, const Vec3& slide, const Body& b, const Frame& pose_b,
+                       double reach_m) {
   const Frame pose = pose_b.inverse() * pose_a;
   for (const Body::Part& of_a : a.parts)
     for (const Body::Part& of_b : b.parts)
-      if (TreePair(*of_a.tree, pose, *of_b.tree).within(reach_m)) return true;
+      if (TreePair(*of_a.tree, pose, *of_b.tree, slide).within(reach_m)) return true;
   return false;
 }
 

@@ -9,6 +9,10 @@ namespace sculpt {
 /// Could the two come within `reach_m` (m)? False only if there is a plane between every two of their parts with more
 /// than that between. Poses of their links in one frame.
 bool near_body(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b, double reach_m);
+/// The same of all that `a` passes as it slides, without turning, from `slide` before its pose to as far behind it.
+/// `slide`: in the frame of b's link.
+bool near_sliding_body(const Body& a, const Frame& pose_a, const Vec3& slide, const Body& b, const Frame& pose_b,
+                       double reach_m);
 
 /// A lower bound of their distance by their hulls alone (m), below 0 where these overlap.
 double hull_distance(const Body& a, const Frame& pose_a, const Body& b, const Frame& pose_b);

@@ -51,21 +51,20 @@ void Material::remove(Voxel v) {
   }
 }
 
-bool Material::meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const {
+bool Material::meets_capsule(const Segment& segment, double radius, const Exempt& exempt) const {
   if (radius < thin_radius) return meets_thin_capsule(segment, radius, exempt);
   return cube_meets_capsule(static_cast<int>(counts_.size()), {0, 0, 0}, segment, radius, exempt);
 }
 
 bool Material::cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,
-                                  std::optional<Voxel> exempt) const {
+                                  const Exempt& exempt) const {
   const std::uint32_t standing = count(level, at);
   if (standing == 0) return false;
   const int size = 1 << level;
   const Voxel corner = at * size;
   const Vec3 low(corner.i, corner.j, corner.k);
   if (distance_to_box(segment, low, low + Vec3::Constant(size)) >= radius) return false;
-  const bool holds_exempt =
-      exempt && exempt->i >> level == at.i && exempt->j >> level == at.j && exempt->k >> level == at.k;
+  const bool holds_exempt = exempt.meets(corner, size);
   if (level == 0) return !holds_exempt;
   if (standing == volume(level) && !holds_exempt) return true;
   for (int child = 0; child < 8; ++child) {
@@ -75,7 +74,7 @@ bool Material::cube_meets_capsule(int level, Voxel at, const Segment& segment, d
   return false;
 }
 
-bool Material::meets_thin_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const {
+bool Material::meets_thin_capsule(const Segment& segment, double radius, const Exempt& exempt) const {
   const Vec3 d = segment.b - segment.a;
   int main = 0;
   d.cwiseAbs().maxCoeff(&main);
@@ -100,7 +99,7 @@ bool Material::meets_thin_capsule(const Segment& segment, double radius, std::op
         cell[u] = x;
         cell[v] = y;
         const Voxel at{cell[0], cell[1], cell[2]};
-        if (!solid_.contains(at) || (exempt && *exempt == at)) continue;
+        if (!solid_.contains(at) || exempt.contains(at)) continue;
         const Vec3 low(at.i, at.j, at.k);
         if (distance_to_box(segment, low, low + Vec3::Ones()) < radius) return true;
       }

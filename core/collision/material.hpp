@@ -2,6 +2,7 @@
 // voxel (0,0,0).
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 #include <vector>
@@ -10,6 +11,30 @@
 #include "core/material/voxel_set.hpp"
 
 namespace sculpt {
+
+/// Voxels that a tool may touch: none, one, or a straight run.
+class Exempt {
+ public:
+  Exempt() = default;
+  Exempt(std::optional<Voxel> voxel) {
+    if (voxel) low_ = high_ = *voxel;
+  }
+  Exempt(Voxel voxel) : Exempt(VoxelLine{voxel, voxel}) {}
+  Exempt(const VoxelLine& run)
+      : low_{std::min(run.first.i, run.last.i), std::min(run.first.j, run.last.j), std::min(run.first.k, run.last.k)},
+        high_{std::max(run.first.i, run.last.i), std::max(run.first.j, run.last.j), std::max(run.first.k, run.last.k)} {
+  }
+
+  bool contains(Voxel v) const { return meets(v, 1); }
+  /// Are any of them in the cube of `size` voxels an edge at `corner`?
+  bool meets(Voxel corner, int size) const {
+    return low_.i < corner.i + size && high_.i >= corner.i && low_.j < corner.j + size && high_.j >= corner.j &&
+           low_.k < corner.k + size && high_.k >= corner.k;
+  }
+
+ private:
+  Voxel low_{0, 0, 0}, high_{-1, -1, -1};
+};
 
 /// The standing voxels with counts per aligned cube of 2, 4, 8... voxels, so that full cubes (blocks) and empty space
 /// are found at once. Reads from several threads are safe, `remove` is not.
@@ -30,7 +55,7 @@ class Material {
   bool any_in(Voxel corner, int size) const { return count_in(corner, size) > 0; }
 
   /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
-  bool meets_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
+  bool meets_capsule(const Segment& segment, double radius, const Exempt& exempt) const;
 
   /// Is there a full cube, as large as they come, that `meets(corner, size)` is true of? It is also asked of cubes that
   /// are not full, from the largest down, and must be true of every cube that holds one it is true of.
@@ -40,9 +65,8 @@ class Material {
   }
 
  private:
-  bool meets_thin_capsule(const Segment& segment, double radius, std::optional<Voxel> exempt) const;
-  bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,
-                          std::optional<Voxel> exempt) const;
+  bool meets_thin_capsule(const Segment& segment, double radius, const Exempt& exempt) const;
+  bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius, const Exempt& exempt) const;
 
   template <typename Meets>
   bool any_cube_below(int level, Voxel at, const Meets& meets) const {

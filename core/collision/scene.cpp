@@ -31,6 +31,10 @@ void Scene::leave(const VoxelSet& left) {
   bodies_->material = Material(left);
 }
 
+void Scene::settle(const JointBox& box) {
+  bodies_->settle(box);
+}
+
 const Body& Scene::full_stock() const {
   return bodies_->stock;
 }
@@ -103,6 +107,14 @@ bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {
 }
 
 Contact Scene::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
+  return certify_exempting(from, to, exempt);
+}
+
+bool Scene::certify_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const {
+  return bodies_->stays_behind_rest(from, to, run) && certify_exempting(from, to, run) == Contact::none;
+}
+
+Contact Scene::certify_exempting(const Configuration& from, const Configuration& to, const Exempt& exempt) const {
   if (!bodies_->chain.within_limits(from) || !bodies_->chain.within_limits(to)) return Contact::limits;
   const Configuration step = to - from;
   const auto line_at = [&](double t) {
@@ -112,10 +124,8 @@ Contact Scene::certify(const Configuration& from, const Configuration& to, std::
   if (!tool_sweep_is_free(bodies_->material, line_at, bodies_->tool_second_derivative(step), bodies_->radii,
                           tool_margin_voxels, exempt))
     return Contact::tool_material;
-  std::vector<const SceneBodies::Pair*> open;
-  for (const SceneBodies::Pair& pair : bodies_->pairs)
-    if (!pair.never_touch && !pair.is_free_between(from, to)) open.push_back(&pair);
-  return bodies_->certify_links(from, step, 0.5, 0.5, open);
+  const std::vector<const SceneBodies::Pair*> open = bodies_->open_between(from, to);
+  return open.empty() ? Contact::none : bodies_->certify_links(from, step, 0.5, 0.5, open);
 }
 
 }  // namespace sculpt

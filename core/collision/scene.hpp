@@ -66,6 +66,10 @@ class Scene {
   /// Of these, those that may touch somewhere in `box`; of which the same part counts as for `bubble`.
   Pairs pairs_in(const JointBox& box) const;
 
+  /// Finds out which pairs may touch somewhere in `box`: of an edge within it no others are looked at from now on. Not
+  /// for several threads.
+  void settle(const JointBox& box);
+
   /// The stock as it stood when the scene was made, as what links are kept clear of.
   const Body& full_stock() const;
   /// The same of what stands of it: `blocks` are those of a coarser grid in which anything does.
@@ -85,8 +89,14 @@ class Scene {
   /// free. May refuse an edge that passes closer than the margins (0.2 mm for links, 0.005 voxel for the tool). The
   /// tool may touch `exempt`.
   Contact certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt = {}) const;
+  /// The same of an edge on which the n voxels of `run` are removed, the m-th while the m-th n-th part is gone through:
+  /// the tool may touch no more of them than that one and those before. True only if each part is free; may refuse what
+  /// is, above all where the tool turns.
+  bool certify_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const;
 
  private:
+  Contact certify_exempting(const Configuration& from, const Configuration& to, const Exempt& exempt) const;
+
   std::unique_ptr<SceneBodies> bodies_;
 };
 

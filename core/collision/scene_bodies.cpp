@@ -7,6 +7,11 @@
 #include "core/collision/margins.hpp"
 
 namespace sculpt {
+namespace {
+
+constexpr int max_halvings = 12;  // of a box that is settled
+
+}  // namespace
 
 SceneBodies::SceneBodies(const Cell& cell, const Grid& where, const VoxelSet& standing)
     : chain(cell.chain()),
@@ -62,6 +67,66 @@ bool SceneBodies::near(const Pair& pair, const std::vector<Frame>& at, double re
   return near_body(a, pose_a, b, at[static_cast<std::size_t>(b.link)], reach_m);
 }
 
+void SceneBodies::settle(const JointBox& box) {
+  settled.assign(1, {bounded(box), {}});
+  for (const Pair& pair : pairs)
+    if (!pair.never_touch) settled[0].open.push_back(&pair);
+  settle(0, max_halvings);
+}
+
+void SceneBodies::settle(std::size_t at, int halvings) {
+  const JointBox box = settled[at].box;
+  std::erase_if(settled[at].open, [&](const Pair* pair) {
+    int checks_left = 1;
+    return is_free_in(*pair, box, checks_left);
+  });
+  if (settled[at].open.empty() || halvings == 0) return;
+  SettledBox low{box, settled[at].open}, high = low;
+  const Eigen::Index coordinate = halvings % box.low.size();
+  const double split = box.centre()[coordinate];
+  low.box.high[coordinate] = high.box.low[coordinate] = split;
+  const std::size_t parts = settled.size();
+  settled[at].parts = parts;
+  settled[at].coordinate = coordinate;
+  settled[at].split = split;
+  settled.push_back(std::move(low));
+  settled.push_back(std::move(high));
+  settle(parts, halvings - 1);
+  settle(parts + 1, halvings - 1);
+}
+
+std::vector<const SceneBodies::Pair*> SceneBodies::open_between(const Configuration& from,
+                                                                const Configuration& to) const {
+  std::vector<const Pair*> open;
+  const auto look_at = [&](const Pair& pair) {
+    if (!pair.never_touch && !pair.is_free_between(from, to)) open.push_back(&pair);
+  };
+  if (settled.empty() || !settled[0].box.holds(from) || !settled[0].box.holds(to)) {
+    for (const Pair& pair : pairs) look_at(pair);
+    return open;
+  }
+  std::size_t at = 0;
+  while (settled[at].parts > 0) {
+    const SettledBox& box = settled[at];
+    const double low = std::min(from[box.coordinate], to[box.coordinate]),
+                 high = std::max(from[box.coordinate], to[box.coordinate]);
+    if (low < box.split && high > box.split) break;
+    at = box.parts + (high <= box.split ? 0 : 1);
+  }
+  for (const Pair* pair : settled[at].open) look_at(*pair);
+  return open;
+}
+
+bool SceneBodies::near_sliding(const Pair& pair, const std::vector<Frame>& at, const Configuration& end) const {
+  const Body &a = bodies[static_cast<std::size_t>(pair.first)], &b = bodies[static_cast<std::size_t>(pair.second)];
+  const auto first = static_cast<std::size_t>(a.link), second = static_cast<std::size_t>(b.link);
+  std::vector<Frame> there;
+  chain.link_poses(end, there);
+  const Vec3 slide =
+      (there[second].inverse() * there[first]).translation() - (at[second].inverse() * at[first]).translation();
+  return near_sliding_body(a, at[first], slide, b, at[second], pair.margin_m);
+}
+
 Contact SceneBodies::certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                                    const std::vector<const Pair*>& open) const {
   std::vector<Frame> at;
@@ -72,6 +137,7 @@ Contact SceneBodies::certify_links(const Configuration& from, const Configuratio
   for (const Pair* pair : open) {
     const double motion = pair->motion(joint_steps);
     if (!near(*pair, at, motion + pair->margin_m)) continue;
+    if (!has_mimic && pair->slides(joint_steps) && !near_sliding(*pair, at, from + (middle + half) * step)) continue;
     if (motion < pair->margin_m / 2 || near(*pair, at, pair->margin_m)) return pair->contact();
     left.push_back(pair);
   }
@@ -79,6 +145,26 @@ Contact SceneBodies::certify_links(const Configuration& from, const Configuratio
   const Contact before = certify_links(from, step, middle - half / 2, half / 2, left);
   if (before != Contact::none) return before;
   return certify_links(from, step, middle + half / 2, half / 2, left);
+}
+
+/// A tool point is within an eighth of that of the straight line between where it is at both ends. How far the tool
+/// reaches is convex along the edge then, and the plane moves evenly: who is short of it at the first and the last part
+/// is always.
+bool SceneBodies::stays_behind_rest(const Configuration& from, const Configuration& to, const VoxelLine& run) const {
+  const auto point = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
+  const int count = l1(run.first, run.last) + 1;
+  const Vec3 way = point(sign(run.last - run.first));
+  const ToolLine start = tool_line(chain.tool_pose(from)), end = tool_line(chain.tool_pose(to));
+  const double stray = tool_second_derivative(to - from) / 8 + tool_margin_voxels;
+  const auto is_short = [&](int removed) {
+    const double t = static_cast<double>(removed) / count;
+    const double ball = way.dot(start.ball + t * (end.ball - start.ball)),
+                 top = way.dot(start.top + t * (end.top - start.top));
+    const double reach =
+        radii.shank > 0 ? std::max(ball + radii.ball, std::max(ball, top) + radii.shank) : ball + radii.ball;
+    return reach + stray <= way.dot(point(run.first) + Vec3::Constant(0.5)) + removed - 0.5;
+  };
+  return is_short(1) && is_short(count);
 }
 
 /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a

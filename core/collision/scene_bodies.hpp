@@ -58,9 +58,21 @@ class SceneBodies {
         return range.first <= low && high <= range.second;
       });
     }
+    /// Two bodies that do not turn against each other where these joints move?
+    bool slides(const Configuration& joint_steps) const { return second >= 0 && movers[0].turn.dot(joint_steps) == 0; }
     Contact contact() const { return second < 0 ? Contact::link_material : Contact::link_link; }
     /// How many joints move the two against each other.
     Eigen::Index joints() const { return (movers[0].speed.array() > 0).count(); }
+  };
+
+  /// No pairs but `open` touch anywhere in `box`. If it has parts they are settled[parts] and the one behind it: below
+  /// and above `split` of a coordinate.
+  struct SettledBox {
+    JointBox box;
+    std::vector<const Pair*> open;
+    std::size_t parts = 0;
+    Eigen::Index coordinate = 0;
+    double split = 0;
   };
 
   SceneBodies(const Cell& cell, const Grid& where, const VoxelSet& standing);
@@ -70,11 +82,19 @@ class SceneBodies {
   bool tool_meets_material(const ToolPose& pose, std::optional<Voxel> exempt) const;
   /// Could the two come within `reach_m`, with the links at these poses?
   bool near(const Pair& pair, const std::vector<Frame>& at, double reach_m) const;
+  /// The same of a pair that slides, from `end` to as far on the other side; but for the margin.
+  bool near_sliding(const Pair& pair, const std::vector<Frame>& at, const Configuration& end) const;
   /// Of a box, the part where the motion bounds hold: within the limits of what shifts something.
   JointBox bounded(const JointBox& box) const { return {box.low.cwiseMax(bounds.low), box.high.cwiseMin(bounds.high)}; }
+  /// Those that may touch on an edge from one configuration to the other, as far as that is known beforehand.
+  std::vector<const Pair*> open_between(const Configuration& from, const Configuration& to) const;
+  /// Halves the box as long as something is open in a part.
+  void settle(const JointBox& box);
   /// Certifies the pairs in `open` on the interval of half width `half` (of the edge's parameter) around `middle`.
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const;
+  /// Is the tool short of the plane between the voxel of `run` that it removes and the next, all along the edge?
+  bool stays_behind_rest(const Configuration& from, const Configuration& to, const VoxelLine& run) const;
   /// Bound on the second derivative of any tool point along from + t step.
   double tool_second_derivative(const Configuration& step) const;
 
@@ -93,10 +113,11 @@ class SceneBodies {
   std::vector<const Body*> fixed;  ///< those that stand still in the stock's frame
   std::vector<Pair> pairs;
   std::vector<UncheckedLinks> unchecked;
-  Configuration tool_speed;  ///< voxel edges per unit of each coordinate, for the shank's whole length
-  Configuration turn_rates;  ///< rad per unit of each coordinate
-  ToolRadii radii;           ///< voxel edges
-  JointBox bounds;           ///< where the motion bounds hold
+  Configuration tool_speed;         ///< voxel edges per unit of each coordinate, for the shank's whole length
+  Configuration turn_rates;         ///< rad per unit of each coordinate
+  ToolRadii radii;                  ///< voxel edges
+  JointBox bounds;                  ///< where the motion bounds hold
+  std::vector<SettledBox> settled;  ///< the first holds all others; none: nothing is known
   bool has_mimic = false;
   mutable std::atomic<std::uint64_t> checks = 0;
   mutable std::atomic<std::size_t> last_contact = 0;  ///< of `pairs`, for any thread: where to look first
@@ -108,6 +129,7 @@ class SceneBodies {
   void add_pairs(const Cell& cell);
   void add_pair(int a, int b, double margin_m);
   void find_free_ranges();
+  void settle(std::size_t at, int halvings);
   bool never_touch(const Pair& pair) const;
   void add_free_ranges(Pair& pair, double low, double high) const;
   JointBox find_bounds() const;

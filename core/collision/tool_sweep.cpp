@@ -15,18 +15,17 @@ struct Sweep {
   const std::function<ToolLine(double)>& line_at;
   double second_derivative;
   ToolRadii radii;  // margin included
-  std::optional<Voxel> exempt;
+  const Exempt& exempt;
 
   /// The path of a point over an interval of length w stays within second_derivative w^2 / 8 of its chord.
   bool is_free(double from, const ToolLine& start, double to, const ToolLine& end, bool ball_open,
                bool shank_open) const {
     const double width = to - from, middle = (from + to) / 2;
-    const ToolLine centre = line_at(middle);
     const double chord_error = second_derivative * width * width / 8;
-    if (ball_open) {
-      if (material.meets_capsule({centre.ball, centre.ball}, radii.ball, exempt)) return false;
-      ball_open = material.meets_capsule({start.ball, end.ball}, radii.ball + chord_error, exempt);
-    }
+    ball_open = ball_open && material.meets_capsule({start.ball, end.ball}, radii.ball + chord_error, exempt);
+    if (!ball_open && !shank_open) return true;
+    const ToolLine centre = line_at(middle);
+    if (ball_open && material.meets_capsule({centre.ball, centre.ball}, radii.ball, exempt)) return false;
     const double half_error = chord_error / 4;
     const double motion = half_error + std::max({(start.ball - centre.ball).norm(), (end.ball - centre.ball).norm(),
                                                  (start.top - centre.top).norm(), (end.top - centre.top).norm()});
@@ -57,7 +56,7 @@ bool touches_at_a_glance(const Sweep& sweep) {
 }  // namespace
 
 bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
-                        double second_derivative, const ToolRadii& radii, double margin, std::optional<Voxel> exempt) {
+                        double second_derivative, const ToolRadii& radii, double margin, const Exempt& exempt) {
   const bool has_shank = radii.shank > 0;
   const Sweep sweep{
       material, line_at, second_derivative, {radii.ball + margin, has_shank ? radii.shank + margin : 0}, exempt};

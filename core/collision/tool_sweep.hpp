@@ -24,6 +24,6 @@ struct ToolRadii {
 /// tool point by t, in voxel edges. True only if the tool stays clear of all material but `exempt` by `margin` (voxel
 /// edges) at every t.
 bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
-                        double second_derivative, const ToolRadii& radii, double margin, std::optional<Voxel> exempt);
+                        double second_derivative, const ToolRadii& radii, double margin, const Exempt& exempt);
 
 }  // namespace sculpt

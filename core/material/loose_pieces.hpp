@@ -18,9 +18,4 @@ VoxelSet find_unheld(const VoxelGrid& voxels);
 /// Face-connected pieces of a set.
 std::uint64_t count_pieces(const VoxelSet& voxels);
 
-/// Voxels in a straight line along one axis, removed one after the other from `first` to `last`.
-struct VoxelLine {
-  Voxel first, last;
-};
-
 }  // namespace sculpt

@@ -32,6 +32,11 @@ inline int l1(Voxel a, Voxel b) {
   return std::abs(a.i - b.i) + std::abs(a.j - b.j) + std::abs(a.k - b.k);
 }
 
+/// Voxels in a straight line along one axis, removed one after the other from `first` to `last`.
+struct VoxelLine {
+  Voxel first, last;
+};
+
 /// A cube of n x n x n voxels of edge `voxel_m`; `origin_m` is the corner of voxel (0,0,0), all in the stock frame.
 struct Grid {
   int n = 0;

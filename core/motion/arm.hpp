@@ -7,7 +7,7 @@
 
 #include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 #include "core/motion/posture_atlas.hpp"
 #include "core/trajectory/keyframe.hpp"
 

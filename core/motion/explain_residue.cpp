@@ -5,7 +5,7 @@
 
 #include "core/cell/ik.hpp"
 #include "core/material/cavities.hpp"
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 #include "core/motion/behind.hpp"
 
 namespace sculpt {

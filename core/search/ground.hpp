@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 
 namespace sculpt {
 

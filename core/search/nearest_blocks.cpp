@@ -5,7 +5,7 @@
 
 namespace sculpt {
 
-NearestBlocks::NearestBlocks(int n) {
+NearestBlocks::NearestBlocks(int n) : all_(n) {
   for (int size = 1; size <= n; size *= 2) tiers_.emplace_back(n, size);
 }
 
@@ -15,11 +15,13 @@ VoxelTree& NearestBlocks::tier_of(const Block& block) {
 
 void NearestBlocks::insert(const Block& block) {
   tier_of(block).insert(block.corner);
+  all_.insert(block);
   ++count_;
 }
 
 void NearestBlocks::erase(const Block& block) {
   tier_of(block).erase(block.corner);
+  all_.erase(block);
   --count_;
 }
 
@@ -40,15 +42,9 @@ Block NearestBlocks::best(Voxel from) const {
 }
 
 std::optional<Block> NearestBlocks::nearest(Voxel from, int most) const {
-  std::optional<Block> nearest;
-  for (std::size_t tier = 0; tier < tiers_.size(); ++tier) {
-    if (tiers_[tier].empty()) continue;
-    const auto found = tiers_[tier].nearest(from, most);
-    if (!found) continue;
-    most = found->distance;
-    nearest = {found->corner, 1 << tier, Label::remove};
-  }
-  return nearest;
+  const auto found = all_.nearest(from, most);
+  if (!found) return std::nullopt;
+  return Block{found->corner, found->size, Label::remove};
 }
 
 }  // namespace sculpt

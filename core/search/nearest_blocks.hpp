@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/material/octree.hpp"
+#include "core/search/block_tree.hpp"
 #include "core/search/voxel_tree.hpp"
 
 namespace sculpt {
@@ -33,6 +34,7 @@ class NearestBlocks {
   VoxelTree& tier_of(const Block& block);
 
   std::vector<VoxelTree> tiers_;  ///< by log2 of the block size
+  BlockTree all_;
   std::size_t count_ = 0;
 };
 

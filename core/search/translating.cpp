@@ -201,9 +201,12 @@ class Carving {
   std::optional<Way> way_to_nearest() {
     Block block = *candidates_.nearest(writer_.at(), std::numeric_limits<int>::max());
     const auto distance = [&](Voxel from, int most) {
-      // Towards the block that was nearest one step before, nothing else can be nearer.
-      if (block.distance(from) > most - 2) block = candidates_.nearest(from, most).value_or(block);
-      return std::min(block.distance(from), most);
+      const int known = std::min(most, block.distance(from));
+      if (known <= most - 2) return known;  // nothing can be nearer than one step less than at the voxel before
+      const auto nearer = candidates_.nearest(from, known);
+      if (!nearer) return known;
+      block = *nearer;
+      return block.distance(from);
     };
     return space_.find_way(space_.index(writer_.at()), 1, distance);
   }

@@ -143,9 +143,15 @@ class VoxelSearch {
 
   /// To where a voxel of `set` is beside the robot.
   std::optional<Way> way_to(const VoxelTree& set) {
+    std::optional<Voxel> last;
     return space_.find_way(at_, 1, [&](Voxel from, int most) {
       tick();
-      return set.distance(from, most);
+      const int known = last ? std::min(most, l1(*last, from)) : most;
+      if (known <= most - 2) return known;  // nothing can be nearer than one step less than at the voxel before
+      const auto nearer = set.nearest_about(from, known);
+      if (!nearer) return known;
+      last = nearer->corner;
+      return nearer->distance;
     });
   }
 

@@ -30,9 +30,11 @@ class VoxelTree {
   /// The cube nearest to `from`, which may be outside the grid; nothing if none is nearer than `most`. Which
   /// of equals is settled, but not by a simple rule.
   std::optional<Nearest> nearest(Voxel from, int most) const;
+  /// The same, but of equals another: looks at the cubes about `from` only where `most` is small.
+  std::optional<Nearest> nearest_about(Voxel from, int most) const;
   /// L1 from `from` to the nearest voxel of the set, or `most` if none is nearer.
   int distance(Voxel from, int most) const {
-    const auto found = nearest(from, most);
+    const auto found = nearest_about(from, most);
     return found ? found->distance : most;
   }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/run_context.hpp"
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 #include "core/sweep/hub_arm.hpp"
 
 namespace sculpt {

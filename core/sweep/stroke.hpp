@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 
 namespace sculpt {
 

@@ -21,10 +21,24 @@ Gantry::Gantry(Scene& scene, const Configuration& home, std::uint64_t seed, std:
       seed_(seed),
       stop_(std::move(stop)),
       known_(std::move(start)),
-      listener_(listener) {}
+      listener_(listener) {
+  if (const auto box = reach()) scene_.settle(*box);
+}
+
+/// The joint values of all voxels and of those around them: a prismatic chain's are linear in the ball's position.
+std::optional<JointBox> Gantry::reach() const {
+  const int n = scene_.grid().n;
+  const auto low = configuration_at({-1, -1, 0}), high = configuration_at({n, n, n});
+  if (!low || !high) return std::nullopt;
+  return JointBox{low->cwiseMin(*high), low->cwiseMax(*high)};
+}
 
 bool Gantry::is_free(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
   return emitted_ < known_.keyframes || scene_.certify(from, to, exempt) == Contact::none;
+}
+
+bool Gantry::is_free_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const {
+  return emitted_ < known_.keyframes || scene_.certify_run(from, to, run);
 }
 
 const Refusal* Gantry::known_refusal() const {
@@ -104,6 +118,10 @@ void Gantry::cut(Voxel first, Voxel last) {
   const Configuration step = to.value_or(from) - from;
   const Voxel along = sign(first - at_);
   const int count = l1(first, last) + 1;
+  if (to && count > 1 && known == nullptr && is_free_run(from, *to, {first, last})) {
+    for (int m = 0; m < count; ++m) scene_.remove(first + along * m);
+    return keep_cut(*to, first, last);
+  }
   for (int m = 1; m <= count; ++m) {
     const Voxel voxel = first + along * (m - 1), before = voxel - along;
     const Configuration here = from + step * (static_cast<double>(m - 1) / count);

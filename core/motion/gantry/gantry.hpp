@@ -56,6 +56,7 @@ class Gantry {
   void go_home();
 
  private:
+  std::optional<JointBox> reach() const;
   std::optional<Configuration> configuration_at(Voxel voxel) const;
   void enter();
   void travel(Voxel to);
@@ -63,6 +64,7 @@ class Gantry {
   void move(const Configuration& q);
   void keep_cut(const Configuration& q, Voxel first, Voxel last);
   bool is_free(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const;
+  bool is_free_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const;
   /// What was refused in the run that begins now, by the one that followed it before.
   const Refusal* known_refusal() const;
   /// Of the run that begins now. To be thrown.

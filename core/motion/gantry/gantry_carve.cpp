@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/base/pipe.hpp"
 #include "core/cell/ik.hpp"
 #include "core/motion/gantry/room.hpp"
 #include "core/search/translating.hpp"
@@ -19,13 +20,14 @@ std::array<Voxel, 4> entries(int n) {
 
 class GantryCarve {
  public:
-  GantryCarve(Gantry& gantry, const Scene& scene, const GantryTask& task, const Watch& watch)
+  GantryCarve(Gantry& gantry, const Scene& scene, const GantryTask& task, const RunContext& run)
       : gantry_(gantry),
         scene_(scene),
         task_(task),
         keep_(task.keep),
-        watch_(watch),
-        room_(scene, task.home, watch),
+        beside_(run.helpers.threads() > 1),
+        watch_(run.watch),
+        room_(scene, task.home, run.watch),
         wanted_(scene.material().solid().size() - task.keep.size()) {}
 
   void run() {
@@ -66,13 +68,23 @@ class GantryCarve {
     }
     std::optional<Support> support;
     if (task_.may_fall != nullptr) ground.support = &support.emplace(standing(), *task_.may_fall);
-    const auto follow = [this](const VoxelRun& run) { gantry_.follow(run); };
+    // The search knows nothing of what is certified: it goes ahead until a step is refused. Told is what is done.
+    std::uint64_t done = wanted_ + keep_.size() - standing().size();
+    const auto follow = [&](const VoxelRun& run) {
+      gantry_.follow(run);
+      if (run.cut) done += static_cast<std::uint64_t>(l1(run.first, run.last) + 1);
+      watch_.step(Stage::plan, std::min(wanted_, done), wanted_);
+    };
+    Pipe<VoxelRun> runs(follow, beside_);
+    const auto put = [&runs](const VoxelRun& run) { runs.put(run); };
+    const Watch watch{watch_.stop, {}};
     if (task_.search == Search::voxel) {
-      carve_voxelwise(voxels, ground, follow, counted());
+      carve_voxelwise(voxels, ground, put, watch);
     } else {
-      const Octree octree = build_octree(voxels, counted());
-      carve_translating(voxels, octree, build_block_graph(octree, counted()), ground, follow, counted());
+      const Octree octree = build_octree(voxels, watch);
+      carve_translating(voxels, octree, build_block_graph(octree, watch), ground, put, watch);
     }
+    runs.finish();
     return true;
   } catch (const Refusal& refusal) {
     blocked_.emplace_back(refusal.from, refusal.to);
@@ -93,21 +105,11 @@ class GantryCarve {
 
   const VoxelSet& standing() const { return scene_.material().solid(); }
 
-  /// Of all that is to be removed, whatever was removed before this search began.
-  Watch counted() const {
-    Watch watch = watch_;
-    const std::uint64_t done = wanted_ + keep_.size() - standing().size();
-    if (watch_.tell)
-      watch.tell = [this, done](const Progress& at) {
-        if (at.stage == Stage::plan) watch_.tell({at.stage, std::min(wanted_, done + at.done), wanted_, at.doubts});
-      };
-    return watch;
-  }
-
   Gantry& gantry_;
   const Scene& scene_;
   const GantryTask& task_;
   const VoxelSet& keep_;
+  bool beside_;
   const Watch& watch_;
   Room room_;
   std::uint64_t wanted_;
@@ -120,7 +122,7 @@ void carve_with_gantry(Scene& scene, const GantryTask& task, const GantryStart& 
                        const RunContext& run) {
   Gantry gantry(scene, task.home, run.seed, run.watch.stop, start, listener);
   try {
-    GantryCarve(gantry, scene, task, run.watch).run();
+    GantryCarve(gantry, scene, task, run).run();
   } catch (const Cancelled&) {
     if (gantry.is_on_its_own()) listener.stopped();
     throw;

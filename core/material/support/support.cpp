@@ -1,11 +1,12 @@
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
 
-#include "core/material/support_search.hpp"
+#include "core/material/support/support_search.hpp"
+#include "core/material/support/support_vicinity.hpp"
 #include "core/material/voxel_rows.hpp"
 
 namespace sculpt {
@@ -34,17 +35,20 @@ class Support::Surroundings {
  public:
   Surroundings(const Support& support, Voxel middle) {
     const int n = support.standing_.n();
-    for (int k = -1; k <= 1; ++k)
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) {
-          const Voxel voxel = middle + Voxel{i, j, k};
-          const bool own_column = i == 0 && j == 0;
-          if (std::min(voxel.i, voxel.j) < 0 || std::max({voxel.i, voxel.j, voxel.k}) >= n || (own_column && k == 0))
-            continue;
-          const std::uint32_t bit = bit_of({i, j, k});
-          if (voxel.k < 0 || support.standing_.contains(voxel)) standing_ |= bit;
-          if (voxel.k < support.rooted(voxel.i, voxel.j) && !(own_column && k > 0)) rooted_ |= bit;
-        }
+    for (int j = -1; j <= 1; ++j) {
+      if (middle.j + j < 0 || middle.j + j >= n) continue;
+      for (int k = -1; k <= 1 && middle.k + k < n; ++k)
+        standing_ |= row(support.standing_, middle + Voxel{0, j, k}) << 3 * (j + 1 + 3 * (k + 1));
+      for (int i = -1; i <= 1; ++i) {
+        if (middle.i + i < 0 || middle.i + i >= n) continue;
+        const bool own_column = i == 0 && j == 0;
+        const int height = support.rooted(middle.i + i, middle.j + j);
+        const int above = own_column ? std::min(height, middle.k) : height;
+        for (int k = -1; k <= 1 && middle.k + k < above; ++k) rooted_ |= bit_of({i, j, k});
+      }
+    }
+    standing_ &= ~bit_of({0, 0, 0});
+    rooted_ &= standing_;
     for (std::uint32_t left = standing_ & faces; left != 0; left &= ~joined_to(left & (~left + 1)))
       ++parts_, any_rooted_ |= (joined_to(left & (~left + 1)) & rooted_) != 0;
   }
@@ -66,6 +70,18 @@ class Support::Surroundings {
   }
 
  private:
+  /// Of the three voxels about `at` along x those that stand, as bits; the table does.
+  static std::uint32_t row(const VoxelSet& standing, Voxel at) {
+    const int n = standing.n();
+    const std::uint32_t in_grid = (at.i > 0 ? 1u : 0u) | 2u | (at.i + 1 < n ? 4u : 0u);
+    if (at.k < 0) return in_grid;
+    const std::size_t first = standing.index(at), bit = first & 63;
+    const std::uint64_t* word = standing.words().data() + (first >> 6);
+    const std::uint64_t three = bit == 0    ? *word << 1 | (at.i > 0 ? word[-1] >> 63 : 0)
+                                : bit == 63 ? *word >> 62 | (at.i + 1 < n ? word[1] << 2 : 0)
+                                            : *word >> (bit - 1);
+    return static_cast<std::uint32_t>(three) & in_grid;
+  }
   std::uint32_t joined_to(std::uint32_t seeds) const {
     constexpr std::uint32_t every_third = 0x1249249, low_i = every_third, high_i = every_third << 2;
     constexpr std::uint32_t low_j = 0x1C0E07, high_j = low_j << 6;
@@ -137,8 +153,11 @@ bool Support::frees_if_apart(Voxel voxel) const {
   if (left.empty()) return false;
   for (Voxel& neighbour : left) neighbour = neighbour + voxel;
   bool any_held = around.any_rooted();
-  SupportSearch search(
-      standing_, may_fall_, [this](int i, int j) { return rooted(i, j); }, voxel);
+  const std::function<int(int, int)> height = [this](int i, int j) { return rooted(i, j); };
+  if (standing_.n() >= 8) any_held |= SupportVicinity(standing_, height, voxel).settle(left);
+  if (left.empty() || (left.size() == 1 && !any_held)) return false;
+  thread_local SupportSearch::Scratch scratch;
+  SupportSearch search(standing_, may_fall_, height, voxel, scratch);
   using Way = SupportSearch::Way;
   while (!left.empty()) {
     const Voxel from = left.back();

@@ -1,4 +1,4 @@
-#include "core/material/support_search.hpp"
+#include "core/material/support/support_search.hpp"
 
 #include <algorithm>
 
@@ -14,28 +14,37 @@ constexpr int cube_edge = 8;
 
 }  // namespace
 
-SupportSearch::SupportSearch(const VoxelSet& standing, const VoxelSet& may_fall, std::function<int(int, int)> rooted,
-                             Voxel gone)
+SupportSearch::SupportSearch(const VoxelSet& standing, const VoxelSet& may_fall,
+                             const std::function<int(int, int)>& rooted, Voxel gone, Scratch& scratch)
     : standing_(standing),
       may_fall_(may_fall),
-      rooted_(std::move(rooted)),
+      rooted_(rooted),
       gone_(gone),
       edge_(std::min(cube_edge, standing.n())),
-      max_looked_at_(std::max(fewest_looked_at, 64 * standing.words().size() / voxels_flooded_for_one)) {}
+      max_looked_at_(std::max(fewest_looked_at, 64 * standing.words().size() / voxels_flooded_for_one)),
+      scratch_(scratch) {
+  scratch_.whole.clear();
+}
+
+void SupportSearch::open(const Node& node) {
+  scratch_.open.push_back(node);
+  std::push_heap(scratch_.open.begin(), scratch_.open.end());
+}
 
 SupportSearch::Way SupportSearch::follow(Voxel from, std::vector<Voxel>& others, bool any_held) {
-  seen_.clear();
-  seen_cubes_.clear();
-  open_ = {};
+  scratch_.seen.clear();
+  scratch_.seen_cubes.clear();
+  scratch_.open.clear();
   others_ = &others;
   any_held_ = any_held;
   foreseen_ = true;
   if (consider(from) == Found::held) return Way::held;
-  while (!open_.empty()) {
-    const Node node = open_.top();
-    open_.pop();
+  while (!scratch_.open.empty()) {
+    std::pop_heap(scratch_.open.begin(), scratch_.open.end());
+    const Node node = scratch_.open.back();
+    scratch_.open.pop_back();
     if (look_around(node) == Found::held) return Way::held;
-    if (seen_.size() + seen_cubes_.size() > max_looked_at_) return Way::long_;
+    if (scratch_.seen.size() + scratch_.seen_cubes.size() > max_looked_at_) return Way::long_;
   }
   return foreseen_ ? Way::falls : Way::none;
 }
@@ -70,23 +79,23 @@ SupportSearch::Found SupportSearch::consider(Voxel voxel) {
   const Grid bounds{standing_.n(), 1, Vec3::Zero()};
   if (!bounds.contains(voxel) || voxel == gone_ || !standing_.contains(voxel)) return Found::nothing;
   if (const Voxel cube = cube_of(voxel); is_whole(cube)) return enter_cube(cube);
-  if (!seen_.insert(standing_.index(voxel)).second) return Found::nothing;
+  if (!scratch_.seen.enter(standing_.index(voxel)).second) return Found::nothing;
   if (is_rooted(voxel)) return Found::held;
   if (std::erase(*others_, voxel) > 0 && joins_all()) return Found::held;
   foreseen_ = foreseen_ && may_fall_.contains(voxel);
-  open_.push({voxel, false});
+  open({voxel, false});
   return Found::nothing;
 }
 
 SupportSearch::Found SupportSearch::enter_cube(Voxel corner) {
-  if (!seen_cubes_.insert(standing_.index(corner)).second) return Found::nothing;
+  if (!scratch_.seen_cubes.enter(standing_.index(corner)).second) return Found::nothing;
   for (int j = 0; j < edge_; ++j)
     for (int i = 0; i < edge_; ++i)
       if (is_rooted(corner + Voxel{i, j, 0})) return Found::held;
   if (std::erase_if(*others_, [&](Voxel other) { return cube_of(other) == corner; }) > 0 && joins_all())
     return Found::held;
   foreseen_ = foreseen_ && has_all(may_fall_, corner);
-  open_.push({corner, true});
+  open({corner, true});
   return Found::nothing;
 }
 
@@ -97,9 +106,9 @@ bool SupportSearch::is_rooted(Voxel voxel) const {
 }
 
 bool SupportSearch::is_whole(Voxel corner) {
-  const auto [at, is_new] = whole_.try_emplace(standing_.index(corner), false);
-  if (is_new) at->second = cube_of(gone_) != corner && has_all(standing_, corner);
-  return at->second;
+  const auto [whole, is_new] = scratch_.whole.enter(standing_.index(corner));
+  if (is_new) whole = cube_of(gone_) != corner && has_all(standing_, corner);
+  return whole != 0;
 }
 
 bool SupportSearch::has_all(const VoxelSet& set, Voxel corner) const {

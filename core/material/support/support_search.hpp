@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <queue>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
+#include "core/base/index_table.hpp"
 #include "core/material/voxel_set.hpp"
 
 namespace sculpt {
@@ -16,9 +14,22 @@ namespace sculpt {
 /// that all stand are passed in one step, so that the inside of a sculpture costs next to nothing. Refers to what it is
 /// made from.
 class SupportSearch {
+  struct Node {
+    Voxel corner;
+    bool whole;  ///< a cube of voxels that all stand
+    bool operator<(const Node& other) const { return corner.k > other.corner.k; }
+  };
+
  public:
+  /// Memory that one search after the other may use.
+  struct Scratch {
+    IndexTable whole, seen, seen_cubes;
+    std::vector<Node> open;  ///< a heap
+  };
+
   /// `rooted(i, j)`: how many voxels stand in that column from the table up without a gap.
-  SupportSearch(const VoxelSet& standing, const VoxelSet& may_fall, std::function<int(int, int)> rooted, Voxel gone);
+  SupportSearch(const VoxelSet& standing, const VoxelSet& may_fall, const std::function<int(int, int)>& rooted,
+                Voxel gone, Scratch& scratch);
 
   enum class Way {
     held,   ///< joined to the table, or to all of the others of which none is known to be
@@ -31,11 +42,6 @@ class SupportSearch {
   Way follow(Voxel from, std::vector<Voxel>& others, bool any_held);
 
  private:
-  struct Node {
-    Voxel corner;
-    bool whole;  ///< a cube of voxels that all stand
-    bool operator<(const Node& other) const { return corner.k > other.corner.k; }
-  };
   enum class Found { nothing, held };
 
   Found consider(Voxel voxel);
@@ -47,17 +53,16 @@ class SupportSearch {
   Voxel cube_of(Voxel voxel) const {
     return {voxel.i / edge_ * edge_, voxel.j / edge_ * edge_, voxel.k / edge_ * edge_};
   }
+  void open(const Node& node);
   bool joins_all() const { return others_->empty() && !any_held_; }
 
   const VoxelSet& standing_;
   const VoxelSet& may_fall_;
-  std::function<int(int, int)> rooted_;
+  const std::function<int(int, int)>& rooted_;
   Voxel gone_;
   int edge_;  ///< of a cube
   std::size_t max_looked_at_;
-  std::unordered_map<std::size_t, bool> whole_;
-  std::unordered_set<std::size_t> seen_, seen_cubes_;
-  std::priority_queue<Node> open_;
+  Scratch& scratch_;
   std::vector<Voxel>* others_ = nullptr;
   bool any_held_ = false, foreseen_ = false;
 };

@@ -1,4 +1,4 @@
-#include "core/material/support.hpp"
+#include "core/material/support/support.hpp"
 
 #include <gtest/gtest.h>
 
