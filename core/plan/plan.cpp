@@ -186,7 +186,7 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
       throw;
     }
     if (report.plan_sha256.empty()) finish(output, replay, report);
-    count_replay(report, replay.wait(told, [] {}));
+    count_replay(report, replay.wait({told.stop, told.tell, watch.doubts}, [] {}));
   }
   report.seconds.total = total.seconds();
   report.peak_memory_bytes = peak_memory_bytes();

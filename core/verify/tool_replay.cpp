@@ -33,11 +33,11 @@ ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& mot
       stickout_(mm * tool.stickout_m) {
   const Around around{cell.tool_link, Vec3(0, 0, stickout_ / 2), stickout_ / 2 + std::max(ball_, shank_)};
   const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
-  add_target(motion, {nullptr, 0, grid, cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
+  add_target(motion, {nullptr, 0, grid.inverse(), cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
                       ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
   for (const SolidBody& body : bodies) {
     if (motion.joints_between(body.link, cell.tool_link).empty()) continue;  // it moves with the tool
-    add_target(motion, {&body, 0, body.pose, body.link, body.pose, -body.half, body.half,
+    add_target(motion, {&body, 0, body.pose.inverse(), body.link, body.pose, -body.half, body.half,
                         ApproachBound(motion, around, {body.link, body.pose.translation(), body.radius})});
   }
 }
@@ -46,7 +46,7 @@ void ToolReplay::add_target(const LinkMotion& motion, Target target) {
   for (target.view = 0; target.view < views_.size(); ++target.view) {
     const LinkChain still = motion.chain(views_[target.view].link, target.link);
     if (!still.is_rigid()) continue;
-    target.in_view = still.rigid() * target.pose;
+    target.from_view = (still.rigid() * target.pose).inverse();
     break;
   }
   if (target.view == views_.size()) views_.push_back({target.link, motion.chain(target.link, cell_.tool_link), {}, {}});
@@ -77,8 +77,7 @@ void ToolReplay::place_ends(const JointMotion& motion, View& view) const {
 }
 
 ToolReplay::Line ToolReplay::seen_from(const Target& target, const Line& line) const {
-  const Frame from_view = target.in_view.inverse();
-  return {from_view * line.ball, from_view * line.top};
+  return {target.from_view * line.ball, target.from_view * line.top};
 }
 
 // Of any point of the line.

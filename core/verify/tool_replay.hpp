@@ -51,7 +51,7 @@ class ToolReplay {
   struct Target {
     const SolidBody* body;  // null: the material
     std::size_t view;
-    Frame in_view;  // of the target's frame
+    Frame from_view;  // to the target's frame
     int link;
     Frame pose;      // of the target's frame in its link
     Vec3 low, high;  // box around it in its own frame

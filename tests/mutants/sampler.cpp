@@ -2,7 +2,8 @@
 // Does a trajectory touch anything, or remove what it does not come to? Asked of dense samples, with nothing of the
 // planner's or the replay's code: own kinematics, own shapes, points on the surfaces of what moves, looked up in what
 // they may not be in.
-//   mutant_sampler CELL.json TRAJECTORY.ndjson        exit 0: free, 1: something overlaps, 2: it cannot say
+//   mutant_sampler CELL.json TRAJECTORY.ndjson [FIRST LAST]     exit 0: free, 1: something overlaps, 2: it cannot say
+// FIRST, LAST: only these lines of the file are looked at, the header is line 1.
 // For cells of boxes, cylinders and spheres whose whole grid is clamped. It cannot prove that a trajectory is free:
 // what lies between its samples it does not see.
 #include <tinyxml2.h>
@@ -34,7 +35,8 @@ constexpr double deep_voxels = 1e-3;        // of the tool in a voxel
 constexpr double link_points_m = 0.008;     // between points of a link's surface
 constexpr double tool_points_voxels = 0.4;  // along the shank
 constexpr std::size_t max_points = 3000;    // of a shape, to look whether it is in another one
-constexpr double step_voxels = 0.15;        // that a point of the tool moves between samples
+constexpr std::size_t max_lines = 1'000'000'000;
+constexpr double step_voxels = 0.15;  // that a point of the tool moves between samples
 
 Vec numbers(const char* text, const Vec& otherwise) {
   if (text == nullptr) return otherwise;
@@ -298,15 +300,18 @@ class Sampler {
   }
 
   /// What overlaps first; empty if nothing does.
-  std::string run() {
+  std::string run(std::size_t first_line, std::size_t last_line) {
     for (std::size_t line = 2;; ++line) {
       const Json step = read();
       if (step.at("type") == "end") return {};
       const auto to = step.at("q").get<std::vector<double>>();
       std::vector<Cell> run;
       if (step.at("type") == "cut") run = cells(step.at("voxels"));
-      const std::string found = look_along(to, run);
-      if (!found.empty()) return "line " + std::to_string(line) + ": " + found;
+      if (line >= first_line && line <= last_line) {
+        const std::string found = look_along(to, run);
+        if (!found.empty()) return "line " + std::to_string(line) + ": " + found;
+      }
+      for (const Cell& cell : run) standing_[index(cell)] = false;
       at_ = to;
     }
   }
@@ -494,14 +499,16 @@ class Sampler {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 3) {
-    std::cerr << "usage: mutant_sampler CELL.json TRAJECTORY.ndjson\n";
+  if (count != 3 && count != 5) {
+    std::cerr << "usage: mutant_sampler CELL.json TRAJECTORY.ndjson [FIRST LAST]\n";
     return 2;
   }
   try {
     Machine machine{std::filesystem::path(words[1])};
     std::ifstream in(words[2]);
-    const std::string found = Sampler(machine, in).run();
+    const bool some = count == 5;
+    const std::string found =
+        Sampler(machine, in).run(some ? std::stoul(words[3]) : 2, some ? std::stoul(words[4]) : max_lines);
     std::cout << (found.empty() ? "free" : found) << "\n";
     return found.empty() ? 0 : 1;
   } catch (const std::exception& error) {

@@ -96,8 +96,9 @@ class Bench:
         findings = json.loads(said.stdout)["findings"]
         return findings[0]["sentence"][:90] if findings else ""
 
-    def sample(self, target, out):
-        said = run(self.sampler, self.cells / f"{target[0]}.json", out)
+    def sample(self, target, out, lines=()):
+        """What overlaps, in all of a file or from line to line of it; "" if nothing does."""
+        said = run(self.sampler, self.cells / f"{target[0]}.json", out, *lines)
         if said.returncode == 2:
             raise RuntimeError(said.stderr)
         return "" if said.returncode == 0 else said.stdout.strip()
