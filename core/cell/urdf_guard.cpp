@@ -1,5 +1,9 @@
 #include "core/cell/urdf_guard.hpp"
 
+#include <tinyxml2.h>
+
+#include <string_view>
+
 #include "core/base/error.hpp"
 
 namespace sculpt {
@@ -11,53 +15,47 @@ constexpr std::size_t max_urdf_bytes = 2u << 20;
   throw InputError("urdf_invalid", sentence);
 }
 
-/// tinyxml parses recursively, so nesting without end would overflow the stack.
-void refuse_deep_nesting(const std::string& xml) {
-  constexpr int deepest = 100;
-  int depth = 0;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at)) {
-    if (xml.compare(at, 4, "<!--") == 0) {
-      at = xml.find("-->", at);
-      if (at == std::string::npos) return;
-      continue;
-    }
-    const char kind = at + 1 < xml.size() ? xml[at + 1] : '\0';
-    char quote = 0;
-    std::size_t end = at + 1;
-    for (; end < xml.size() && (quote || xml[end] != '>'); ++end) {
-      if (quote ? xml[end] == quote : (xml[end] == '"' || xml[end] == '\'')) quote = quote ? 0 : xml[end];
-    }
-    if (kind == '/') {
-      --depth;
-    } else if (kind != '?' && kind != '!' && end > 0 && xml[end - 1] != '/') {
-      ++depth;
-    }
-    if (depth > deepest) refuse("the URDF nests elements more than 100 deep: it is no URDF, or damaged");
-    at = end;
-  }
-}
-
-/// urdfdom skips what it does not know, so that of a xacro source parts would be missing. (A URDF that xacro wrote
-/// names its namespace still, and may have its source in comments.)
-void refuse_xacro(const std::string& xml) {
-  std::size_t at = 0;
-  while ((at = xml.find('<', at)) != std::string::npos) {
-    if (xml.compare(at, 7, "<xacro:") == 0)
+/// urdfdom's parser goes down recursively, so nesting without end would overflow the stack. And urdfdom skips what it
+/// does not know, so that of a xacro source parts would be missing. (A URDF that xacro wrote names its namespace still,
+/// and may have its source in comments.)
+class Guard : public tinyxml2::XMLVisitor {
+ public:
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+    if (++depth_ > deepest) refuse_nesting();
+    if (std::string_view(element.Name()).starts_with("xacro:"))
       refuse(
           "the file is a xacro source, not a URDF: write it out with `xacro robot.urdf.xacro > robot.urdf`, and name "
           "that file");
-    if (xml.compare(at, 4, "<!--") == 0) at = xml.find("-->", at);
-    if (at != std::string::npos) ++at;
+    return true;
   }
-}
+  bool VisitExit(const tinyxml2::XMLElement&) override {
+    --depth_;
+    return true;
+  }
+
+  [[noreturn]] static void refuse_nesting() {
+    refuse("the URDF nests elements more than " + std::to_string(deepest) + " deep: it is no URDF, or damaged");
+  }
+
+ private:
+  static constexpr int deepest = 100;
+
+  int depth_ = 0;
+};
 
 }  // namespace
 
 void check_urdf(const std::string& xml) {
   if (xml.size() > max_urdf_bytes)
     refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(max_urdf_bytes));
-  refuse_deep_nesting(xml);
-  refuse_xacro(xml);
+  tinyxml2::XMLDocument document;
+  const tinyxml2::XMLError error = document.Parse(xml.data(), xml.size());
+  if (error == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) Guard::refuse_nesting();
+  if (error != tinyxml2::XML_SUCCESS)
+    refuse("the URDF is no XML that is whole: line " + std::to_string(document.ErrorLineNum()) + " (" +
+           tinyxml2::XMLDocument::ErrorIDToName(error) + ")");
+  Guard guard;
+  document.Accept(&guard);
 }
 
 }  // namespace sculpt

@@ -5,8 +5,8 @@
 
 namespace sculpt {
 
-/// Throws InputError `urdf_invalid` for a text that is too large, nests so deep that a recursive parser runs out of
-/// stack, or is a xacro source.
+/// Throws InputError `urdf_invalid` for a text that is too large, is no XML, nests so deep that a recursive parser runs
+/// out of stack, or is a xacro source.
 void check_urdf(const std::string& xml);
 
 }  // namespace sculpt

@@ -143,6 +143,12 @@ TEST(Robot, EndlessNestingIsRefusedInsteadOfOverflowingTheStack) {
   std::string deep = "<robot name='r'>";
   for (int i = 0; i < 200000; ++i) deep += "<a>";
   expect_refused(deep, "nests");
+  std::string whole = "<robot name='r'><link name='a'><!-- <a> --><![CDATA[ ' \" > ]]></link>", ends;
+  for (int i = 0; i < 100; ++i) {
+    whole += "<a>";
+    ends += "</a>";
+  }
+  expect_refused(whole + ends + "</robot>", "nests");
   expect_refused(std::string(3u << 20, ' '), "limit");
 }
 
