@@ -107,25 +107,14 @@ bool Scene::room_is_clear(const Vec3& low_m, const Vec3& high_m) const {
 }
 
 Contact Scene::certify(const Configuration& from, const Configuration& to, std::optional<Voxel> exempt) const {
-  return certify_exempting(from, to, exempt);
+  if (!bodies_->chain.within_limits(from) || !bodies_->chain.within_limits(to)) return Contact::limits;
+  return bodies_->certify(from, to, bodies_->tool_edge(from, to), exempt);
 }
 
 bool Scene::certify_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const {
-  return bodies_->stays_behind_rest(from, to, run) && certify_exempting(from, to, run) == Contact::none;
-}
-
-Contact Scene::certify_exempting(const Configuration& from, const Configuration& to, const Exempt& exempt) const {
-  if (!bodies_->chain.within_limits(from) || !bodies_->chain.within_limits(to)) return Contact::limits;
-  const Configuration step = to - from;
-  const auto line_at = [&](double t) {
-    bodies_->count_check();
-    return bodies_->tool_line(bodies_->chain.tool_pose(from + t * step));
-  };
-  if (!tool_sweep_is_free(bodies_->material, line_at, bodies_->tool_second_derivative(step), bodies_->radii,
-                          tool_margin_voxels, exempt))
-    return Contact::tool_material;
-  const std::vector<const SceneBodies::Pair*> open = bodies_->open_between(from, to);
-  return open.empty() ? Contact::none : bodies_->certify_links(from, step, 0.5, 0.5, open);
+  if (!bodies_->chain.within_limits(from) || !bodies_->chain.within_limits(to)) return false;
+  const ToolEdge tool = bodies_->tool_edge(from, to);
+  return bodies_->stays_behind_rest(tool, run) && bodies_->certify(from, to, tool, run) == Contact::none;
 }
 
 }  // namespace sculpt

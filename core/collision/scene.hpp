@@ -95,8 +95,6 @@ class Scene {
   bool certify_run(const Configuration& from, const Configuration& to, const VoxelLine& run) const;
 
  private:
-  Contact certify_exempting(const Configuration& from, const Configuration& to, const Exempt& exempt) const;
-
   std::unique_ptr<SceneBodies> bodies_;
 };
 

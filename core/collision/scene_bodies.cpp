@@ -127,6 +127,21 @@ bool SceneBodies::near_sliding(const Pair& pair, const std::vector<Frame>& at, c
   return near_sliding_body(a, at[first], slide, b, at[second], pair.margin_m);
 }
 
+ToolEdge SceneBodies::tool_edge(const Configuration& from, const Configuration& to) const {
+  const auto line_at = [&](double t) {
+    count_check();
+    return tool_line(chain.tool_pose(from + t * (to - from)));
+  };
+  return {line_at(0), line_at(1), line_at, tool_second_derivative(to - from)};
+}
+
+Contact SceneBodies::certify(const Configuration& from, const Configuration& to, const ToolEdge& edge,
+                             const Exempt& exempt) const {
+  if (!tool_sweep_is_free(material, edge, radii, tool_margin_voxels, exempt)) return Contact::tool_material;
+  const std::vector<const Pair*> open = open_between(from, to);
+  return open.empty() ? Contact::none : certify_links(from, to - from, 0.5, 0.5, open);
+}
+
 Contact SceneBodies::certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                                    const std::vector<const Pair*>& open) const {
   std::vector<Frame> at;
@@ -150,16 +165,15 @@ Contact SceneBodies::certify_links(const Configuration& from, const Configuratio
 /// A tool point is within an eighth of that of the straight line between where it is at both ends. How far the tool
 /// reaches is convex along the edge then, and the plane moves evenly: who is short of it at the first and the last part
 /// is always.
-bool SceneBodies::stays_behind_rest(const Configuration& from, const Configuration& to, const VoxelLine& run) const {
+bool SceneBodies::stays_behind_rest(const ToolEdge& edge, const VoxelLine& run) const {
   const auto point = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
   const int count = l1(run.first, run.last) + 1;
   const Vec3 way = point(sign(run.last - run.first));
-  const ToolLine start = tool_line(chain.tool_pose(from)), end = tool_line(chain.tool_pose(to));
-  const double stray = tool_second_derivative(to - from) / 8 + tool_margin_voxels;
+  const double stray = edge.second_derivative / 8 + tool_margin_voxels;
   const auto is_short = [&](int removed) {
     const double t = static_cast<double>(removed) / count;
-    const double ball = way.dot(start.ball + t * (end.ball - start.ball)),
-                 top = way.dot(start.top + t * (end.top - start.top));
+    const double ball = way.dot(edge.start.ball + t * (edge.end.ball - edge.start.ball)),
+                 top = way.dot(edge.start.top + t * (edge.end.top - edge.start.top));
     const double reach =
         radii.shank > 0 ? std::max(ball + radii.ball, std::max(ball, top) + radii.shank) : ball + radii.ball;
     return reach + stray <= way.dot(point(run.first) + Vec3::Constant(0.5)) + removed - 0.5;

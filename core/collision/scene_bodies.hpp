@@ -94,7 +94,11 @@ class SceneBodies {
   Contact certify_links(const Configuration& from, const Configuration& step, double middle, double half,
                         const std::vector<const Pair*>& open) const;
   /// Is the tool short of the plane between the voxel of `run` that it removes and the next, all along the edge?
-  bool stays_behind_rest(const Configuration& from, const Configuration& to, const VoxelLine& run) const;
+  bool stays_behind_rest(const ToolEdge& edge, const VoxelLine& run) const;
+  /// Refers to both.
+  ToolEdge tool_edge(const Configuration& from, const Configuration& to) const;
+  /// Of an edge within the limits on which the tool moves like this.
+  Contact certify(const Configuration& from, const Configuration& to, const ToolEdge& edge, const Exempt& exempt) const;
   /// Bound on the second derivative of any tool point along from + t step.
   double tool_second_derivative(const Configuration& step) const;
 

@@ -20,10 +20,15 @@ struct ToolRadii {
   double ball = 0, shank = 0;
 };
 
-/// `line_at(t)`: the tool at path parameter t in [0, 1]. `second_derivative`: bound on the second derivative of any
-/// tool point by t, in voxel edges. True only if the tool stays clear of all material but `exempt` by `margin` (voxel
-/// edges) at every t.
-bool tool_sweep_is_free(const Material& material, const std::function<ToolLine(double)>& line_at,
-                        double second_derivative, const ToolRadii& radii, double margin, const Exempt& exempt);
+/// The tool along an edge.
+struct ToolEdge {
+  ToolLine start, end;
+  std::function<ToolLine(double)> line_at;  ///< at path parameter t in [0, 1]
+  double second_derivative;                 ///< bound on that of any tool point by t, in voxel edges
+};
+
+/// True only if the tool stays clear of all material but `exempt` by `margin` (voxel edges) at every t.
+bool tool_sweep_is_free(const Material& material, const ToolEdge& edge, const ToolRadii& radii, double margin,
+                        const Exempt& exempt);
 
 }  // namespace sculpt

@@ -39,13 +39,22 @@ void VoxelSpace::block(Voxel from, Voxel to) {
   }
 }
 
+/// A voxel is come by from several sides. What was said of it is kept modulo 3: it is `most`, or one or two less.
+int VoxelSpace::distance_at(Index at, int most, const Distance& distance) {
+  if (const int known = cells_[at] >> known_shift) return most - (most - (known - 1) + 3) % 3;
+  const int there = distance(voxel(at), most);
+  cells_[at] |= static_cast<std::uint8_t>((1 + there % 3) << known_shift);
+  touched_.push_back(at);
+  return there;
+}
+
 void VoxelSpace::expand(const Entry& entry, std::size_t detour, const Distance& distance) {
   // Straight on is pushed last and so tried first: the fewer turns the better.
   for (int turn = 1; turn <= 6; ++turn) {
     const auto face = static_cast<std::uint8_t>((entry.face + turn) % 6);
     const Index next = beside(entry.at, face);
     if ((cells_[next] & (air_bit | closed_bit)) != air_bit || is_blocked(entry.at, face)) continue;
-    const int there = distance(voxel(next), entry.distance + 1);
+    const int there = distance_at(next, entry.distance + 1, distance);
     const std::size_t further = detour + static_cast<std::size_t>(1 + there - entry.distance);
     if (frontier_.size() <= further) frontier_.resize(further + 1);
     frontier_[further].push_back({next, there, face});
@@ -55,14 +64,13 @@ void VoxelSpace::expand(const Entry& entry, std::size_t detour, const Distance& 
 std::optional<std::vector<std::uint8_t>> VoxelSpace::find_way(Index from, int enough, const Distance& distance) {
   std::optional<std::vector<std::uint8_t>> way;
   frontier_.resize(std::max<std::size_t>(frontier_.size(), 1));
-  frontier_[0].push_back({from, distance(voxel(from), 3 * edge_), 0});
+  frontier_[0].push_back({from, distance_at(from, 3 * edge_, distance), 0});
   for (std::size_t detour = 0; detour < frontier_.size() && !way; ++detour) {
     while (!frontier_[detour].empty() && !way) {
       const Entry entry = frontier_[detour].back();
       frontier_[detour].pop_back();
       if (cells_[entry.at] & closed_bit) continue;
       cells_[entry.at] |= static_cast<std::uint8_t>(closed_bit | entry.face << parent_shift);
-      touched_.push_back(entry.at);
       if (entry.distance == enough)
         way = trace(from, entry.at);
       else
@@ -76,7 +84,7 @@ std::optional<std::vector<std::uint8_t>> VoxelSpace::find_way(Index from, int en
 std::vector<std::uint8_t> VoxelSpace::trace(Index from, Index to) const {
   std::vector<std::uint8_t> way;
   for (Index at = to; at != from;) {
-    way.push_back(cells_[at] >> parent_shift);
+    way.push_back(cells_[at] >> parent_shift & 7);
     at -= steps_[way.back()];
   }
   std::reverse(way.begin(), way.end());

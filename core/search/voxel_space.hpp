@@ -58,6 +58,7 @@ class VoxelSpace {
  private:
   static constexpr std::uint8_t remove_bit = 1, air_bit = 2, closed_bit = 4;  // closed: the search knows the way to it
   static constexpr int parent_shift = 3;  // the face through which the search came, 3 bits
+  static constexpr int known_shift = 6;   // 1 + the distance modulo 3, 2 bits
 
   struct Entry {
     Index at;
@@ -66,6 +67,7 @@ class VoxelSpace {
   };
 
   static std::uint8_t cell_of(bool stock, bool keep) { return stock ? (keep ? 0 : remove_bit) : air_bit; }
+  int distance_at(Index at, int most, const Distance& distance);
   void expand(const Entry& entry, std::size_t detour, const Distance& distance);
   std::vector<std::uint8_t> trace(Index from, Index to) const;
   void forget_search();
@@ -75,7 +77,7 @@ class VoxelSpace {
   std::vector<std::uint8_t> cells_;
   std::set<std::pair<Index, int>> blocked_;
   std::vector<std::vector<Entry>> frontier_;  ///< by detour over the first distance; last in first out, so it goes deep
-  std::vector<Index> touched_;                ///< closed by the running search
+  std::vector<Index> touched_;                ///< looked at by the running search
 };
 
 }  // namespace sculpt

@@ -24,6 +24,11 @@ TEST(Verify, CountsWhatATranslatingRobotFrees) {
   const Verdict verdict = verify_text(program.text(), cell, voxels);
   EXPECT_TRUE(verdict.clean) << sentences(verdict);
   EXPECT_EQ(verdict.freed, 4u);
+
+  program.header().held = true;
+  const Verdict held = verify_text(program.text(), cell, voxels);
+  EXPECT_FALSE(held.clean);
+  EXPECT_TRUE(found(held, {"(1, 1, 5)", "4 voxels", "come loose"})) << sentences(held);
 }
 
 TEST(Verify, LandscapesCarvedColumnByColumnAreClean) {
