@@ -184,6 +184,7 @@ const std::vector<Setting>& settings() {
               "with such a database: a daemon that is silent for so long has lost its jobs to the others"),
       integer("workers", &Config::workers, 0, max_workers, at_start,
               "jobs that run at once; 0: one less than there are cores"),
+      list("queues", &Config::queues, at_start, "whose jobs are planned here; a job names one, or is in default"),
       cell_folder("cells", at_start, "folder with cell files"),
       choice("log", &Config::log, {"trace", "debug", "info", "warn", "error", "off"}, at_reload,
              "what is logged: this and what is worse"),

@@ -40,7 +40,7 @@ class FleetFeed {
  private:
   struct OpenJob {
     std::int64_t rank = 0;
-    std::string owner;
+    std::string owner, queue;
     JobState state = JobState::queued;
   };
   void count_event(const Answered& events, int row);

@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "server/fleet/fleet_progress.hpp"
+#include "server/base/progress_text.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "proto/json.hpp"
 #include "proto/version.hpp"
+#include "server/base/progress_text.hpp"
 #include "server/base/storage_error.hpp"
-#include "server/fleet/fleet_progress.hpp"
 #include "server/fleet/fleet_schema.hpp"
 
 namespace sculpt::server {
@@ -28,9 +28,10 @@ constexpr const char* renew_leases =
     "WHERE job.id = mine.id AND lease.job = job.number AND lease.attempt = mine.attempt AND lease.daemon = $1 "
     "RETURNING job.id";
 constexpr const char* say_hello =
-    "INSERT INTO sculptd.daemon VALUES($1, $2, $3, $4, $5, $6, $7, now()) ON CONFLICT(id) DO UPDATE SET "
+    "INSERT INTO sculptd.daemon VALUES($1, $2, $3, $4, $5, $6, $7, now(), $8) ON CONFLICT(id) DO UPDATE SET "
     "address=excluded.address, version=excluded.version, schema=excluded.schema, workers=excluded.workers, "
-    "running=excluded.running, memory_bytes=excluded.memory_bytes, seen=excluded.seen";
+    "running=excluded.running, memory_bytes=excluded.memory_bytes, seen=excluded.seen, "
+    "queues=excluded.queues";
 constexpr const char* look_at_trouble =
     "SELECT coalesce(extract(epoch FROM (SELECT max(now() - xact_start) FROM pg_stat_activity)), 0), "
     "coalesce((SELECT n_dead_tup FROM pg_stat_user_tables WHERE schemaname='sculptd' AND relname='job'), 0)";
@@ -125,7 +126,7 @@ void FleetLeases::beat() {
       {say_hello,
        {sql_value(member_.id), sql_value(address_), sql_value(std::string(proto::server_name)),
         sql_value(fleet_schema_version), sql_value(member_.workers), sql_value(static_cast<std::int64_t>(held.size())),
-        sql_value(static_cast<std::int64_t>(member_.memory_bytes))}});
+        sql_value(static_cast<std::int64_t>(member_.memory_bytes)), sql_value(proto::write_json(member_.queues))}});
   take_sweep();
   if (beats_++ % beats_per_measure == 0) measure();
 }
@@ -134,7 +135,9 @@ void FleetLeases::renew(const std::map<std::string, Held>& held, Clock::time_poi
   Json mine = Json::array();
   for (const auto& [job, lease] : held) {
     const std::optional<Progress> progress = hooks_.progress(job);
-    mine.push_back({{"id", job}, {"attempt", lease.attempt}, {"progress", progress ? progress_text(*progress) : ""}});
+    mine.push_back({{"id", job},
+                    {"attempt", lease.attempt},
+                    {"progress", progress ? proto::write_json(progress_json(*progress)) : ""}});
   }
   const Answered renewed = database_.ask(
       {renew_leases, {sql_value(member_.id), sql_value(lease_.count()), sql_value(proto::write_json(mine))}});

@@ -11,9 +11,9 @@ namespace sculpt::server {
 /// What a daemon has in mind when it looks for a job.
 struct Claimant {
   AtWork at_work;
-  /// No job is known that is queued with a lower rank; nothing: nobody knows. While somebody holds a transaction open
-  /// the rows of all jobs since are passed on the way to the first that is queued: this leads around them.
-  std::optional<std::int64_t> first_rank;
+  /// Knows which rank is the first that is queued, if any is known. While somebody holds a transaction open the rows of
+  /// all jobs since are passed on the way to it: this leads around them.
+  const JobTally& tally;
 };
 
 /// Locks the row until the change ends; rows that others are looking at are passed over. Nothing where JobStore::claim

@@ -89,7 +89,15 @@ CREATE TABLE sculptd.daemon(
 ) WITH (fillfactor=70);
 )";
 
-constexpr std::array<const char*, fleet_schema_version> steps{version_1};
+constexpr const char* version_2 = R"(
+ALTER TABLE sculptd.job ADD COLUMN queue text NOT NULL DEFAULT 'default';
+DROP INDEX sculptd.job_queue;
+CREATE INDEX job_queue ON sculptd.job(queue, rank, number) WHERE state='queued';
+CREATE INDEX job_age ON sculptd.job(submitted_at) WHERE state='queued';
+ALTER TABLE sculptd.daemon ADD COLUMN queues jsonb NOT NULL DEFAULT '["default"]';
+)";
+
+constexpr std::array<const char*, fleet_schema_version> steps{version_1, version_2};
 
 std::int64_t read_version(Postgres& database) {
   // By a look at the rows: what to_regclass remembers may be older than the lock.

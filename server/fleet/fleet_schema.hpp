@@ -7,7 +7,7 @@
 
 namespace sculpt::server {
 
-inline constexpr std::int64_t fleet_schema_version = 1;
+inline constexpr std::int64_t fleet_schema_version = 2;
 
 /// The keys of the locks that all daemons of a database share.
 enum class FleetLock : std::int64_t {

@@ -53,8 +53,9 @@ class PostgresFleetStore : public FleetStore {
     change.transaction.lock_events();  // from here on submits of all daemons are one after the other
     if (!wanted.key.empty()) {
       const std::vector<JobRow> first = change.rows.select("WHERE key=$1", {sql_value(wanted.key)});
-      if (!first.empty()) return repeat_submit(with_folder(first.front().job), wanted);
+      if (!first.empty()) return repeat_submit(first.front().job, wanted);
     }
+    refuse_unserved(wanted.schedule.queue, served_queues(wanted.schedule.queue));
     feed_.read(database_);
     refuse_too_many(feed_.tally(), rules_, wanted.owner);
     const std::string last =
@@ -65,20 +66,20 @@ class PostgresFleetStore : public FleetStore {
     last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
     const JobRow row = change.jobs.insert(make_job(wanted, IdMaker(last).next(now_ms), now_ms, last_rank_ms_, rules_));
     change.commit();
-    return {with_folder(row.job), false};
+    return {row.job, false};
   }
 
   std::optional<JobRecord> claim() override {
     const auto since = FleetLeases::Clock::now();
     Change change(*this);
-    std::optional<JobRow> next =
-        next_job(change.part, {leases_.at_work(), feed_.tally().first_rank()}, rules_, newer_schema_);
+    std::optional<JobRow> next = next_job(change.part, {leases_.at_work(), feed_.tally()}, rules_, newer_schema_);
     if (!next) return std::nullopt;
     JobRow& row = *next;
     start_run(change.jobs, rules_, row);
     change.commit();
     leases_.hold(row.job, since);
-    return with_folder(row.job);
+    row.job.folder = attempt_folder(row.job);
+    return row.job;
   }
 
   bool finish(const std::string& id, int attempt, const Ending& ending) override {
@@ -147,20 +148,10 @@ class PostgresFleetStore : public FleetStore {
     return true;
   }
 
-  bool queue_paused() override { return reader_.queue_paused(); }
-  bool was_removed(const std::string& id) override { return reader_.was_removed(id); }
-  std::optional<JobRecord> find(const std::string& id) override { return reader_.find(id); }
-  std::optional<JobRecord> find_key(const std::string& key) override { return reader_.find_key(key); }
-  JobPage list(const JobWindow& window) override { return reader_.list(window); }
-  std::uint64_t queue_age_s() override { return reader_.queue_age_s(); }
-  std::uint64_t last_event(const std::string& job) override { return reader_.last_event(job); }
-  std::vector<StoredArtifact> artifacts(const std::string& id) override { return reader_.artifacts(id); }
-  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override {
-    return reader_.events(job, after, limit);
-  }
-
   std::map<JobState, std::uint64_t> counts() override { return feed_.tally().counts(); }
-  std::uint64_t position(const JobRecord& job) override { return feed_.tally().position(job.rank, job.id); }
+  std::uint64_t position(const JobRecord& job) override {
+    return feed_.tally().position(job.schedule.queue, job.rank, job.id);
+  }
   const Histogram& commit_times() override { return commit_times_; }
 
   std::vector<FleetDaemon> daemons() override { return reader_.daemons(); }
@@ -170,6 +161,9 @@ class PostgresFleetStore : public FleetStore {
   std::uint64_t late_ends() const override { return late_ends_; }
   DatabaseFigures figures() const override { return leases_.figures(); }
   std::string why_idle() const override { return schema_too_new(newer_schema_); }
+
+ protected:
+  JobReader& reader() override { return reader_; }
 
  private:
   /// One change of the store: its lock, and a transaction that is undone unless committed.
@@ -192,9 +186,14 @@ class PostgresFleetStore : public FleetStore {
 
   std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
 
-  static JobRecord with_folder(JobRecord job) {
-    job.folder = attempt_folder(job);
-    return job;
+  // Others' only where they matter.
+  std::vector<std::string> served_queues(const std::string& wanted) {
+    std::vector<std::string> served = rules_.queues;
+    if (std::ranges::find(served, wanted) != served.end()) return served;
+    for (const FleetDaemon& daemon : reader_.daemons())
+      for (const std::string& queue : daemon.queues)
+        if (std::ranges::find(served, queue) == served.end()) served.push_back(queue);
+    return served;
   }
 
   std::int64_t write(const Question& question) {

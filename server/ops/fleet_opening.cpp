@@ -76,7 +76,7 @@ std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& 
   FleetRules fleet;
   fleet.source = {config.store, config.store_password_file};
   fleet.lease = config.lease;
-  fleet.member = {own_id(own.folder / "daemon"), workers, rules.memory_bytes};
+  fleet.member = {own_id(own.folder / "daemon"), workers, rules.memory_bytes, rules.queues};
   std::unique_ptr<FleetStore> store = open_fleet_store(std::move(fleet), std::move(rules));
   check_owner(shared, store->epoch());
   return store;

@@ -5,7 +5,7 @@
 
 namespace sculpt::server {
 
-inline constexpr std::int64_t schema_version = 5;
+inline constexpr std::int64_t schema_version = 6;
 
 /// In one transaction; does nothing to a database that is up to date. Throws StorageError for one that is newer.
 void update_schema(Database& database, const std::filesystem::path& file);

@@ -9,21 +9,21 @@
 
 namespace sculpt::server {
 
-/// Safe from any thread; the methods are those of JobStore.
-class StoreReader {
+/// Safe from any thread.
+class StoreReader : public JobReader {
  public:
   /// The database must be up to date and outlive this.
   explicit StoreReader(Database& database) : database_(database) {}
 
-  std::optional<JobRecord> find(const std::string& id);
-  std::optional<JobRecord> find_key(const std::string& key);
-  bool was_removed(const std::string& id);
-  JobPage list(const JobWindow& window);
-  bool queue_paused();
-  std::uint64_t queue_age_s();
-  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit);
-  std::uint64_t last_event(const std::string& job);
-  std::vector<StoredArtifact> artifacts(const std::string& id);
+  std::optional<JobRecord> find(const std::string& id) override;
+  std::optional<JobRecord> find_key(const std::string& key) override;
+  bool was_removed(const std::string& id) override;
+  JobPage list(const JobWindow& window) override;
+  bool queue_paused() override;
+  std::uint64_t queue_age_s() override;
+  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override;
+  std::uint64_t last_event(const std::string& job) override;
+  std::vector<StoredArtifact> artifacts(const std::string& id) override;
 
  private:
   std::mutex mutex_;
