@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 

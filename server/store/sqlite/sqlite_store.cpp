@@ -8,9 +8,9 @@
 #include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
 #include "server/store/run_ending.hpp"
-#include "server/store/sqlite_rows.hpp"
-#include "server/store/sqlite_schema.hpp"
-#include "server/store/store_reader.hpp"
+#include "server/store/sqlite/sqlite_rows.hpp"
+#include "server/store/sqlite/sqlite_schema.hpp"
+#include "server/store/sqlite/store_reader.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/store/sqlite_schema.hpp"
+#include "server/store/sqlite/sqlite_schema.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // The tables of the job store, and how those of older versions become today's.
 #pragma once
 
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 

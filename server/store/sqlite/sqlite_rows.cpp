@@ -1,4 +1,4 @@
-#include "server/store/sqlite_rows.hpp"
+#include "server/store/sqlite/sqlite_rows.hpp"
 
 #include "server/store/job_columns.hpp"
 
