@@ -6,6 +6,7 @@
 #include <csignal>
 #include <thread>
 
+#include "server/access/secret.hpp"
 #include "server/api/handlers.hpp"
 #include "server/base/counters.hpp"
 #include "server/base/crash_point.hpp"
@@ -21,6 +22,7 @@
 #include "server/ops/service_manager.hpp"
 #include "server/ops/settled_rules.hpp"
 #include "server/ops/store_opening.hpp"
+#include "server/queue/shared_run.hpp"
 #include "server/queue/stage_times.hpp"
 #include "server/results/retention.hpp"
 #include "server/run/isolated_run.hpp"
@@ -32,7 +34,7 @@ namespace {
 constexpr std::chrono::milliseconds tick_time{250};
 constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
-constexpr int least_checks_at_once = 4;
+constexpr int least_checks_at_once = 4, secret_bytes = 32;
 
 RunJob choose_run(RunJob here, RunJob isolated) {
   return [here = std::move(here), isolated = std::move(isolated)](const JobRecord& job, const Watch& watch) {
@@ -61,20 +63,21 @@ struct Server::Impl {
       : config(wanted),
         planner(std::move(given)),
         folder(config.data),
-        results(config.store.empty() ? static_cast<const FolderPaths&>(folder) : FolderPaths{config.shared}),
+        results(config.shared.empty() || config.store.empty() ? static_cast<const FolderPaths&>(folder)
+                                                              : FolderPaths{config.shared}),
         store(open_any_store()),
-        blobs(results.blobs(), config.blob_limit_bytes),
-        artifacts(results.jobs(), *store, planner),
+        blobs(results.blobs(), config.blob_limit_bytes, shared_files()),
+        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner),
         passed(config.data / "checked"),
         isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
         scheduler(*store,
-                  with_stage_times(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
-                                              make_isolated_run(isolation)),
+                  with_stage_times(shared(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
+                                                     make_isolated_run(isolation))),
                                    counters),
                   [this](const std::string& job) { changed(job); }),
         streams(io, *store, reads, scheduler),
         waits(io, *store, reads),
-        retention(*store, blobs, artifacts, results.jobs()),
+        retention(*store, blobs, artifacts),
         dispatcher(handlers(), streams, waits),
         listener(context, http, tcp_endpoint(config), make_tls(config)) {
     isolation.held = folder.jobs();
@@ -90,6 +93,19 @@ struct Server::Impl {
     std::unique_ptr<FleetStore> shared = open_fleet(config, folder, workers, store_rules(config));
     fleet = shared.get();
     return shared;
+  }
+
+  // Null where files are in a folder.
+  SharedFiles* shared_files() const { return fleet == nullptr ? nullptr : fleet->files(); }
+  RunJob shared(RunJob run) const {
+    SharedFiles* files = shared_files();
+    return files == nullptr ? std::move(run) : with_shared_files(std::move(run), *files, blobs, results.jobs());
+  }
+
+  // Where several daemons answer, a link of one is good at all.
+  std::string link_secret() const {
+    const std::string mine = random_hex(secret_bytes);
+    return fleet == nullptr ? mine : fleet->settle("link_secret", mine);
   }
 
   // The answers to what other daemons do.
@@ -155,10 +171,11 @@ struct Server::Impl {
   // On the thread of disk work, where blobs are written.
   void sweep(Connection::Clock::time_point now) {
     next_sweep = now + sweep_time;
-    if (fleet != nullptr && !fleet->sweeps()) return;
-    disk.add([this, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
+    const bool sweeps = fleet == nullptr || fleet->sweeps();
+    disk.add([this, sweeps, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
       try {
-        retention.sweep(rules, unix_ms());
+        if (sweeps) retention.sweep(rules, unix_ms());
+        retention.drop_copies(rules);
       } catch (const std::exception& error) {
         spdlog::error("old jobs and blobs cannot be removed: {}", error.what());
       }
@@ -197,7 +214,7 @@ struct Server::Impl {
   const int workers = worker_count(config);
   Planner planner;
   DataFolder folder;
-  FolderPaths results;  // the same, or the one that a fleet shares
+  FolderPaths results;  // the same, or the one that a fleet has in common
   FleetStore* fleet = nullptr;
   std::unique_ptr<JobStore> store;
   net::io_context io{1};
@@ -211,7 +228,7 @@ struct Server::Impl {
   Waits waits;
   Retention retention;
   Access access{config};
-  Tickets tickets;
+  Tickets tickets{link_secret(), [this] { return fleet == nullptr ? unix_ms() : fleet->now_ms(); }};
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};

@@ -111,7 +111,7 @@ struct ArtifactGroup {
   const Answers& answers;
   JobStore& store;
   Artifacts& artifacts;
-  Tickets& tickets;
+  const Tickets& tickets;
   TaskQueue& changes;
   TaskQueue& disk;
   TaskQueue& exports;  ///< for other forms than an artifact's own

@@ -179,7 +179,8 @@ const std::vector<Setting>& settings() {
       path("store_password_file", &Config::store_password_file, at_start,
            "file whose first line is the password of that database; none by default"),
       path("shared", &Config::shared, at_start,
-           "with such a database: folder for uploads and results that all its daemons reach"),
+           "with such a database: folder for uploads and results that all its daemons reach; without it they are in "
+           "the database"),
       seconds("lease_s", &Config::lease, at_start,
               "with such a database: a daemon that is silent for so long has lost its jobs to the others"),
       integer("workers", &Config::workers, 0, max_workers, at_start,

@@ -95,6 +95,20 @@ DROP INDEX sculptd.job_queue;
 CREATE INDEX job_queue ON sculptd.job(queue, rank, number) WHERE state='queued';
 CREATE INDEX job_age ON sculptd.job(submitted_at) WHERE state='queued';
 ALTER TABLE sculptd.daemon ADD COLUMN queues jsonb NOT NULL DEFAULT '["default"]';
+CREATE TABLE sculptd.file(
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  path text COLLATE "C" NOT NULL UNIQUE,
+  job bigint REFERENCES sculptd.job ON DELETE SET NULL,
+  size bigint NOT NULL DEFAULT 0,
+  used timestamptz NOT NULL DEFAULT now()
+) WITH (fillfactor=70);
+CREATE INDEX file_job ON sculptd.file(job);
+CREATE TABLE sculptd.piece(
+  file bigint NOT NULL REFERENCES sculptd.file ON DELETE CASCADE,
+  at bigint NOT NULL,
+  bytes bytea NOT NULL,
+  PRIMARY KEY(file, at));
+ALTER TABLE sculptd.piece ALTER bytes SET STORAGE EXTERNAL;
 )";
 
 constexpr std::array<const char*, fleet_schema_version> steps{version_1, version_2};

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "server/base/job_id.hpp"
+#include "server/fleet/fleet_files.hpp"
 #include "server/fleet/fleet_follower.hpp"
 #include "server/fleet/fleet_leases.hpp"
 #include "server/fleet/fleet_queue.hpp"
@@ -31,6 +32,7 @@ class PostgresFleetStore : public FleetStore {
         leases_(fleet_.source, fleet_.member, fleet_.lease),
         follower_(fleet_.source, feed_) {
     epoch_ = reader_.epoch();
+    if (fleet_.keeps_files) files_.emplace(fleet_.source);
     feed_.start(database_);
     last_rank_ms_ =
         database_.ask({"SELECT max(rank + $1 * priority) FROM sculptd.job", {sql_value(ageing())}}).number(0, 0);
@@ -154,6 +156,16 @@ class PostgresFleetStore : public FleetStore {
   }
   const Histogram& commit_times() override { return commit_times_; }
 
+  std::string settle(const std::string& name, const std::string& value) override {
+    write(
+        {"INSERT INTO sculptd.meta VALUES($1, $2) ON CONFLICT(name) DO NOTHING", {sql_value(name), sql_value(value)}});
+    const std::lock_guard lock(mutex_);
+    return database_.ask_again({{"SELECT value FROM sculptd.meta WHERE name=$1", {sql_value(name)}}})
+        .front()
+        .text(0, 0);
+  }
+  std::uint64_t now_ms() const override { return leases_.now_ms(); }
+  SharedFiles* files() override { return files_ ? &*files_ : nullptr; }
   std::vector<FleetDaemon> daemons() override { return reader_.daemons(); }
   std::optional<Progress> progress(const std::string& job) override { return follower_.progress(job); }
   bool sweeps() const override { return leases_.sweeps(); }
@@ -239,6 +251,7 @@ class PostgresFleetStore : public FleetStore {
   FleetRows::Lease lease_{fleet_.member.id, fleet_.lease};
   Postgres database_;
   FleetReader reader_;
+  std::optional<FleetFiles> files_;
   FleetFeed feed_;
   FleetLeases leases_;
   FleetFollower follower_;

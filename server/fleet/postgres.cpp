@@ -235,18 +235,26 @@ Answered Postgres::ask(const Question& question) {
   return ask_all({question}).front();
 }
 
+void Postgres::send(const Question& question) {
+  std::vector<const char*> values;
+  for (const SqlValue& value : question.values) values.push_back(value ? value->c_str() : nullptr);
+  std::vector<int> lengths(values.size(), 0), formats(values.size(), 0);  // of text: nobody asks, and 0
+  if (question.bytes) {
+    values.push_back(question.bytes->data());
+    lengths.push_back(static_cast<int>(question.bytes->size()));
+    formats.push_back(1);
+  }
+  const std::string name = statement_name(question.sql);
+  if (PQsendQueryPrepared(connection_, name.c_str(), static_cast<int>(values.size()), values.data(), lengths.data(),
+                          formats.data(), question.raw ? 1 : 0) == 0)
+    lose(first_line(PQerrorMessage(connection_)));
+}
+
 std::vector<Answered> Postgres::ask_all(const std::vector<Question>& questions) {
   connect();
   for (const Question& question : questions) prepare(question.sql);
   if (PQenterPipelineMode(connection_) == 0) lose("it cannot take several questions");
-  for (const Question& question : questions) {
-    std::vector<const char*> values;
-    for (const SqlValue& value : question.values) values.push_back(value ? value->c_str() : nullptr);
-    const std::string name = statement_name(question.sql);
-    if (PQsendQueryPrepared(connection_, name.c_str(), static_cast<int>(values.size()), values.data(), nullptr, nullptr,
-                            0) == 0)
-      lose(first_line(PQerrorMessage(connection_)));
-  }
+  for (const Question& question : questions) send(question);
   if (PQpipelineSync(connection_) == 0) lose(first_line(PQerrorMessage(connection_)));
   const auto end = Clock::now() + patience_;
   std::vector<Answered> answers;

@@ -34,6 +34,8 @@ SqlValue sql_flag(bool flag);
 struct Question {
   std::string sql;  ///< one statement, with $1, $2, ... for the values
   std::vector<SqlValue> values = {};
+  std::optional<std::string> bytes = {};  ///< one more value, behind the others: a bytea, as it is
+  bool raw = false;                       ///< the answer is of bytea, as it is: Answered::text
 };
 
 class Answered {
@@ -83,6 +85,7 @@ class Postgres {
 
   void connect();
   void prepare(const std::string& sql);
+  void send(const Question& question);
   Answered next_result(Clock::time_point end);
   void await_result(Clock::time_point end);
   [[noreturn]] void fail(const pg_result* result);

@@ -10,7 +10,8 @@
 
 namespace sculpt::server {
 
-/// Makes what is missing of the shared folder; its first daemon writes into it which store it belongs to. Throws
+/// With the setting `shared` uploads and results are in that folder, without it in the database.
+/// Makes what is missing of the folder; its first daemon writes into it which store it belongs to. Throws
 /// ConfigError (a setting is missing, or is none), DataFolderError, StoreLost (the folder belongs to another store),
 /// StorageError.
 std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& own, int workers, StoreRules rules);
