@@ -6,7 +6,6 @@
 #include <csignal>
 #include <thread>
 
-#include "server/access/secret.hpp"
 #include "server/api/handlers.hpp"
 #include "server/base/counters.hpp"
 #include "server/base/crash_point.hpp"
@@ -34,7 +33,7 @@ namespace {
 constexpr std::chrono::milliseconds tick_time{250};
 constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
-constexpr int least_checks_at_once = 4, secret_bytes = 32;
+constexpr int least_checks_at_once = 4;
 
 RunJob choose_run(RunJob here, RunJob isolated) {
   return [here = std::move(here), isolated = std::move(isolated)](const JobRecord& job, const Watch& watch) {
@@ -71,9 +70,11 @@ struct Server::Impl {
         passed(config.data / "checked"),
         isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
         scheduler(*store,
-                  with_stage_times(shared(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
-                                                     make_isolated_run(isolation))),
-                                   counters),
+                  with_stage_times(
+                      with_shared_files(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
+                                                   make_isolated_run(isolation)),
+                                        shared_files(), blobs, results.jobs()),
+                      counters),
                   [this](const std::string& job) { changed(job); }),
         streams(io, *store, reads, scheduler),
         waits(io, *store, reads),
@@ -97,16 +98,6 @@ struct Server::Impl {
 
   // Null where files are in a folder.
   SharedFiles* shared_files() const { return fleet == nullptr ? nullptr : fleet->files(); }
-  RunJob shared(RunJob run) const {
-    SharedFiles* files = shared_files();
-    return files == nullptr ? std::move(run) : with_shared_files(std::move(run), *files, blobs, results.jobs());
-  }
-
-  // Where several daemons answer, a link of one is good at all.
-  std::string link_secret() const {
-    const std::string mine = random_hex(secret_bytes);
-    return fleet == nullptr ? mine : fleet->settle("link_secret", mine);
-  }
 
   // The answers to what other daemons do.
   FleetHooks fleet_hooks() {
@@ -228,7 +219,7 @@ struct Server::Impl {
   Waits waits;
   Retention retention;
   Access access{config};
-  Tickets tickets{link_secret(), [this] { return fleet == nullptr ? unix_ms() : fleet->now_ms(); }};
+  Tickets tickets{link_secret(fleet), [this] { return fleet == nullptr ? unix_ms() : fleet->now_ms(); }};
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};

@@ -60,8 +60,7 @@ void FleetFeed::start(Postgres& database) {
 void FleetFeed::read(Postgres& database) {
   while (true) {
     const std::vector<Answered> answers = database.ask_again(questions());
-    take(answers[0], answers[1]);
-    if (answers[0].rows() < page && answers[1].rows() < page) return;
+    if (!take(answers[0], answers[1])) return;
   }
 }
 
@@ -72,12 +71,13 @@ std::vector<Question> FleetFeed::questions() const {
 }
 
 // Another thread may have taken some meanwhile: those are passed over. Removals wait for the events before them.
-void FleetFeed::take(const Answered& events, const Answered& removals) {
+bool FleetFeed::take(const Answered& events, const Answered& removals) {
   const std::lock_guard lock(mutex_);
   for (int row = 0; row < events.rows(); ++row) count_event(events, row);
   own_.erase(own_.begin(), own_.upper_bound(static_cast<std::uint64_t>(last_event_)));
-  if (events.rows() == page) return;
+  if (events.rows() == page) return true;
   for (int row = 0; row < removals.rows(); ++row) count_removal(removals, row);
+  return removals.rows() == page;
 }
 
 void FleetFeed::count_event(const Answered& events, int row) {

@@ -29,7 +29,8 @@ class FleetFeed {
   void read(Postgres& database);
   /// The same for who asks himself, in another's trip.
   std::vector<Question> questions() const;
-  void take(const Answered& events, const Answered& removals);
+  /// True: there may be more.
+  bool take(const Answered& events, const Answered& removals);
   /// Events that this daemon made itself: they are counted, and no news.
   void made_here(const std::vector<std::uint64_t>& numbers);
   /// What others did, since the last call.

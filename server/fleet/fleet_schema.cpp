@@ -111,6 +111,9 @@ CREATE TABLE sculptd.piece(
 ALTER TABLE sculptd.piece ALTER bytes SET STORAGE EXTERNAL;
 )";
 
+// An index over a million jobs is made in seconds, on a slow disk in minutes.
+constexpr std::chrono::minutes patience{10};
+
 constexpr std::array<const char*, fleet_schema_version> steps{version_1, version_2};
 
 std::int64_t read_version(Postgres& database) {
@@ -145,7 +148,8 @@ SqlValue sql_value(FleetLock lock) {
   return sql_value(static_cast<std::int64_t>(lock));
 }
 
-void update_fleet_schema(Postgres& database) {
+void update_fleet_schema(const PostgresSource& source) {
+  Postgres database(source, patience);
   const std::int64_t found = read_version(database);
   refuse_newer(found);
   if (found == fleet_schema_version) return;
@@ -154,12 +158,21 @@ void update_fleet_schema(Postgres& database) {
   const std::int64_t version = read_version(database);
   try {
     refuse_newer(version);
-    if (version < fleet_schema_version) database.run(update_script(version));
+    // Somebody's open transaction may hold a table, and all daemons would wait behind this.
+    if (version < fleet_schema_version) database.run("SET LOCAL lock_timeout='5s';" + update_script(version));
     database.ask({"COMMIT"});
   } catch (...) {
     database.drop();
     throw;
   }
+}
+
+void grant_to_daemons(const PostgresSource& source, const std::string& role) {
+  Postgres database(source, patience);
+  const std::string name = database.ask({"SELECT quote_ident($1)", {sql_value(role)}}).text(0, 0);
+  database.run("GRANT USAGE ON SCHEMA sculptd TO " + name +
+               "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + name +
+               "; GRANT USAGE ON ALL SEQUENCES IN SCHEMA sculptd TO " + name + ";");
 }
 
 }  // namespace sculpt::server

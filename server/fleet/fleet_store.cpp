@@ -21,6 +21,8 @@ namespace {
 using enum JobState;
 
 constexpr std::chrono::seconds patience{10};
+constexpr const char* last_id =
+    "SELECT greatest((SELECT max(id) FROM sculptd.job), (SELECT max(id) FROM sculptd.removed))";
 
 class PostgresFleetStore : public FleetStore {
  public:
@@ -28,7 +30,7 @@ class PostgresFleetStore : public FleetStore {
       : rules_(std::move(rules)),
         fleet_(std::move(fleet)),
         database_(fleet_.source, patience),
-        reader_((update_fleet_schema(database_), fleet_.source)),
+        reader_((update_fleet_schema(fleet_.source), fleet_.source)),
         leases_(fleet_.source, fleet_.member, fleet_.lease),
         follower_(fleet_.source, feed_) {
     epoch_ = reader_.epoch();
@@ -52,18 +54,16 @@ class PostgresFleetStore : public FleetStore {
 
   Submitted submit(const NewJob& wanted) override {
     Change change(*this);
-    change.transaction.lock_events();  // from here on submits of all daemons are one after the other
-    if (!wanted.key.empty()) {
-      const std::vector<JobRow> first = change.rows.select("WHERE key=$1", {sql_value(wanted.key)});
-      if (!first.empty()) return repeat_submit(first.front().job, wanted);
-    }
+    std::vector<Question> questions = feed_.questions();
+    questions.push_back(FleetRows::selection("WHERE key=$1", {sql_value(wanted.key)}));
+    questions.push_back({last_id});
+    // From here on submits of all daemons are one after the other.
+    const std::vector<Answered> answers = change.transaction.lock_events(questions);
+    if (answers[2].rows() > 0) return repeat_submit(read_fleet_row(answers[2], 0).job, wanted);
+    const std::string last = answers[3].text(0, 0);
     refuse_unserved(wanted.schedule.queue, served_queues(wanted.schedule.queue));
-    feed_.read(database_);
+    if (feed_.take(answers[0], answers[1])) feed_.read(database_);
     refuse_too_many(feed_.tally(), rules_, wanted.owner);
-    const std::string last =
-        change.transaction
-            .ask({"SELECT greatest((SELECT max(id) FROM sculptd.job), (SELECT max(id) FROM sculptd.removed))"})
-            .text(0, 0);
     const std::uint64_t now_ms = change.jobs.now_ms();
     last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
     const JobRow row = change.jobs.insert(make_job(wanted, IdMaker(last).next(now_ms), now_ms, last_rank_ms_, rules_));

@@ -166,6 +166,9 @@ void Postgres::fail(const pg_result* result) {
   const std::string what = message_of(result);
   if (PQstatus(connection_) != CONNECTION_OK || state.empty() || state.starts_with("57P")) lose(what);
   if (state == "53100") throw StorageFull("the database has no space (" + what + "): make room, then try again");
+  if (state == "42501")
+    throw StorageError("the role of this daemon may not do that in the database (" + what +
+                       "): let the owner of the tables run 'sculptd migrate --daemon-role ROLE'");
   if (may_pass(state)) throw DatabaseUnavailable("the database cannot do it now (" + what + "): try again");
   throw StorageError("the database failed (" + state + "): " + what);
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "server/access/secret.hpp"
 #include "server/base/job_id.hpp"
 #include "server/files/durable.hpp"
 #include "server/files/store_mark.hpp"
@@ -27,13 +28,6 @@ std::string own_id(const fs::path& file) {
   std::string id = first_word(file);
   if (id.empty()) throw DataFolderError("'" + file.string() + "' is empty: remove it, and the daemon gets a new name");
   return id;
-}
-
-void check_settings(const Config& config) {
-  if (!config.store.starts_with("postgresql://") && !config.store.starts_with("postgres://")) {
-    throw ConfigError("store must be the address of a PostgreSQL database, postgresql://USER@HOST/NAME, not '" +
-                      without_password(config.store) + "'; without it jobs are kept in the data folder");
-  }
 }
 
 void make_folders(const FolderPaths& shared) {
@@ -71,8 +65,15 @@ void check_agreement(FleetStore& store, bool in_folder) {
 
 }  // namespace
 
+void check_store_address(const Config& config) {
+  if (!config.store.starts_with("postgresql://") && !config.store.starts_with("postgres://")) {
+    throw ConfigError("store must be the address of a PostgreSQL database, postgresql://USER@HOST/NAME, not '" +
+                      without_password(config.store) + "'; without it jobs are kept in the data folder");
+  }
+}
+
 std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& own, int workers, StoreRules rules) {
-  check_settings(config);
+  check_store_address(config);
   if (fs::exists(own.database()))
     spdlog::warn("the jobs in '{}' are not served: the store is {}", own.database().string(),
                  without_password(config.store));
@@ -88,6 +89,12 @@ std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& 
   check_agreement(*store, in_folder);
   if (in_folder) check_owner(shared, store->epoch());
   return store;
+}
+
+std::string link_secret(FleetStore* fleet) {
+  constexpr int secret_bytes = 32;
+  const std::string mine = random_hex(secret_bytes);
+  return fleet == nullptr ? mine : fleet->settle("link_secret", mine);
 }
 
 }  // namespace sculpt::server

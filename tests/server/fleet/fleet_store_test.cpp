@@ -11,6 +11,7 @@
 
 #include "proto/error_codes.hpp"
 #include "server/base/config.hpp"
+#include "server/fleet/fleet_schema.hpp"
 #include "tests/server/fleet/fleet_store_fixture.hpp"
 
 namespace sculpt::server {
@@ -223,9 +224,8 @@ TEST_F(FleetStoreTest, AConnectionThatWasCutIsMadeAnewAndLosesNothing) {
 
 TEST_F(FleetStoreTest, ADaemonNeedsNoRightToMakeTables) {
   const std::string role = "daemon_" + std::to_string(::getpid());
-  other->run("CREATE ROLE " + role + " LOGIN; GRANT USAGE ON SCHEMA sculptd TO " + role +
-             "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + role +
-             "; GRANT USAGE ON ALL SEQUENCES IN SCHEMA sculptd TO " + role + ";");
+  other->run("CREATE ROLE " + role + " LOGIN;");
+  grant_to_daemons({test_database(file), {}}, role);
   std::string url = test_database(file);
   url.replace(url.find("user=sculptd"), std::string("user=sculptd").size(), "user=" + role);
   {
