@@ -119,7 +119,7 @@ struct Server::Impl {
           submit_handlers({answers, config, *store, blobs, artifacts, scheduler, planner, job_defaults(config),
                            isolation, admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
-          job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
+          job_handlers({answers, config, *store, scheduler, waits, artifacts, blobs, isolation, reads, disk, replays}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
           artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports})})
       all.merge(group);

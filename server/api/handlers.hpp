@@ -81,6 +81,7 @@ struct JobGroup {
   const Scheduler& scheduler;
   Waits& waits;
   Artifacts& artifacts;
+  const Blobs& blobs;
   const Isolation& isolation;
   TaskQueue& reads;
   TaskQueue& disk;

@@ -1,6 +1,7 @@
 #include "server/api/handlers.hpp"
 #include "server/api/job_page.hpp"
 #include "server/run/isolated_replay.hpp"
+#include "server/run/job_run.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -11,6 +12,7 @@ ViewSources view_sources(const JobGroup& group) {
 
 Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) {
   group.artifacts.check_whole(job, "trajectory");
+  fetch_blobs(job, group.blobs);
   const Replay replay =
       replay_in_child({job.spec, job.cell_bundle, job.id, 0, job.inherited, job.folder}, group.isolation, stop);
   Json findings = Json::array();

@@ -7,8 +7,8 @@
 namespace sculpt::server {
 namespace {
 
-// A connection that is half gone shows as a look that is not answered.
-constexpr std::chrono::seconds patience{3};
+// A connection that is half gone shows as a look that is not answered; all others of the daemon are then made anew.
+constexpr std::chrono::seconds patience{2};
 constexpr std::chrono::milliseconds shortest_look{20}, notice_time{100};
 constexpr int look_ms = 1000, jitter_ms = 250;
 

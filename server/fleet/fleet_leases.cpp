@@ -151,8 +151,9 @@ void FleetLeases::renew(const std::map<std::string, Held>& held, Clock::time_poi
                     {"attempt", lease.attempt},
                     {"progress", progress ? proto::write_json(progress_json(*progress)) : ""}});
   }
-  const Answered renewed = database_.ask(
-      {renew_leases, {sql_value(member_.id), sql_value(lease_.count()), sql_value(proto::write_json(mine))}});
+  const Question question{renew_leases,
+                          {sql_value(member_.id), sql_value(lease_.count()), sql_value(proto::write_json(mine))}};
+  const Answered renewed = database_.ask_again({question}).front();
   std::map<std::string, Held> gone = held;
   const std::lock_guard lock(mutex_);
   for (int row = 0; row < renewed.rows(); ++row) {

@@ -10,13 +10,14 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "server/base/storage_error.hpp"
 
 namespace sculpt::server {
 namespace {
 
-constexpr std::chrono::milliseconds retry_time{500};
+constexpr std::chrono::milliseconds retry_time{500}, look_time{200};
 
 // The server gives up before we do, so that nothing is left there of what we no longer wait for.
 std::string session_settings(std::chrono::milliseconds patience) {
@@ -150,6 +151,7 @@ void Postgres::connect() {
                           source_.url.c_str(),
                           password.c_str(),
                           static_cast<const char*>(nullptr)};
+  made_ = Clock::now().time_since_epoch().count();
   connection_ = PQconnectdbParams(keys.data(), values.data(), 1);
   ++generation_;
   if (PQstatus(connection_) != CONNECTION_OK) {
@@ -158,6 +160,11 @@ void Postgres::connect() {
     lose(last_fault_);
   }
   run(session_settings(patience_));
+  if (std::exchange(went_silent_, false)) *source_.renewed = std::max(source_.renewed->load(), made_);
+}
+
+bool Postgres::is_distrusted() const {
+  return connected() && made_ < *source_.renewed;
 }
 
 void Postgres::fail(const pg_result* result) {
@@ -176,10 +183,14 @@ void Postgres::fail(const pg_result* result) {
 void Postgres::await_result(Clock::time_point end) {
   while (PQisBusy(connection_) != 0) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (is_distrusted()) lose("no answer, and another connection had to be made anew too");
+    if (left.count() <= 0) {
+      went_silent_ = true;
+      lose("no answer for " + std::to_string(patience_.count()) + " ms");
+    }
     pollfd waiting{PQsocket(connection_), POLLIN, 0};
-    const int ready = left.count() <= 0 ? 0 : ::poll(&waiting, 1, static_cast<int>(left.count()));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) lose("no answer for " + std::to_string(patience_.count()) + " ms");
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, look_time).count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     if (PQconsumeInput(connection_) == 0) lose(first_line(PQerrorMessage(connection_)));
   }
 }
@@ -272,6 +283,7 @@ std::vector<Answered> Postgres::ask_all(const std::vector<Question>& questions) 
 }
 
 std::vector<Answered> Postgres::ask_again(const std::vector<Question>& questions) {
+  if (is_distrusted()) drop();
   const bool old = connected();
   try {
     return ask_all(questions);

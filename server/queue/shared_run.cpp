@@ -205,8 +205,7 @@ void finish(Mirror& mirror, const Ending& ending, const std::stop_token& stop) {
 RunJob with_shared_files(RunJob run, SharedFiles* shared, const Blobs& blobs, const fs::path& jobs) {
   if (shared == nullptr) return run;
   return [run = std::move(run), &files = *shared, &blobs, jobs](const JobRecord& job, const Watch& watch) {
-    std::set<std::string> bundles;
-    for (const std::string& blob : blobs_of(job, blobs, bundles)) blobs.use(blob);
+    fetch_blobs(job, blobs);
     fetch_last_attempt(files, jobs, job);
     Mirror mirror(files, job, jobs / job.folder);
     Ending ending;

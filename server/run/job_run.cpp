@@ -95,6 +95,11 @@ std::set<std::string> blobs_of(const JobRecord& job, const Blobs& blobs, std::se
   return needed;
 }
 
+void fetch_blobs(const JobRecord& job, const Blobs& blobs) {
+  std::set<std::string> bundles;
+  for (const std::string& blob : blobs_of(job, blobs, bundles)) blobs.use(blob);
+}
+
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {
   return [&planner, &blobs, jobs, defaults](const JobRecord& record, const Watch& watch) {
     const fs::path folder = prepare_job_folder(jobs, record.folder);

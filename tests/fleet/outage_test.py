@@ -45,7 +45,11 @@ class Proxy:
             except OSError:
                 return
             database = socket.socket(socket.AF_UNIX)
-            database.connect(f"{FOLDER}/.s.PGSQL.5432")
+            try:
+                database.connect(f"{FOLDER}/.s.PGSQL.5432")
+            except OSError:  # it is away
+                client.close()
+                continue
             self.made += 1
             self.open += [client, database]
             for ends in ((client, database), (database, client)):
