@@ -53,8 +53,20 @@ void FleetFeed::start(Postgres& database) {
     const OpenJob job{jobs.number(row, 1), jobs.text(row, 3), jobs.text(row, 4), *state};
     const TallyMove move{job.rank, id, job.owner, job.queue, std::nullopt, state};
     tally_.apply(std::vector(static_cast<std::size_t>(jobs.number(row, 0)), move));
-    if (!is_final(*state)) open_[id] = job;
+    keep(id, job);
   }
+}
+
+void FleetFeed::keep(const std::string& id, const OpenJob& job) {
+  is_final(job.state) ? static_cast<void>(open_.erase(id)) : static_cast<void>(open_[id] = job);
+  is_active(job.state) ? static_cast<void>(at_work_.insert(id)) : static_cast<void>(at_work_.erase(id));
+}
+
+SqlValue FleetFeed::at_work() const {
+  const std::lock_guard lock(mutex_);
+  std::string ids;
+  for (const std::string& id : at_work_) ids += (ids.empty() ? "" : ",") + id;
+  return "{" + ids + "}";
 }
 
 void FleetFeed::read(Postgres& database) {
@@ -94,10 +106,7 @@ void FleetFeed::count(const std::string& id, const OpenJob& now, std::optional<J
   const auto open = open_.find(id);
   const std::optional<JobState> from = open != open_.end() ? open->second.state : known;
   tally_.apply({{now.rank, id, now.owner, now.queue, from, now.state}});
-  if (is_final(now.state))
-    open_.erase(id);
-  else
-    open_[id] = now;
+  keep(id, now);
 }
 
 // A job that came and went between two looks was never counted.

@@ -32,7 +32,9 @@ const std::string anything_due =
     "SELECT EXISTS(SELECT 1 FROM sculptd.job WHERE start_by<>'' AND start_by<" + now_text +
     " AND attempt=0 AND state IN ('held', 'queued')) OR EXISTS(SELECT 1 FROM sculptd.job WHERE state IN ('held', "
     "'backoff') AND wake_at<=" +
-    now_text + ") OR EXISTS(SELECT 1 FROM sculptd.lease WHERE until < now())";
+    now_text +
+    ") OR EXISTS(SELECT 1 FROM sculptd.job JOIN sculptd.lease ON lease.job = job.number WHERE id = ANY($2::text[]) AND "
+    "until < now())";
 
 // Of what is due, so many in one transaction: the rest a moment later. Others wait for it, and it has its time too.
 constexpr const char* at_once = " ORDER BY number LIMIT 500 ";
@@ -40,7 +42,8 @@ constexpr const char* at_once = " ORDER BY number LIMIT 500 ";
 constexpr const char* late = "WHERE start_by<>'' AND start_by<$1 AND attempt=0 AND state IN ('held', 'queued')";
 constexpr const char* due =
     "WHERE state IN ('held', 'backoff') AND wake_at<=$1 AND (start_by='' OR start_by>=$1 OR attempt>0)";
-constexpr const char* unheld = "JOIN sculptd.lease ON lease.job = job.number WHERE until < now()";
+constexpr const char* unheld =
+    "JOIN sculptd.lease ON lease.job = job.number WHERE id = ANY($1::text[]) AND until < now()";
 
 // A test's clock, or none.
 SqlValue time_of(const StoreRules& rules) {
@@ -83,11 +86,11 @@ std::optional<JobRow> next_job(FleetChange& change, const Claimant& claimant, co
   return std::move(next.front());
 }
 
-bool is_anything_due(Postgres& database, const StoreRules& rules) {
-  return database.ask_again({{anything_due, {time_of(rules)}}}).front().flag(0, 0);
+bool is_anything_due(Postgres& database, const StoreRules& rules, const SqlValue& at_work) {
+  return database.ask_again({{anything_due, {time_of(rules), at_work}}}).front().flag(0, 0);
 }
 
-std::vector<std::string> change_due(FleetChange& change) {
+std::vector<std::string> change_due(FleetChange& change, const SqlValue& at_work) {
   const SqlValue now = sql_value(change.jobs.now());
   std::vector<std::string> changed;
   const auto each = [&](const std::string& which, const std::vector<SqlValue>& values, const auto& act) {
@@ -100,7 +103,7 @@ std::vector<std::string> change_due(FleetChange& change) {
   each(late + locked, {now}, [&](JobRow& row) { expire_job(change.jobs, row); });
   each(due + locked, {now}, [&](JobRow& row) { change.jobs.move(row, queued, "due"); });
   // The lease is locked and looked at again: its daemon may be renewing it.
-  each(std::string(unheld) + at_once + "FOR UPDATE OF job, lease SKIP LOCKED", {}, [&](JobRow& row) {
+  each(std::string(unheld) + at_once + "FOR UPDATE OF job, lease SKIP LOCKED", {at_work}, [&](JobRow& row) {
     spdlog::warn("job={} attempt={} its daemon was silent for longer than its lease: others may go on with it",
                  row.job.id, row.job.attempt);
     abandon_run(change.jobs, row);

@@ -22,10 +22,11 @@ struct Claimant {
 std::optional<JobRow> next_job(FleetChange& change, const Claimant& claimant, const StoreRules& rules,
                                std::atomic<std::int64_t>& newer_schema);
 
-/// One cheap question.
-bool is_anything_due(Postgres& database, const StoreRules& rules);
-/// As JobStore::wake_due; also, runs of daemons whose lease is over are taken from them. Gives the jobs that changed.
-std::vector<std::string> change_due(FleetChange& change);
+/// One cheap question. `at_work`: FleetFeed::at_work.
+bool is_anything_due(Postgres& database, const StoreRules& rules, const SqlValue& at_work);
+/// As JobStore::wake_due; also, of those at work the runs whose lease is over are taken from their daemons. Gives the
+/// jobs that changed.
+std::vector<std::string> change_due(FleetChange& change, const SqlValue& at_work);
 
 /// For people: why a daemon takes no jobs when the tables are of this version; empty for those that it knows.
 std::string schema_too_new(std::int64_t version);

@@ -105,8 +105,10 @@ class PostgresFleetStore : public FleetStore {
 
   std::vector<std::string> wake_due() override {
     Change change(*this);
-    if (!is_anything_due(database_, rules_)) return {};
-    std::vector<std::string> changed = change_due(change.part);
+    feed_.read(database_);
+    const SqlValue at_work = feed_.at_work();
+    if (!is_anything_due(database_, rules_, at_work)) return {};
+    std::vector<std::string> changed = change_due(change.part, at_work);
     change.commit();
     return changed;
   }

@@ -19,11 +19,13 @@ namespace {
 
 constexpr std::chrono::milliseconds retry_time{500}, look_time{200};
 
-// The server gives up before we do, so that nothing is left there of what we no longer wait for.
+// The server gives up before we do, so that nothing is left there of what we no longer wait for. Plans are kept as long
+// as the connection: a table that was small when one was made may be full of dead rows later, so all go by an index.
 std::string session_settings(std::chrono::milliseconds patience) {
   const std::string ms = std::to_string(patience.count() * 4 / 5);
   return "SET client_min_messages=warning; SET timezone='UTC'; SET synchronous_commit=on; SET statement_timeout=" + ms +
-         "; SET lock_timeout=" + ms + "; SET idle_in_transaction_session_timeout=5000";
+         "; SET lock_timeout=" + ms +
+         "; SET enable_seqscan=off; SET jit=off; SET idle_in_transaction_session_timeout=5000";
 }
 
 // Of SQLSTATE: a later try may help. The server stops or is full, it only reads (a standby), time was over, a deadlock.
