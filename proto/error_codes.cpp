@@ -30,6 +30,7 @@ constexpr std::array catalogue{
     ErrorCode{"blob_missing", 2005, false},
     ErrorCode{"blob_mismatch", 2006, false},
     ErrorCode{"offset_mismatch", 2007, true},
+    ErrorCode{"queue_unknown", 2008, false},
     ErrorCode{"queue_full", 3001, true, 5000},
     ErrorCode{"quota", 3002, true, 5000},
     ErrorCode{"stopping", 3003, true, 2000},

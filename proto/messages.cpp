@@ -82,6 +82,7 @@ SubmitParams read_submit(const Json& params) {
   if (fields.has("key")) submit.key = fields.text("key", max_text_bytes);
   if (fields.has("priority"))
     submit.priority = static_cast<int>(fields.integer("priority", -max_priority, max_priority));
+  if (fields.has("queue")) submit.queue = fields.text("queue", max_text_bytes);
   if (fields.has("not_before")) submit.not_before = fields.utc_time("not_before");
   if (fields.has("start_by")) submit.start_by = fields.utc_time("start_by");
   if (!submit.start_by.empty() && submit.start_by <= submit.not_before) {

@@ -32,6 +32,7 @@ std::string read_blob_name(const Json& params);
 struct SubmitParams {
   std::string key;  ///< empty: none
   int priority = 0;
+  std::string queue;  ///< empty: the one that all daemons serve unless told otherwise
   // Moments in UTC with milliseconds, empty: none.
   std::string not_before, start_by;
   std::int64_t max_runtime_s = 0;  ///< of one run; 0: no limit

@@ -21,6 +21,7 @@
 #include "server/files/store_mark.hpp"
 #include "server/listener.hpp"
 #include "server/ops/folder_command.hpp"
+#include "server/ops/migrate_command.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
@@ -41,6 +42,7 @@ struct CommandLine {
   bool show_config = false, json = false;
   TokenCommand token;
   FolderCommand folder;
+  MigrateCommand migrate;
 };
 
 // What is wrong with the text of a setting, or nothing.
@@ -80,6 +82,7 @@ std::optional<int> parse_command_line(int argc, char** argv, CommandLine& line) 
   config.callback([&] { line.show_config = true; });
   add_token_command(app, line.token);
   add_folder_command(app, line.folder);
+  add_migrate_command(app, line.migrate);
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -121,6 +124,8 @@ int run(const CommandLine& line, const SettledConfig& settled) {
     show(settled, line.json);
   else if (line.token.verb != TokenCommand::Verb::none)
     run_token_command(line.token, settled.config.tokens, std::cout);
+  else if (line.migrate.wanted)
+    run_migrate_command(line.migrate, settled.config, std::cout);
   else
     serve(settled.config, line.sources);
   return EXIT_SUCCESS;

@@ -21,6 +21,7 @@
 #include "server/ops/service_manager.hpp"
 #include "server/ops/settled_rules.hpp"
 #include "server/ops/store_opening.hpp"
+#include "server/queue/shared_run.hpp"
 #include "server/queue/stage_times.hpp"
 #include "server/results/retention.hpp"
 #include "server/run/isolated_run.hpp"
@@ -61,20 +62,23 @@ struct Server::Impl {
       : config(wanted),
         planner(std::move(given)),
         folder(config.data),
-        results(config.store.empty() ? static_cast<const FolderPaths&>(folder) : FolderPaths{config.shared}),
+        results(config.shared.empty() || config.store.empty() ? static_cast<const FolderPaths&>(folder)
+                                                              : FolderPaths{config.shared}),
         store(open_any_store()),
-        blobs(results.blobs(), config.blob_limit_bytes),
-        artifacts(results.jobs(), *store, planner),
+        blobs(results.blobs(), config.blob_limit_bytes, shared_files()),
+        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner),
         passed(config.data / "checked"),
         isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
         scheduler(*store,
-                  with_stage_times(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
-                                              make_isolated_run(isolation)),
-                                   counters),
+                  with_stage_times(
+                      with_shared_files(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
+                                                   make_isolated_run(isolation)),
+                                        shared_files(), blobs, results.jobs()),
+                      counters),
                   [this](const std::string& job) { changed(job); }),
         streams(io, *store, reads, scheduler),
         waits(io, *store, reads),
-        retention(*store, blobs, artifacts, results.jobs()),
+        retention(*store, blobs, artifacts),
         dispatcher(handlers(), streams, waits),
         listener(context, http, tcp_endpoint(config), make_tls(config)) {
     isolation.held = folder.jobs();
@@ -91,6 +95,9 @@ struct Server::Impl {
     fleet = shared.get();
     return shared;
   }
+
+  // Null where files are in a folder.
+  SharedFiles* shared_files() const { return fleet == nullptr ? nullptr : fleet->files(); }
 
   // The answers to what other daemons do.
   FleetHooks fleet_hooks() {
@@ -112,7 +119,7 @@ struct Server::Impl {
           submit_handlers({answers, config, *store, blobs, artifacts, scheduler, planner, job_defaults(config),
                            isolation, admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
-          job_handlers({answers, config, *store, scheduler, waits, artifacts, isolation, reads, disk, replays}),
+          job_handlers({answers, config, *store, scheduler, waits, artifacts, blobs, isolation, reads, disk, replays}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
           artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports})})
       all.merge(group);
@@ -155,10 +162,11 @@ struct Server::Impl {
   // On the thread of disk work, where blobs are written.
   void sweep(Connection::Clock::time_point now) {
     next_sweep = now + sweep_time;
-    if (fleet != nullptr && !fleet->sweeps()) return;
-    disk.add([this, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
+    const bool sweeps = fleet == nullptr || fleet->sweeps();
+    disk.add([this, sweeps, rules = RetentionRules{config.keep, config.keep_bytes}](const std::stop_token&) {
       try {
-        retention.sweep(rules, unix_ms());
+        if (sweeps) retention.sweep(rules, unix_ms());
+        retention.drop_copies(rules);
       } catch (const std::exception& error) {
         spdlog::error("old jobs and blobs cannot be removed: {}", error.what());
       }
@@ -197,7 +205,7 @@ struct Server::Impl {
   const int workers = worker_count(config);
   Planner planner;
   DataFolder folder;
-  FolderPaths results;  // the same, or the one that a fleet shares
+  FolderPaths results;  // the same, or the one that a fleet has in common
   FleetStore* fleet = nullptr;
   std::unique_ptr<JobStore> store;
   net::io_context io{1};
@@ -211,7 +219,7 @@ struct Server::Impl {
   Waits waits;
   Retention retention;
   Access access{config};
-  Tickets tickets;
+  Tickets tickets{link_secret(fleet), [this] { return fleet == nullptr ? unix_ms() : fleet->now_ms(); }};
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(least_checks_at_once, cores())};

@@ -564,7 +564,7 @@ def run_submit(options):
             spec["continue"] = {"job": options.continued, "rotation_rad": rotation_rad(options)}
         else:
             spec.update(placement_of(client, options))
-        named = {field: getattr(options, field) for field in ("key", "priority", "not_before", "start_by", "max_runtime_s")
+        named = {field: getattr(options, field) for field in ("key", "priority", "queue", "not_before", "start_by", "max_runtime_s")
                  if getattr(options, field) is not None}
         reply, exit_code = client.submit(spec, **named), FINE
         if not options.json:
@@ -896,6 +896,7 @@ def add_submit_options(submit):
     submit.add_argument("--seed", type=int, default=0, metavar="K")
     submit.add_argument("--allow-freed", action="store_true", help="let pieces come loose while a translating robot carves")
     submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
+    submit.add_argument("--queue", metavar="NAME", help="let only daemons plan it that serve this queue")
     submit.add_argument("--not-before", metavar="TIME", help="hold it until then, UTC: 2026-01-31T12:00:00Z")
     submit.add_argument("--start-by", metavar="TIME", help="let it expire if it has not started by then")
     submit.add_argument("--max-runtime", dest="max_runtime_s", type=int, metavar="SECONDS", help="end a run that takes longer")

@@ -38,24 +38,18 @@ void on_artifact_pin(const ArtifactGroup& group, Call call) {
   });
 }
 
-// The ticket is made on the I/O thread, where it will be looked for.
 void on_artifact_link(const ArtifactGroup& group, Call call) {
   const proto::ArtifactReadParams wanted = proto::read_artifact_link(call.params);
-  group.answers.read_then(
-      std::move(call),
-      [group, wanted] {
-        find_job(group.store, wanted.job);
-        return group.artifacts.file_name_of(wanted);
-      },
-      [group, wanted](const Call& known, const std::string& name) {
-        const std::string ticket =
-            group.tickets.issue(wanted.job, wanted.artifact, wanted.format, Tickets::Clock::now());
-        const auto end_ms = unix_ms() + std::chrono::duration_cast<std::chrono::milliseconds>(ticket_time).count();
-        answer(known, {{"job", wanted.job},
-                       {"artifact", wanted.artifact},
-                       {"path", links_path + ticket + "/" + name},
-                       {"expires_at", utc_text(end_ms)}});
-      });
+  group.answers.read(std::move(call), [group, wanted] {
+    find_job(group.store, wanted.job);
+    const std::string name = group.artifacts.file_name_of(wanted);
+    const std::string ticket = group.tickets.issue(wanted.job, wanted.artifact, wanted.format);
+    const auto end_ms = unix_ms() + std::chrono::duration_cast<std::chrono::milliseconds>(ticket_time).count();
+    return Json{{"job", wanted.job},
+                {"artifact", wanted.artifact},
+                {"path", links_path + ticket + "/" + name},
+                {"expires_at", utc_text(end_ms)}};
+  });
 }
 
 void on_artifact_read(const ArtifactGroup& group, Call call) {

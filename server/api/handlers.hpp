@@ -81,6 +81,7 @@ struct JobGroup {
   const Scheduler& scheduler;
   Waits& waits;
   Artifacts& artifacts;
+  const Blobs& blobs;
   const Isolation& isolation;
   TaskQueue& reads;
   TaskQueue& disk;
@@ -111,7 +112,7 @@ struct ArtifactGroup {
   const Answers& answers;
   JobStore& store;
   Artifacts& artifacts;
-  Tickets& tickets;
+  const Tickets& tickets;
   TaskQueue& changes;
   TaskQueue& disk;
   TaskQueue& exports;  ///< for other forms than an artifact's own

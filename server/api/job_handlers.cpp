@@ -1,6 +1,7 @@
 #include "server/api/handlers.hpp"
 #include "server/api/job_page.hpp"
 #include "server/run/isolated_replay.hpp"
+#include "server/run/job_run.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -9,10 +10,18 @@ ViewSources view_sources(const JobGroup& group) {
   return {group.store, group.scheduler, group.config.keep};
 }
 
-Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) {
+// Its time of keeping may end while the replay waits for its turn.
+Replay replay_stored(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) try {
   group.artifacts.check_whole(job, "trajectory");
-  const Replay replay =
-      replay_in_child({job.spec, job.cell_bundle, job.id, 0, job.inherited, job.folder}, group.isolation, stop);
+  fetch_blobs(job, group.blobs);
+  return replay_in_child({job.spec, job.cell_bundle, job.id, 0, job.inherited, job.folder}, group.isolation, stop);
+} catch (const std::exception&) {
+  find_job(group.store, job.id);
+  throw;
+}
+
+Answer replay(const JobGroup& group, const JobRecord& job, const std::stop_token& stop) {
+  const Replay replay = replay_stored(group, job, stop);
   Json findings = Json::array();
   for (const Finding& finding : replay.findings)
     findings.push_back({{"line", finding.line}, {"sentence", finding.sentence}});

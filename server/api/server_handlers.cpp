@@ -68,6 +68,7 @@ Json fleet_view(FleetStore& fleet) {
                        {"workers", daemon.workers},
                        {"running", daemon.running},
                        {"memory_bytes", daemon.memory_bytes},
+                       {"queues", daemon.queues},
                        {"silent_s", daemon.silent_s}});
   return daemons;
 }

@@ -74,7 +74,8 @@ void admit(const SubmitGroup& group, std::shared_ptr<Call> call, const std::shar
 void on_submit(const SubmitGroup& group, Call call) {
   proto::SubmitParams submit = proto::read_submit(call.params);
   NewJob job{submit.key,
-             {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s},
+             {submit.priority, submit.not_before, submit.start_by, submit.max_runtime_s,
+              submit.queue.empty() ? default_queue : submit.queue},
              proto::write_json(to_json(submit.spec)),
              submit.spec.cell_bundle,
              0,

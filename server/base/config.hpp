@@ -20,14 +20,15 @@ struct Config {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7878;  ///< 0: any free one
   std::filesystem::path data;
-  std::string store;                          ///< "postgresql://...", shared with other daemons; empty: in `data`
-  std::filesystem::path store_password_file;  ///< empty: none
-  std::filesystem::path shared;               ///< with such a store: blobs and results, for all its daemons
-  std::chrono::milliseconds lease{30000};     ///< of a job; a daemon that is silent for so long has lost it
-  int workers = 0;                            ///< 0: one less than there are cores, at least 1
-  std::vector<std::filesystem::path> cells;   ///< folders with cell files
-  std::string log = "info";                   ///< trace debug info warn error off
-  std::string log_format = "text";            ///< text json
+  std::string store;                           ///< "postgresql://...", shared with other daemons; empty: in `data`
+  std::filesystem::path store_password_file;   ///< empty: none
+  std::filesystem::path shared;                ///< with such a store: blobs and results, for all its daemons
+  std::chrono::milliseconds lease{30000};      ///< of a job; a daemon that is silent for so long has lost it
+  std::vector<std::string> queues{"default"};  ///< whose jobs are planned here
+  int workers = 0;                             ///< 0: one less than there are cores, at least 1
+  std::vector<std::filesystem::path> cells;    ///< folders with cell files
+  std::string log = "info";                    ///< trace debug info warn error off
+  std::string log_format = "text";             ///< text json
   std::uint64_t blob_limit_bytes = 2ull << 30;
   std::uint64_t memory_cap_bytes = 2ull << 30;  ///< per job
   std::uint64_t memory_bytes = 0;               ///< of all jobs that run at once; 0: three quarters of the machine's

@@ -35,6 +35,7 @@ Json job_view(const ViewSources& sources, const JobRecord& job) {
   if (!job.key.empty()) view["key"] = job.key;
   if (!job.owner.empty()) view["owner"] = job.owner;
   view["priority"] = job.schedule.priority;
+  if (job.schedule.queue != default_queue) view["queue"] = job.schedule.queue;
   view["mesh"] = spec.mesh.name;
   if (spec.continued) view["continues"] = spec.continued->job;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);

@@ -14,6 +14,7 @@
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/files/shared_files.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -70,6 +71,10 @@ void rename_durably(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+std::string shared_blob(const std::string& sha256) {
+  return "blobs/" + sha256;
+}
+
 fs::path Blobs::place(const std::string& sha256) const {
   return folder_ / sha256.substr(0, 2) / sha256;
 }
@@ -95,10 +100,25 @@ BlobState Blobs::state(const std::string& sha256) const {
 }
 
 BlobState Blobs::use(const std::string& sha256) const {
-  const std::lock_guard lock(removal_);
-  std::error_code ignored;
-  fs::last_write_time(place(sha256), fs::file_time_type::clock::now(), ignored);
-  return state(sha256);
+  const auto use_here = [&] {
+    const std::lock_guard lock(removal_);
+    std::error_code ignored;
+    fs::last_write_time(place(sha256), fs::file_time_type::clock::now(), ignored);
+    return state(sha256);
+  };
+  const BlobState here = use_here();
+  if (shared_ == nullptr) return here;
+  if (here.complete) {
+    share(sha256);
+    return here;
+  }
+  return shared_->use(shared_blob(sha256)) && download(*shared_, shared_blob(sha256), place(sha256)) ? use_here()
+                                                                                                     : here;
+}
+
+// Nothing to do where it is among the fleet's already.
+void Blobs::share(const std::string& sha256) const {
+  if (shared_ != nullptr) shared_->upload(place(sha256), shared_blob(sha256));
 }
 
 void Blobs::remove_unused(const std::set<std::string>& needed, std::chrono::seconds age) {
@@ -158,6 +178,7 @@ void Blobs::complete(const std::string& sha256, std::uint64_t size) {
   } catch (const StorageError&) {
     if (!state(sha256).complete) throw;  // another daemon that shares the folder was faster
   }
+  share(sha256);
 }
 
 std::string Blobs::add(std::string_view bytes) {
@@ -173,6 +194,7 @@ std::string Blobs::add(std::string_view bytes) {
     fs::remove(draft, ignored);
     throw;
   }
+  share(sha256);
   return sha256;
 }
 

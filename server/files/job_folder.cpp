@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
-#include <vector>
 
 #include "server/files/durable.hpp"
 
@@ -15,13 +13,6 @@ namespace fs = std::filesystem;
 bool is_of_a_result(const fs::path& file) {
   const std::string kind = file.extension();
   return kind == ".csv" || kind == ".sct" || kind == ".gz" || kind == ".seal";
-}
-
-std::optional<int> attempt_of(const fs::path& folder) {
-  const std::string name = folder.filename();
-  int attempt = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), attempt);
-  return error == std::errc() && end == name.data() + name.size() ? std::optional(attempt) : std::nullopt;
 }
 
 // Of the job, but this one; the last comes first. Drafts of folders are attempt 0, which no run has.
@@ -39,11 +30,7 @@ std::vector<std::pair<int, fs::path>> other_attempts(const fs::path& folder) {
 
 // Checkpoints first: what is copied of the trajectory is then at least what they speak of.
 void copy_run(const fs::path& from, const fs::path& to) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(from))
-    if (!entry.is_symlink() && entry.is_regular_file() && entry.path().extension() != ".draft" &&
-        !is_of_a_result(entry.path()))
-      files.push_back(entry.path());
+  std::vector<fs::path> files = files_of_run(from);
   std::ranges::sort(files);
   for (const fs::path& file : files) {
     std::error_code gone;  // the run that lost the job may remove one meanwhile
@@ -70,6 +57,30 @@ void take_over(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::optional<int> attempt_of(const fs::path& folder) {
+  const std::string name = folder.filename();
+  int attempt = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), attempt);
+  return error == std::errc() && end == name.data() + name.size() ? std::optional(attempt) : std::nullopt;
+}
+
+int last_attempt(const fs::path& folder) {
+  const int attempt = attempt_of(folder).value_or(0);
+  for (const auto& [number, other] : other_attempts(folder))
+    if (number < attempt) return number;
+  return 0;
+}
+
+std::vector<fs::path> files_of_run(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
+    if (!entry.is_symlink() && entry.is_regular_file() && entry.path().extension() != ".draft" &&
+        !is_of_a_result(entry.path()))
+      files.push_back(entry.path());
+  return files;
+}
 
 fs::path prepare_job_folder(const fs::path& jobs, const std::string& name) {
   const fs::path folder = jobs / name;

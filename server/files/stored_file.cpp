@@ -11,6 +11,7 @@
 #include "core/base/sha256.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
+#include "server/files/shared_files.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -52,18 +53,29 @@ std::optional<StoredFile> StoredFile::open(const fs::path& folder, const std::st
   return is_regular(opened) ? std::optional(std::move(file)) : std::nullopt;
 }
 
-StoredFile::StoredFile(StoredFile&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+std::optional<StoredFile> StoredFile::open(SharedFiles& files, const std::string& path) {
+  const std::optional<std::uint64_t> size = files.size(path);
+  return size ? std::optional(StoredFile(files, path, *size)) : std::nullopt;
+}
+
+StoredFile::StoredFile(StoredFile&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      shared_(other.shared_),
+      path_(std::move(other.path_)),
+      size_(other.size_) {}
 
 StoredFile::~StoredFile() {
   if (file_ >= 0) ::close(file_);
 }
 
 std::uint64_t StoredFile::size() const {
+  if (shared_ != nullptr) return size_;
   struct stat status {};
   return ::fstat(file_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
 std::string StoredFile::read(std::uint64_t offset, std::uint64_t bytes) const {
+  if (shared_ != nullptr) return read_shared(offset, bytes);
   std::string part(bytes, '\0');
   for (std::uint64_t done = 0; done < bytes;) {
     const ssize_t got = ::pread(file_, part.data() + done, bytes - done, static_cast<off_t>(offset + done));
@@ -71,6 +83,16 @@ std::string StoredFile::read(std::uint64_t offset, std::uint64_t bytes) const {
     if (got < 0) fail_to_store(errno, "cannot read an artifact");
     if (got == 0) throw StorageError("an artifact became shorter while it was read");
     done += static_cast<std::uint64_t>(got);
+  }
+  return part;
+}
+
+std::string StoredFile::read_shared(std::uint64_t offset, std::uint64_t bytes) const {
+  std::string part;
+  while (part.size() < bytes) {
+    const std::string piece = shared_->read(path_, offset + part.size(), bytes - part.size());
+    if (piece.empty()) throw StorageError("an artifact became shorter while it was read");
+    part += piece;
   }
   return part;
 }

@@ -29,27 +29,33 @@ class FleetFeed {
   void read(Postgres& database);
   /// The same for who asks himself, in another's trip.
   std::vector<Question> questions() const;
-  void take(const Answered& events, const Answered& removals);
+  /// True: there may be more.
+  bool take(const Answered& events, const Answered& removals);
   /// Events that this daemon made itself: they are counted, and no news.
   void made_here(const std::vector<std::uint64_t>& numbers);
   /// What others did, since the last call.
   std::vector<FleetNews> take_news();
 
   const JobTally& tally() const { return tally_; }
+  /// The jobs that are known to be in a daemon's hands, as PostgreSQL writes an array. Who asks for their leases by
+  /// name does not pass those of all jobs since somebody opened a transaction: while it is open, they stay.
+  SqlValue at_work() const;
 
  private:
   struct OpenJob {
     std::int64_t rank = 0;
-    std::string owner;
+    std::string owner, queue;
     JobState state = JobState::queued;
   };
   void count_event(const Answered& events, int row);
   void count_removal(const Answered& removed, int row);
+  void keep(const std::string& id, const OpenJob& job);
   void count(const std::string& id, const OpenJob& now, std::optional<JobState> known);
 
   mutable std::mutex mutex_;
   JobTally tally_;
   std::map<std::string, OpenJob> open_;
+  std::set<std::string> at_work_;  // of those
   std::int64_t last_event_ = 0, last_removed_ = 0;
   std::set<std::uint64_t> own_;
   std::vector<FleetNews> news_;

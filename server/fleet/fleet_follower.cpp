@@ -2,18 +2,19 @@
 
 #include <spdlog/spdlog.h>
 
-#include "server/fleet/fleet_progress.hpp"
+#include "server/base/progress_text.hpp"
 
 namespace sculpt::server {
 namespace {
 
-// A connection that is half gone shows as a look that is not answered.
-constexpr std::chrono::seconds patience{3};
-constexpr std::chrono::milliseconds shortest_look{20}, notice_time{100};
+// A connection that is half gone shows as a look that is not answered; all others of the daemon are then made anew.
+constexpr std::chrono::seconds patience{2};
+constexpr std::chrono::milliseconds shortest_look{100}, notice_time{100};
 constexpr int look_ms = 1000, jitter_ms = 250;
 
-constexpr const char* all_progress =
-    "SELECT id, progress FROM sculptd.lease JOIN sculptd.job ON lease.job = job.number WHERE progress<>''";
+constexpr const char* progress_of =
+    "SELECT id, progress FROM sculptd.job JOIN sculptd.lease ON lease.job = job.number WHERE id = ANY($1::text[]) AND "
+    "progress<>''";
 
 }  // namespace
 
@@ -48,7 +49,7 @@ void FleetFollower::work(const std::stop_token& stop) {
       listen();
       look();
       if (!std::exchange(reachable, true)) spdlog::info("the database answers again");
-      // Many changes at once are one look.
+      // Many changes at once are one look, and the first of them is seen at once.
       std::this_thread::sleep_for(shortest_look);
       const auto end = std::chrono::steady_clock::now() + next_look();
       while (!stop.stop_requested() && std::chrono::steady_clock::now() < end && !database_.await_notice(notice_time)) {
@@ -68,7 +69,7 @@ void FleetFollower::listen() {
 
 void FleetFollower::look() {
   feed_.read(database_);
-  const Answered running = database_.ask({all_progress});
+  const Answered running = database_.ask({progress_of, {feed_.at_work()}});
   std::map<std::string, Progress> progress;
   for (int row = 0; row < running.rows(); ++row)
     if (const std::optional<Progress> now = read_progress_text(running.text(row, 1)))

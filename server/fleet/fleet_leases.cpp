@@ -6,8 +6,9 @@
 
 #include "proto/json.hpp"
 #include "proto/version.hpp"
+#include "server/base/progress_text.hpp"
 #include "server/base/storage_error.hpp"
-#include "server/fleet/fleet_progress.hpp"
+#include "server/base/time_stamp.hpp"
 #include "server/fleet/fleet_schema.hpp"
 
 namespace sculpt::server {
@@ -22,15 +23,21 @@ std::chrono::milliseconds margin(std::chrono::milliseconds lease) {
   return lease / 6;
 }
 
+std::int64_t steady_ms() {
+  const auto now = FleetLeases::Clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
 constexpr const char* renew_leases =
     "UPDATE sculptd.lease SET until = now() + $2 * interval '1 ms', progress = mine.progress "
     "FROM jsonb_to_recordset($3::jsonb) AS mine(id text, attempt integer, progress text), sculptd.job "
     "WHERE job.id = mine.id AND lease.job = job.number AND lease.attempt = mine.attempt AND lease.daemon = $1 "
     "RETURNING job.id";
 constexpr const char* say_hello =
-    "INSERT INTO sculptd.daemon VALUES($1, $2, $3, $4, $5, $6, $7, now()) ON CONFLICT(id) DO UPDATE SET "
+    "INSERT INTO sculptd.daemon VALUES($1, $2, $3, $4, $5, $6, $7, now(), $8) ON CONFLICT(id) DO UPDATE SET "
     "address=excluded.address, version=excluded.version, schema=excluded.schema, workers=excluded.workers, "
-    "running=excluded.running, memory_bytes=excluded.memory_bytes, seen=excluded.seen";
+    "running=excluded.running, memory_bytes=excluded.memory_bytes, seen=excluded.seen, "
+    "queues=excluded.queues RETURNING floor(extract(epoch FROM now()) * 1000)::bigint";
 constexpr const char* look_at_trouble =
     "SELECT coalesce(extract(epoch FROM (SELECT max(now() - xact_start) FROM pg_stat_activity)), 0), "
     "coalesce((SELECT n_dead_tup FROM pg_stat_user_tables WHERE schemaname='sculptd' AND relname='job'), 0)";
@@ -41,7 +48,8 @@ FleetLeases::FleetLeases(const PostgresSource& source, FleetMember member, std::
     : database_(source, margin(lease)),
       member_(std::move(member)),
       lease_(lease),
-      beat_(std::min(longest_beat, lease / 10)) {}
+      beat_(std::min(longest_beat, lease / 10)),
+      ahead_ms_(static_cast<std::int64_t>(unix_ms()) - steady_ms()) {}
 
 void FleetLeases::start(const FleetHooks& hooks, const std::string& address) {
   hooks_ = hooks;
@@ -83,6 +91,10 @@ void FleetLeases::let_go(const std::string& job, int attempt) {
   if (const auto found = held_.find(job); found != held_.end() && found->second.attempt == attempt) held_.erase(found);
 }
 
+std::uint64_t FleetLeases::now_ms() const {
+  return static_cast<std::uint64_t>(steady_ms() + ahead_ms_);
+}
+
 DatabaseFigures FleetLeases::figures() const {
   const std::lock_guard lock(mutex_);
   return figures_;
@@ -121,11 +133,12 @@ void FleetLeases::beat() {
     held = held_;
   }
   if (!held.empty()) renew(held, since);
-  database_.ask(
+  const Answered hello = database_.ask(
       {say_hello,
        {sql_value(member_.id), sql_value(address_), sql_value(std::string(proto::server_name)),
         sql_value(fleet_schema_version), sql_value(member_.workers), sql_value(static_cast<std::int64_t>(held.size())),
-        sql_value(static_cast<std::int64_t>(member_.memory_bytes))}});
+        sql_value(static_cast<std::int64_t>(member_.memory_bytes)), sql_value(proto::write_json(member_.queues))}});
+  ahead_ms_ = hello.number(0, 0) - steady_ms();
   take_sweep();
   if (beats_++ % beats_per_measure == 0) measure();
 }
@@ -134,10 +147,13 @@ void FleetLeases::renew(const std::map<std::string, Held>& held, Clock::time_poi
   Json mine = Json::array();
   for (const auto& [job, lease] : held) {
     const std::optional<Progress> progress = hooks_.progress(job);
-    mine.push_back({{"id", job}, {"attempt", lease.attempt}, {"progress", progress ? progress_text(*progress) : ""}});
+    mine.push_back({{"id", job},
+                    {"attempt", lease.attempt},
+                    {"progress", progress ? proto::write_json(progress_json(*progress)) : ""}});
   }
-  const Answered renewed = database_.ask(
-      {renew_leases, {sql_value(member_.id), sql_value(lease_.count()), sql_value(proto::write_json(mine))}});
+  const Question question{renew_leases,
+                          {sql_value(member_.id), sql_value(lease_.count()), sql_value(proto::write_json(mine))}};
+  const Answered renewed = database_.ask_again({question}).front();
   std::map<std::string, Held> gone = held;
   const std::lock_guard lock(mutex_);
   for (int row = 0; row < renewed.rows(); ++row) {

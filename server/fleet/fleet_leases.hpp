@@ -41,6 +41,8 @@ class FleetLeases {
   /// This daemon is the one that removes what is old.
   bool sweeps() const { return sweeps_; }
   std::uint64_t lost() const { return lost_; }
+  /// See FleetStore; before the first renewal this machine's own.
+  std::uint64_t now_ms() const;
   DatabaseFigures figures() const;
 
  private:
@@ -70,6 +72,7 @@ class FleetLeases {
   DatabaseFigures figures_;
   std::atomic<bool> sweeps_ = false;
   std::atomic<std::uint64_t> lost_ = 0;
+  std::atomic<std::int64_t> ahead_ms_;  // the database's wall time of our steady one
   std::uint64_t sweep_generation_ = 0, beats_ = 0;
   std::string address_;
   std::jthread renewing_, minding_;

@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/watch.hpp"
+#include "server/store/job_record.hpp"
 #include "server/store/job_state.hpp"
 
 namespace sculpt::server {
@@ -15,7 +17,8 @@ namespace sculpt::server {
 struct FleetMember {
   std::string id;  ///< its own for ever; another daemon has another
   int workers = 0;
-  std::uint64_t memory_bytes = 0;  ///< of the jobs that it runs at once; 0: no bound
+  std::uint64_t memory_bytes = 0;                  ///< of the jobs that it runs at once; 0: no bound
+  std::vector<std::string> queues{default_queue};  ///< whose jobs it plans
 };
 
 /// What this daemon runs.
@@ -30,6 +33,7 @@ struct FleetDaemon {
   std::string id, address, version;
   int workers = 0, running = 0;
   std::uint64_t memory_bytes = 0;
+  std::vector<std::string> queues;
   double silent_s = 0;  ///< since it was heard of last
 };
 

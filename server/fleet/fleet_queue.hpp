@@ -11,9 +11,9 @@ namespace sculpt::server {
 /// What a daemon has in mind when it looks for a job.
 struct Claimant {
   AtWork at_work;
-  /// No job is known that is queued with a lower rank; nothing: nobody knows. While somebody holds a transaction open
-  /// the rows of all jobs since are passed on the way to the first that is queued: this leads around them.
-  std::optional<std::int64_t> first_rank;
+  /// Knows which rank is the first that is queued, if any is known. While somebody holds a transaction open the rows of
+  /// all jobs since are passed on the way to it: this leads around them.
+  const JobTally& tally;
 };
 
 /// Locks the row until the change ends; rows that others are looking at are passed over. Nothing where JobStore::claim
@@ -22,10 +22,11 @@ struct Claimant {
 std::optional<JobRow> next_job(FleetChange& change, const Claimant& claimant, const StoreRules& rules,
                                std::atomic<std::int64_t>& newer_schema);
 
-/// One cheap question.
-bool is_anything_due(Postgres& database, const StoreRules& rules);
-/// As JobStore::wake_due; also, runs of daemons whose lease is over are taken from them. Gives the jobs that changed.
-std::vector<std::string> change_due(FleetChange& change);
+/// One cheap question. `at_work`: FleetFeed::at_work.
+bool is_anything_due(Postgres& database, const StoreRules& rules, const SqlValue& at_work);
+/// As JobStore::wake_due; also, of those at work the runs whose lease is over are taken from their daemons. Gives the
+/// jobs that changed.
+std::vector<std::string> change_due(FleetChange& change, const SqlValue& at_work);
 
 /// For people: why a daemon takes no jobs when the tables are of this version; empty for those that it knows.
 std::string schema_too_new(std::int64_t version);

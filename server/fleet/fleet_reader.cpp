@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "proto/json.hpp"
 #include "server/fleet/fleet_rows.hpp"
+#include "server/store/job_columns.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -15,14 +17,8 @@ SqlValue within_range(std::uint64_t number) {
   return sql_value(static_cast<std::int64_t>(std::min<std::uint64_t>(number, INT64_MAX)));
 }
 
-JobRecord to_record(const Answered& answer, int row) {
-  JobRecord job = read_job_row(answer, row).job;
-  job.folder = attempt_folder(job);
-  return job;
-}
-
 std::optional<JobRecord> first_record(const Answered& answer) {
-  return answer.rows() == 0 ? std::nullopt : std::optional(to_record(answer, 0));
+  return answer.rows() == 0 ? std::nullopt : std::optional(read_fleet_row(answer, 0).job);
 }
 
 constexpr const char* events_of_all =
@@ -37,10 +33,6 @@ constexpr const char* last_of_one =
     "SELECT max(seq) FROM sculptd.event WHERE job = (SELECT number FROM sculptd.job WHERE id=$1)";
 
 }  // namespace
-
-std::string attempt_folder(const JobRecord& job) {
-  return job.id + "/" + std::to_string(job.attempt);
-}
 
 FleetReader::FleetReader(const PostgresSource& source) : database_(source, patience) {}
 
@@ -81,13 +73,13 @@ JobPage FleetReader::list(const JobWindow& window) {
         return page;
       }
       try {
-        page.jobs.push_back(to_record(answer, row));
+        page.jobs.push_back(read_fleet_row(answer, row).job);
       } catch (const StorageError& error) {
-        page.damaged.push_back({answer.text(row, 1), error.what()});
+        page.damaged.push_back({answer.text(row, id_column), error.what()});
       }
     }
     if (answer.rows() < wanted) return page;
-    (window.newest ? before : after) = answer.text(answer.rows() - 1, 1);
+    (window.newest ? before : after) = answer.text(answer.rows() - 1, id_column);
   }
 }
 
@@ -135,13 +127,14 @@ std::vector<StoredArtifact> FleetReader::artifacts(const std::string& id) {
 
 std::vector<FleetDaemon> FleetReader::daemons() {
   const Answered answer =
-      ask({"SELECT id, address, version, workers, running, memory_bytes, extract(epoch FROM now() - seen) FROM "
+      ask({"SELECT id, address, version, workers, running, memory_bytes, queues, extract(epoch FROM now() - seen) FROM "
            "sculptd.daemon WHERE seen > now() - interval '1 hour' ORDER BY address, id"});
   std::vector<FleetDaemon> daemons;
   for (int row = 0; row < answer.rows(); ++row)
     daemons.push_back({answer.text(row, 0), answer.text(row, 1), answer.text(row, 2),
                        static_cast<int>(answer.number(row, 3)), static_cast<int>(answer.number(row, 4)),
-                       static_cast<std::uint64_t>(answer.number(row, 5)), std::stod(answer.text(row, 6))});
+                       static_cast<std::uint64_t>(answer.number(row, 5)), proto::parse_json(answer.text(row, 6)),
+                       std::stod(answer.text(row, 7))});
   return daemons;
 }
 

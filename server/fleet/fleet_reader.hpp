@@ -10,22 +10,22 @@
 
 namespace sculpt::server {
 
-/// Safe from any thread; the methods are those of JobStore.
-class FleetReader {
+/// Safe from any thread.
+class FleetReader : public JobReader {
  public:
   /// The database must have today's tables.
   explicit FleetReader(const PostgresSource& source);
 
   std::string epoch();
-  std::optional<JobRecord> find(const std::string& id);
-  std::optional<JobRecord> find_key(const std::string& key);
-  bool was_removed(const std::string& id);
-  JobPage list(const JobWindow& window);
-  bool queue_paused();
-  std::uint64_t queue_age_s();
-  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit);
-  std::uint64_t last_event(const std::string& job);
-  std::vector<StoredArtifact> artifacts(const std::string& id);
+  std::optional<JobRecord> find(const std::string& id) override;
+  std::optional<JobRecord> find_key(const std::string& key) override;
+  bool was_removed(const std::string& id) override;
+  JobPage list(const JobWindow& window) override;
+  bool queue_paused() override;
+  std::uint64_t queue_age_s() override;
+  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override;
+  std::uint64_t last_event(const std::string& job) override;
+  std::vector<StoredArtifact> artifacts(const std::string& id) override;
   /// Those that were heard of in the last hour.
   std::vector<FleetDaemon> daemons();
 
@@ -35,9 +35,5 @@ class FleetReader {
   std::mutex mutex_;
   Postgres database_;
 };
-
-/// Of the files of a job's present run, among those of all jobs: each attempt has its own, so that a run that lost its
-/// job, and does not know yet, writes where nobody reads.
-std::string attempt_folder(const JobRecord& job);
 
 }  // namespace sculpt::server

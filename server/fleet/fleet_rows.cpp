@@ -1,51 +1,29 @@
 #include "server/fleet/fleet_rows.hpp"
 
-#include "server/base/storage_error.hpp"
+#include "server/store/job_columns.hpp"
 
 namespace sculpt::server {
 
-const char* const job_columns =
-    "job.number, job.id, job.state, job.key, job.priority, job.not_before, job.start_by, job.max_runtime_s, job.spec, "
-    "job.cell_bundle, job.memory_bytes, job.rank, job.attempt, job.failures, job.crashes, job.isolated, job.wake_at, "
-    "job.submitted_at, job.started_at, job.finished_at, job.error_code, job.error_sentence, job.pinned, job.owner, "
-    "job.inherited";
+namespace {
 
-JobRow read_job_row(const Answered& answer, int row) {
-  JobRow read;
-  JobRecord& job = read.job;
-  int column = 0;
-  const auto text = [&] { return answer.text(row, column++); };
-  const auto number = [&] { return answer.number(row, column++); };
-  const auto small = [&] { return static_cast<int>(answer.number(row, column++)); };
-  const auto flag = [&] { return answer.flag(row, column++); };
-  read.number = number();
-  job.id = text();
-  const std::string state = text();
-  if (!find_state(state))
-    throw StorageError("job " + job.id + " has the unknown state '" + state + "' in the database");
-  job.state = *find_state(state);
-  job.key = text();
-  job.schedule.priority = small();
-  job.schedule.not_before = text();
-  job.schedule.start_by = text();
-  job.schedule.max_runtime_s = number();
-  job.spec = text();
-  job.cell_bundle = text();
-  job.memory_bytes = static_cast<std::uint64_t>(number());
-  job.rank = number();
-  job.attempt = small();
-  job.failures = small();
-  job.crashes = small();
-  job.isolated = flag();
-  job.wake_at = text();
-  job.submitted_at = text();
-  job.started_at = text();
-  job.finished_at = text();
-  job.error_code = text();
-  job.error_sentence = text();
-  job.pinned = flag();
-  job.owner = text();
-  job.inherited = text();
+struct OneRow {
+  const Answered& answer;
+  int row;
+
+  std::string text(int column) const { return answer.text(row, column); }
+  std::int64_t number(int column) const { return answer.number(row, column); }
+  bool flag(int column) const { return answer.flag(row, column); }
+};
+
+}  // namespace
+
+std::string attempt_folder(const JobRecord& job) {
+  return job.id + "/" + std::to_string(job.attempt);
+}
+
+JobRow read_fleet_row(const Answered& answer, int row) {
+  JobRow read = read_job_row(OneRow{answer, row});
+  read.job.folder = attempt_folder(read.job);
   return read;
 }
 
@@ -55,7 +33,7 @@ Question FleetRows::selection(const std::string& rest, const std::vector<SqlValu
 
 std::vector<JobRow> FleetRows::rows_of(const Answered& answer) {
   std::vector<JobRow> rows;
-  for (int row = 0; row < answer.rows(); ++row) rows.push_back(read_job_row(answer, row));
+  for (int row = 0; row < answer.rows(); ++row) rows.push_back(read_fleet_row(answer, row));
   return rows;
 }
 
@@ -69,30 +47,21 @@ std::optional<JobRow> FleetRows::find(const std::string& id) {
 }
 
 JobRow FleetRows::insert(const JobRecord& job) {
-  const SqlValue key = job.key.empty() ? std::nullopt : sql_value(job.key);
-  const Answered answer = change_.ask(
-      {std::string("INSERT INTO sculptd.job(id, state, key, priority, not_before, start_by, max_runtime_s, spec, "
-                   "cell_bundle, memory_bytes, rank, wake_at, submitted_at, owner, inherited) "
-                   "VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15) RETURNING ") +
-           job_columns,
-       {sql_value(job.id), sql_value(std::string(name(job.state))), key, sql_value(job.schedule.priority),
-        sql_value(job.schedule.not_before), sql_value(job.schedule.start_by), sql_value(job.schedule.max_runtime_s),
-        sql_value(job.spec), sql_value(job.cell_bundle), sql_value(static_cast<std::int64_t>(job.memory_bytes)),
-        sql_value(job.rank), sql_value(job.wake_at), sql_value(job.submitted_at), sql_value(job.owner),
-        sql_value(job.inherited)}});
-  return read_job_row(answer, 0);
+  Question insert{std::string("INSERT INTO sculptd.job(") + submitted_columns +
+                  ") VALUES(nullif($1, ''),$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15,$16) RETURNING " +
+                  job_columns};
+  add_submitted(job, [&insert](const auto& value) { insert.values.push_back(sql_value(value)); });
+  return read_fleet_row(change_.ask(insert), 0);
 }
 
 bool FleetRows::update(const JobRow& row, JobState from, int attempt) {
   const JobRecord& job = row.job;
   const SqlValue number = sql_value(row.number);
-  change_.later(
-      {"UPDATE sculptd.job SET state=$1, attempt=$2, failures=$3, crashes=$4, isolated=$5, wake_at=$6, started_at=$7, "
-       "finished_at=$8, error_code=$9, error_sentence=$10 WHERE number=$11 AND state=$12 AND attempt=$13",
-       {sql_value(std::string(name(job.state))), sql_value(job.attempt), sql_value(job.failures),
-        sql_value(job.crashes), sql_flag(job.isolated), sql_value(job.wake_at), sql_value(job.started_at),
-        sql_value(job.finished_at), sql_value(job.error_code), sql_value(job.error_sentence), number,
-        sql_value(std::string(name(from))), sql_value(attempt)}});
+  Question update{std::string("UPDATE sculptd.job SET (") + changing_columns +
+                  ")=($1,$2,$3,$4,$5,$6,$7,$8,$9,$10) WHERE number=$11 AND state=$12 AND attempt=$13"};
+  add_changing(job, [&update](const auto& value) { update.values.push_back(sql_value(value)); });
+  update.values.insert(update.values.end(), {number, sql_value(std::string(name(from))), sql_value(attempt)});
+  change_.later(std::move(update));
   if (is_active(job.state) && !is_active(from)) {
     change_.later(
         {"INSERT INTO sculptd.lease(job, daemon, attempt, until) "

@@ -8,10 +8,13 @@
 
 namespace sculpt::server {
 
-/// What is read of a job, from a table that is called `job`.
-extern const char* const job_columns;
-/// A row of an answer that begins with them. Throws StorageError for a state that nobody knows.
-JobRow read_job_row(const Answered& answer, int row);
+/// Of the files of a job's last attempt, among those of all jobs: each has its own, so that a run that lost its job,
+/// and does not know yet, writes where nobody reads.
+std::string attempt_folder(const JobRecord& job);
+
+/// A row of an answer that begins with job_columns (job_columns.hpp). Throws StorageError for a state that nobody
+/// knows.
+JobRow read_fleet_row(const Answered& answer, int row);
 
 /// Of one transaction. Rows that it changes were locked when they were found, so they are as they were read, and the
 /// change goes with the commit.

@@ -89,7 +89,32 @@ CREATE TABLE sculptd.daemon(
 ) WITH (fillfactor=70);
 )";
 
-constexpr std::array<const char*, fleet_schema_version> steps{version_1};
+constexpr const char* version_2 = R"(
+ALTER TABLE sculptd.job ADD COLUMN queue text NOT NULL DEFAULT 'default';
+DROP INDEX sculptd.job_queue;
+CREATE INDEX job_queue ON sculptd.job(queue, rank, number) WHERE state='queued';
+CREATE INDEX job_age ON sculptd.job(submitted_at) WHERE state='queued';
+ALTER TABLE sculptd.daemon ADD COLUMN queues jsonb NOT NULL DEFAULT '["default"]';
+CREATE TABLE sculptd.file(
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  path text COLLATE "C" NOT NULL UNIQUE,
+  job bigint REFERENCES sculptd.job ON DELETE SET NULL,
+  size bigint NOT NULL DEFAULT 0,
+  used timestamptz NOT NULL DEFAULT now()
+) WITH (fillfactor=70);
+CREATE INDEX file_job ON sculptd.file(job);
+CREATE TABLE sculptd.piece(
+  file bigint NOT NULL REFERENCES sculptd.file ON DELETE CASCADE,
+  at bigint NOT NULL,
+  bytes bytea NOT NULL,
+  PRIMARY KEY(file, at));
+ALTER TABLE sculptd.piece ALTER bytes SET STORAGE EXTERNAL;
+)";
+
+// An index over a million jobs is made in seconds, on a slow disk in minutes.
+constexpr std::chrono::minutes patience{10};
+
+constexpr std::array<const char*, fleet_schema_version> steps{version_1, version_2};
 
 std::int64_t read_version(Postgres& database) {
   // By a look at the rows: what to_regclass remembers may be older than the lock.
@@ -123,7 +148,8 @@ SqlValue sql_value(FleetLock lock) {
   return sql_value(static_cast<std::int64_t>(lock));
 }
 
-void update_fleet_schema(Postgres& database) {
+void update_fleet_schema(const PostgresSource& source) {
+  Postgres database(source, patience);
   const std::int64_t found = read_version(database);
   refuse_newer(found);
   if (found == fleet_schema_version) return;
@@ -132,12 +158,21 @@ void update_fleet_schema(Postgres& database) {
   const std::int64_t version = read_version(database);
   try {
     refuse_newer(version);
-    if (version < fleet_schema_version) database.run(update_script(version));
+    // Somebody's open transaction may hold a table, and all daemons would wait behind this.
+    if (version < fleet_schema_version) database.run("SET LOCAL lock_timeout='5s';" + update_script(version));
     database.ask({"COMMIT"});
   } catch (...) {
     database.drop();
     throw;
   }
+}
+
+void grant_to_daemons(const PostgresSource& source, const std::string& role) {
+  Postgres database(source, patience);
+  const std::string name = database.ask({"SELECT quote_ident($1)", {sql_value(role)}}).text(0, 0);
+  database.run("GRANT USAGE ON SCHEMA sculptd TO " + name +
+               "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + name +
+               "; GRANT USAGE ON ALL SEQUENCES IN SCHEMA sculptd TO " + name + ";");
 }
 
 }  // namespace sculpt::server

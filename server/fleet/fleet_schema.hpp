@@ -7,7 +7,7 @@
 
 namespace sculpt::server {
 
-inline constexpr std::int64_t fleet_schema_version = 1;
+inline constexpr std::int64_t fleet_schema_version = 2;
 
 /// The keys of the locks that all daemons of a database share.
 enum class FleetLock : std::int64_t {
@@ -17,8 +17,11 @@ enum class FleetLock : std::int64_t {
 };
 SqlValue sql_value(FleetLock lock);
 
-/// In one transaction, under a lock; does nothing to tables that are up to date. Throws StorageError for newer ones,
-/// and where the role may not make tables.
-void update_fleet_schema(Postgres& database);
+/// In one transaction, under a lock; does nothing to tables that are up to date. May take minutes. Throws StorageError
+/// for newer ones, and where the role may not make tables; DatabaseUnavailable where somebody else keeps a table.
+void update_fleet_schema(const PostgresSource& source);
+
+/// Lets a role that is there do what a daemon does with the tables, and no more. Throws StorageError.
+void grant_to_daemons(const PostgresSource& source, const std::string& role);
 
 }  // namespace sculpt::server

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "server/base/job_id.hpp"
+#include "server/fleet/fleet_files.hpp"
 #include "server/fleet/fleet_follower.hpp"
 #include "server/fleet/fleet_leases.hpp"
 #include "server/fleet/fleet_queue.hpp"
@@ -20,6 +21,8 @@ namespace {
 using enum JobState;
 
 constexpr std::chrono::seconds patience{10};
+constexpr const char* last_id =
+    "SELECT greatest((SELECT max(id) FROM sculptd.job), (SELECT max(id) FROM sculptd.removed))";
 
 class PostgresFleetStore : public FleetStore {
  public:
@@ -27,10 +30,11 @@ class PostgresFleetStore : public FleetStore {
       : rules_(std::move(rules)),
         fleet_(std::move(fleet)),
         database_(fleet_.source, patience),
-        reader_((update_fleet_schema(database_), fleet_.source)),
+        reader_((update_fleet_schema(fleet_.source), fleet_.source)),
         leases_(fleet_.source, fleet_.member, fleet_.lease),
         follower_(fleet_.source, feed_) {
     epoch_ = reader_.epoch();
+    if (fleet_.keeps_files) files_.emplace(fleet_.source);
     feed_.start(database_);
     last_rank_ms_ =
         database_.ask({"SELECT max(rank + $1 * priority) FROM sculptd.job", {sql_value(ageing())}}).number(0, 0);
@@ -50,35 +54,34 @@ class PostgresFleetStore : public FleetStore {
 
   Submitted submit(const NewJob& wanted) override {
     Change change(*this);
-    change.transaction.lock_events();  // from here on submits of all daemons are one after the other
-    if (!wanted.key.empty()) {
-      const std::vector<JobRow> first = change.rows.select("WHERE key=$1", {sql_value(wanted.key)});
-      if (!first.empty()) return repeat_submit(with_folder(first.front().job), wanted);
-    }
-    feed_.read(database_);
+    std::vector<Question> questions = feed_.questions();
+    questions.push_back(FleetRows::selection("WHERE key=$1", {sql_value(wanted.key)}));
+    questions.push_back({last_id});
+    // From here on submits of all daemons are one after the other.
+    const std::vector<Answered> answers = change.transaction.lock_events(questions);
+    if (answers[2].rows() > 0) return repeat_submit(read_fleet_row(answers[2], 0).job, wanted);
+    const std::string last = answers[3].text(0, 0);
+    refuse_unserved(wanted.schedule.queue, served_queues(wanted.schedule.queue));
+    if (feed_.take(answers[0], answers[1])) feed_.read(database_);
     refuse_too_many(feed_.tally(), rules_, wanted.owner);
-    const std::string last =
-        change.transaction
-            .ask({"SELECT greatest((SELECT max(id) FROM sculptd.job), (SELECT max(id) FROM sculptd.removed))"})
-            .text(0, 0);
     const std::uint64_t now_ms = change.jobs.now_ms();
     last_rank_ms_ = std::max(last_rank_ms_, static_cast<std::int64_t>(now_ms));
     const JobRow row = change.jobs.insert(make_job(wanted, IdMaker(last).next(now_ms), now_ms, last_rank_ms_, rules_));
     change.commit();
-    return {with_folder(row.job), false};
+    return {row.job, false};
   }
 
   std::optional<JobRecord> claim() override {
     const auto since = FleetLeases::Clock::now();
     Change change(*this);
-    std::optional<JobRow> next =
-        next_job(change.part, {leases_.at_work(), feed_.tally().first_rank()}, rules_, newer_schema_);
+    std::optional<JobRow> next = next_job(change.part, {leases_.at_work(), feed_.tally()}, rules_, newer_schema_);
     if (!next) return std::nullopt;
     JobRow& row = *next;
     start_run(change.jobs, rules_, row);
     change.commit();
     leases_.hold(row.job, since);
-    return with_folder(row.job);
+    row.job.folder = attempt_folder(row.job);
+    return row.job;
   }
 
   bool finish(const std::string& id, int attempt, const Ending& ending) override {
@@ -102,8 +105,10 @@ class PostgresFleetStore : public FleetStore {
 
   std::vector<std::string> wake_due() override {
     Change change(*this);
-    if (!is_anything_due(database_, rules_)) return {};
-    std::vector<std::string> changed = change_due(change.part);
+    feed_.read(database_);
+    const SqlValue at_work = feed_.at_work();
+    if (!is_anything_due(database_, rules_, at_work)) return {};
+    std::vector<std::string> changed = change_due(change.part, at_work);
     change.commit();
     return changed;
   }
@@ -147,22 +152,22 @@ class PostgresFleetStore : public FleetStore {
     return true;
   }
 
-  bool queue_paused() override { return reader_.queue_paused(); }
-  bool was_removed(const std::string& id) override { return reader_.was_removed(id); }
-  std::optional<JobRecord> find(const std::string& id) override { return reader_.find(id); }
-  std::optional<JobRecord> find_key(const std::string& key) override { return reader_.find_key(key); }
-  JobPage list(const JobWindow& window) override { return reader_.list(window); }
-  std::uint64_t queue_age_s() override { return reader_.queue_age_s(); }
-  std::uint64_t last_event(const std::string& job) override { return reader_.last_event(job); }
-  std::vector<StoredArtifact> artifacts(const std::string& id) override { return reader_.artifacts(id); }
-  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override {
-    return reader_.events(job, after, limit);
-  }
-
   std::map<JobState, std::uint64_t> counts() override { return feed_.tally().counts(); }
-  std::uint64_t position(const JobRecord& job) override { return feed_.tally().position(job.rank, job.id); }
+  std::uint64_t position(const JobRecord& job) override {
+    return feed_.tally().position(job.schedule.queue, job.rank, job.id);
+  }
   const Histogram& commit_times() override { return commit_times_; }
 
+  std::string settle(const std::string& name, const std::string& value) override {
+    write(
+        {"INSERT INTO sculptd.meta VALUES($1, $2) ON CONFLICT(name) DO NOTHING", {sql_value(name), sql_value(value)}});
+    const std::lock_guard lock(mutex_);
+    return database_.ask_again({{"SELECT value FROM sculptd.meta WHERE name=$1", {sql_value(name)}}})
+        .front()
+        .text(0, 0);
+  }
+  std::uint64_t now_ms() const override { return leases_.now_ms(); }
+  SharedFiles* files() override { return files_ ? &*files_ : nullptr; }
   std::vector<FleetDaemon> daemons() override { return reader_.daemons(); }
   std::optional<Progress> progress(const std::string& job) override { return follower_.progress(job); }
   bool sweeps() const override { return leases_.sweeps(); }
@@ -170,6 +175,9 @@ class PostgresFleetStore : public FleetStore {
   std::uint64_t late_ends() const override { return late_ends_; }
   DatabaseFigures figures() const override { return leases_.figures(); }
   std::string why_idle() const override { return schema_too_new(newer_schema_); }
+
+ protected:
+  JobReader& reader() override { return reader_; }
 
  private:
   /// One change of the store: its lock, and a transaction that is undone unless committed.
@@ -192,9 +200,14 @@ class PostgresFleetStore : public FleetStore {
 
   std::int64_t ageing() const { return static_cast<std::int64_t>(rules_.ageing_ms); }
 
-  static JobRecord with_folder(JobRecord job) {
-    job.folder = attempt_folder(job);
-    return job;
+  // Others' only where they matter.
+  std::vector<std::string> served_queues(const std::string& wanted) {
+    std::vector<std::string> served = rules_.queues;
+    if (std::ranges::find(served, wanted) != served.end()) return served;
+    for (const FleetDaemon& daemon : reader_.daemons())
+      for (const std::string& queue : daemon.queues)
+        if (std::ranges::find(served, queue) == served.end()) served.push_back(queue);
+    return served;
   }
 
   std::int64_t write(const Question& question) {
@@ -240,6 +253,7 @@ class PostgresFleetStore : public FleetStore {
   FleetRows::Lease lease_{fleet_.member.id, fleet_.lease};
   Postgres database_;
   FleetReader reader_;
+  std::optional<FleetFiles> files_;
   FleetFeed feed_;
   FleetLeases leases_;
   FleetFollower follower_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "server/files/shared_files.hpp"
 #include "server/fleet/fleet_member.hpp"
 #include "server/fleet/postgres.hpp"
 #include "server/store/job_store.hpp"
@@ -15,6 +16,7 @@ struct FleetRules {
   PostgresSource source;
   FleetMember member;
   std::chrono::milliseconds lease{30000};  ///< a daemon that is silent for so long has lost its jobs
+  bool keeps_files = false;                ///< files are in the database too, not in a folder of all daemons
 };
 
 /// As JobStore says, with these differences. Time is the database's. The bound of memory, and the one suspect at a
@@ -31,6 +33,12 @@ class FleetStore : public JobStore {
   /// Ends that. Call when no job runs here any more.
   virtual void leave() = 0;
 
+  /// What all daemons have agreed upon under this name: the value of the one that came first.
+  virtual std::string settle(const std::string& name, const std::string& value) = 0;
+  /// Null where they are in a folder.
+  virtual SharedFiles* files() = 0;
+  /// The database's wall time, as of the last renewal of leases and what has passed since by this machine's clock.
+  virtual std::uint64_t now_ms() const = 0;
   virtual std::vector<FleetDaemon> daemons() = 0;
   /// Of a job that any daemon runs, as of the last look.
   virtual std::optional<Progress> progress(const std::string& job) = 0;

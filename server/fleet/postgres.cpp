@@ -1,3 +1,4 @@
+// The one file that knows libpq (tests/fences.sh): connections, questions and what goes wrong with them, above 300 lines.
 #include "server/fleet/postgres.hpp"
 
 #include <libpq-fe.h>
@@ -10,19 +11,22 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "server/base/storage_error.hpp"
 
 namespace sculpt::server {
 namespace {
 
-constexpr std::chrono::milliseconds retry_time{500};
+constexpr std::chrono::milliseconds retry_time{500}, look_time{200};
 
-// The server gives up before we do, so that nothing is left there of what we no longer wait for.
+// The server gives up before we do, so that nothing is left there of what we no longer wait for. Plans are kept as long
+// as the connection: a table that was small when one was made may be full of dead rows later, so all go by an index.
 std::string session_settings(std::chrono::milliseconds patience) {
   const std::string ms = std::to_string(patience.count() * 4 / 5);
   return "SET client_min_messages=warning; SET timezone='UTC'; SET synchronous_commit=on; SET statement_timeout=" + ms +
-         "; SET lock_timeout=" + ms + "; SET idle_in_transaction_session_timeout=5000";
+         "; SET lock_timeout=" + ms +
+         "; SET enable_seqscan=off; SET jit=off; SET idle_in_transaction_session_timeout=5000";
 }
 
 // Of SQLSTATE: a later try may help. The server stops or is full, it only reads (a standby), time was over, a deadlock.
@@ -150,6 +154,7 @@ void Postgres::connect() {
                           source_.url.c_str(),
                           password.c_str(),
                           static_cast<const char*>(nullptr)};
+  made_ = Clock::now().time_since_epoch().count();
   connection_ = PQconnectdbParams(keys.data(), values.data(), 1);
   ++generation_;
   if (PQstatus(connection_) != CONNECTION_OK) {
@@ -158,6 +163,11 @@ void Postgres::connect() {
     lose(last_fault_);
   }
   run(session_settings(patience_));
+  if (std::exchange(went_silent_, false)) *source_.renewed = std::max(source_.renewed->load(), made_);
+}
+
+bool Postgres::is_distrusted() const {
+  return connected() && made_ < *source_.renewed;
 }
 
 void Postgres::fail(const pg_result* result) {
@@ -166,6 +176,9 @@ void Postgres::fail(const pg_result* result) {
   const std::string what = message_of(result);
   if (PQstatus(connection_) != CONNECTION_OK || state.empty() || state.starts_with("57P")) lose(what);
   if (state == "53100") throw StorageFull("the database has no space (" + what + "): make room, then try again");
+  if (state == "42501")
+    throw StorageError("the role of this daemon may not do that in the database (" + what +
+                       "): let the owner of the tables run 'sculptd migrate --daemon-role ROLE'");
   if (may_pass(state)) throw DatabaseUnavailable("the database cannot do it now (" + what + "): try again");
   throw StorageError("the database failed (" + state + "): " + what);
 }
@@ -173,10 +186,14 @@ void Postgres::fail(const pg_result* result) {
 void Postgres::await_result(Clock::time_point end) {
   while (PQisBusy(connection_) != 0) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (is_distrusted()) lose("no answer, and another connection had to be made anew too");
+    if (left.count() <= 0) {
+      went_silent_ = true;
+      lose("no answer for " + std::to_string(patience_.count()) + " ms");
+    }
     pollfd waiting{PQsocket(connection_), POLLIN, 0};
-    const int ready = left.count() <= 0 ? 0 : ::poll(&waiting, 1, static_cast<int>(left.count()));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) lose("no answer for " + std::to_string(patience_.count()) + " ms");
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, look_time).count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     if (PQconsumeInput(connection_) == 0) lose(first_line(PQerrorMessage(connection_)));
   }
 }
@@ -235,18 +252,26 @@ Answered Postgres::ask(const Question& question) {
   return ask_all({question}).front();
 }
 
+void Postgres::send(const Question& question) {
+  std::vector<const char*> values;
+  for (const SqlValue& value : question.values) values.push_back(value ? value->c_str() : nullptr);
+  std::vector<int> lengths(values.size(), 0), formats(values.size(), 0);  // of text: nobody asks, and 0
+  if (question.bytes) {
+    values.push_back(question.bytes->data());
+    lengths.push_back(static_cast<int>(question.bytes->size()));
+    formats.push_back(1);
+  }
+  const std::string name = statement_name(question.sql);
+  if (PQsendQueryPrepared(connection_, name.c_str(), static_cast<int>(values.size()), values.data(), lengths.data(),
+                          formats.data(), question.raw ? 1 : 0) == 0)
+    lose(first_line(PQerrorMessage(connection_)));
+}
+
 std::vector<Answered> Postgres::ask_all(const std::vector<Question>& questions) {
   connect();
   for (const Question& question : questions) prepare(question.sql);
   if (PQenterPipelineMode(connection_) == 0) lose("it cannot take several questions");
-  for (const Question& question : questions) {
-    std::vector<const char*> values;
-    for (const SqlValue& value : question.values) values.push_back(value ? value->c_str() : nullptr);
-    const std::string name = statement_name(question.sql);
-    if (PQsendQueryPrepared(connection_, name.c_str(), static_cast<int>(values.size()), values.data(), nullptr, nullptr,
-                            0) == 0)
-      lose(first_line(PQerrorMessage(connection_)));
-  }
+  for (const Question& question : questions) send(question);
   if (PQpipelineSync(connection_) == 0) lose(first_line(PQerrorMessage(connection_)));
   const auto end = Clock::now() + patience_;
   std::vector<Answered> answers;
@@ -261,6 +286,7 @@ std::vector<Answered> Postgres::ask_all(const std::vector<Question>& questions) 
 }
 
 std::vector<Answered> Postgres::ask_again(const std::vector<Question>& questions) {
+  if (is_distrusted()) drop();
   const bool old = connected();
   try {
     return ask_all(questions);

@@ -3,6 +3,7 @@
 // help.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,10 @@ namespace sculpt::server {
 struct PostgresSource {
   std::string url;                      ///< "postgresql://USER@HOST/DATABASE?sslmode=verify-full"
   std::filesystem::path password_file;  ///< read at each connect; empty: none
+  /// Shared by the connections that are made with copies of this: when (of the steady clock) the youngest was made that
+  /// answers where an older one had gone silent. What is older than that is not trusted any more: a connection that is
+  /// half gone gives no error.
+  std::shared_ptr<std::atomic<std::int64_t>> renewed = std::make_shared<std::atomic<std::int64_t>>(INT64_MIN);
 };
 
 /// A value of a statement; nothing: null.
@@ -34,6 +39,8 @@ SqlValue sql_flag(bool flag);
 struct Question {
   std::string sql;  ///< one statement, with $1, $2, ... for the values
   std::vector<SqlValue> values = {};
+  std::optional<std::string> bytes = {};  ///< one more value, behind the others: a bytea, as it is
+  bool raw = false;                       ///< the answer is of bytea, as it is: Answered::text
 };
 
 class Answered {
@@ -65,8 +72,8 @@ class Postgres {
   Answered ask(const Question& question);
   /// All in one trip, in order. None behind one that fails is done.
   std::vector<Answered> ask_all(const std::vector<Question>& questions);
-  /// The same, and once more where it turns out that the connection of the last question is gone: for what may be done
-  /// twice.
+  /// The same, and once more where it turns out that the connection of the last question is gone, or half gone: for
+  /// what may be done twice.
   std::vector<Answered> ask_again(const std::vector<Question>& questions);
   /// Several statements, with a semicolon each, as one transaction.
   void run(const std::string& statements);
@@ -82,7 +89,9 @@ class Postgres {
   using Clock = std::chrono::steady_clock;
 
   void connect();
+  bool is_distrusted() const;
   void prepare(const std::string& sql);
+  void send(const Question& question);
   Answered next_result(Clock::time_point end);
   void await_result(Clock::time_point end);
   [[noreturn]] void fail(const pg_result* result);
@@ -92,6 +101,8 @@ class Postgres {
   std::chrono::milliseconds patience_;
   pg_conn* connection_ = nullptr;
   std::uint64_t generation_ = 0;
+  std::int64_t made_ = 0;     // the connection, by the steady clock
+  bool went_silent_ = false;  // the one before
   std::set<std::string> prepared_;
   Clock::time_point next_try_{};
   std::string last_fault_;

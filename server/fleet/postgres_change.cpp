@@ -60,9 +60,12 @@ std::uint64_t PostgresChange::now_ms() {
   return now_ms_;
 }
 
-void PostgresChange::lock_events() {
-  ask(lock_question);
+std::vector<Answered> PostgresChange::lock_events(std::vector<Question> questions) {
+  questions.insert(questions.begin(), lock_question);
+  std::vector<Answered> answers = ask_all(questions);
   locked_ = true;
+  answers.erase(answers.begin());
+  return answers;
 }
 
 void PostgresChange::lock_events_later() {

@@ -32,7 +32,8 @@ class PostgresChange {
   void later(Question question) { later_.push_back(std::move(question)); }
   /// Before the next event's number is taken and until the end: nobody else has one meanwhile.
   void lock_events_later();
-  void lock_events();
+  /// At once, and behind it in the same trip these questions, which see all that others have committed.
+  std::vector<Answered> lock_events(std::vector<Question> questions);
   /// Gives the answers to what was asked later, in order, then those to `after`, which is asked behind the commit in
   /// the same trip. Throws CommitUnknown too. The time is counted in `times`.
   std::vector<Answered> commit(Histogram& times, const std::vector<Question>& after = {});

@@ -119,7 +119,7 @@ Route artifact_route(const HttpSources& sources, const proto::ArtifactReadParams
 Route link_route(const HttpSources& sources, const HttpRequest& request) {
   const std::string rest = request.target.substr(links_path.size());
   const std::string ticket = rest.substr(0, rest.find('/'));
-  return artifact_route(sources, sources.tickets.redeem(ticket, Tickets::Clock::now()), request);
+  return artifact_route(sources, sources.tickets.redeem(ticket), request);
 }
 
 // JOB/cell/[HASH]

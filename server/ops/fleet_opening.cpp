@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "server/access/secret.hpp"
 #include "server/base/job_id.hpp"
 #include "server/files/durable.hpp"
 #include "server/files/store_mark.hpp"
@@ -27,18 +28,6 @@ std::string own_id(const fs::path& file) {
   std::string id = first_word(file);
   if (id.empty()) throw DataFolderError("'" + file.string() + "' is empty: remove it, and the daemon gets a new name");
   return id;
-}
-
-void check_settings(const Config& config) {
-  if (!config.store.starts_with("postgresql://") && !config.store.starts_with("postgres://")) {
-    throw ConfigError("store must be the address of a PostgreSQL database, postgresql://USER@HOST/NAME, not '" +
-                      without_password(config.store) + "'; without it jobs are kept in the data folder");
-  }
-  if (config.shared.empty()) {
-    throw ConfigError(
-        "with a store that several daemons share, uploads and results have to be where all of them reach them: name "
-        "that folder with shared");
-  }
 }
 
 void make_folders(const FolderPaths& shared) {
@@ -64,22 +53,48 @@ void check_owner(const FolderPaths& shared, const std::string& epoch) {
   }
 }
 
+// All daemons keep the files in the same way, else none would find another's.
+void check_agreement(FleetStore& store, bool in_folder) {
+  const std::string wanted = in_folder ? "folder" : "database", agreed = store.settle("files", wanted);
+  if (wanted == agreed) return;
+  throw ConfigError(in_folder ? "the other daemons of this store keep uploads and results in the database: leave out "
+                                "the setting shared"
+                              : "the other daemons of this store keep uploads and results in a folder that all of them "
+                                "reach: name it with shared");
+}
+
 }  // namespace
 
+void check_store_address(const Config& config) {
+  if (!config.store.starts_with("postgresql://") && !config.store.starts_with("postgres://")) {
+    throw ConfigError("store must be the address of a PostgreSQL database, postgresql://USER@HOST/NAME, not '" +
+                      without_password(config.store) + "'; without it jobs are kept in the data folder");
+  }
+}
+
 std::unique_ptr<FleetStore> open_fleet(const Config& config, const FolderPaths& own, int workers, StoreRules rules) {
-  check_settings(config);
+  check_store_address(config);
   if (fs::exists(own.database()))
     spdlog::warn("the jobs in '{}' are not served: the store is {}", own.database().string(),
                  without_password(config.store));
+  const bool in_folder = !config.shared.empty();
   const FolderPaths shared{config.shared};
-  make_folders(shared);
+  if (in_folder) make_folders(shared);
   FleetRules fleet;
   fleet.source = {config.store, config.store_password_file};
   fleet.lease = config.lease;
-  fleet.member = {own_id(own.folder / "daemon"), workers, rules.memory_bytes};
+  fleet.keeps_files = !in_folder;
+  fleet.member = {own_id(own.folder / "daemon"), workers, rules.memory_bytes, rules.queues};
   std::unique_ptr<FleetStore> store = open_fleet_store(std::move(fleet), std::move(rules));
-  check_owner(shared, store->epoch());
+  check_agreement(*store, in_folder);
+  if (in_folder) check_owner(shared, store->epoch());
   return store;
+}
+
+std::string link_secret(FleetStore* fleet) {
+  constexpr int secret_bytes = 32;
+  const std::string mine = random_hex(secret_bytes);
+  return fleet == nullptr ? mine : fleet->settle("link_secret", mine);
 }
 
 }  // namespace sculpt::server

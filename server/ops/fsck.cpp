@@ -7,7 +7,7 @@
 #include "server/files/store_mark.hpp"
 #include "server/ops/store_opening.hpp"
 #include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -8,7 +8,7 @@
 #include "server/results/exported_file.hpp"
 #include "server/run/job_run.hpp"
 #include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 namespace {

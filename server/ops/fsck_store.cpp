@@ -3,7 +3,7 @@
 
 #include "server/ops/fsck.hpp"
 #include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 namespace {

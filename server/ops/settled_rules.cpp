@@ -31,6 +31,7 @@ StoreRules store_rules(const Config& config) {
   rules.max_jobs = config.max_jobs;
   rules.max_jobs_per_owner = config.max_jobs_per_owner;
   rules.memory_bytes = job_memory(config);
+  rules.queues = config.queues;
   return rules;
 }
 

@@ -3,8 +3,8 @@
 #include "server/base/job_id.hpp"
 #include "server/files/orphans.hpp"
 #include "server/files/store_mark.hpp"
-#include "server/store/sqlite.hpp"
-#include "server/store/store_facts.hpp"
+#include "server/store/sqlite/sqlite.hpp"
+#include "server/store/sqlite/store_facts.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -124,13 +124,20 @@ bool continues(const WholeRead& so_far, const proto::ArtifactReadParams& wanted,
 void Artifacts::discard_leftovers(const std::string& job) const {
   const std::optional<JobRecord> record = store_.find(job);
   if (record && !is_final(record->state)) return;
-  if (record && !store_.artifacts(job).empty()) return remove_other_attempts(folder_, record->folder);
+  if (record && !store_.artifacts(job).empty()) return files_.remove(job, record->folder);
   std::error_code ignored;
   if (!record && !store_.was_removed(job)) {
-    if (fs::exists(fs::symlink_status(job_folder(job), ignored))) put_aside(folder_, job);
+    if (fs::exists(fs::symlink_status(folder() / job, ignored))) put_aside(folder(), job);
     return;
   }
-  fs::remove_all(job_folder(job), ignored);
+  files_.remove(job);
+}
+
+// What a run wrote; the other forms are made here from it.
+std::optional<StoredFile> Artifacts::open(const JobRecord& job, const std::string& artifact,
+                                          const std::string& format) const {
+  const std::string name = file_name(artifact, format);
+  return is_export(artifact, name) ? StoredFile::open(folder(), job.folder, name) : files_.open(job.folder, name);
 }
 
 Json Artifacts::list(const JobRecord& job) const {
@@ -140,10 +147,10 @@ Json Artifacts::list(const JobRecord& job) const {
     Json entry{{"artifact", kind.artifact}, {"formats", formats(kind)}};
     if (const std::optional<StoredArtifact> artifact = find_stored(stored, kind.artifact)) {
       entry.update({{"size", artifact->size}, {"final", true}, {"sha256", artifact->sha256}});
-      if (Json made = list_exports(folder_, job.folder, kind); !made.empty()) entry["made"] = std::move(made);
+      if (Json made = list_exports(folder(), job.folder, kind); !made.empty()) entry["made"] = std::move(made);
     } else {
       const std::string own = file_name(kind.artifact, kind.formats.front());
-      entry.update({{"size", kind.grows ? size_now(StoredFile::open(folder_, job.folder, own)) : 0}, {"final", false}});
+      entry.update({{"size", kind.grows ? size_now(files_.open(job.folder, own)) : 0}, {"final", false}});
     }
     list.push_back(std::move(entry));
   }
@@ -155,7 +162,7 @@ std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const std::stri
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) return std::nullopt;
   if (format == stored->format) return FileSeal{stored->size, stored->sha256};
-  return read_seal(folder_, job.folder, file_name(artifact, format));
+  return read_seal(folder(), job.folder, file_name(artifact, format));
 }
 
 ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const {
@@ -168,7 +175,7 @@ ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead
   const bool grows = kind.grows && is_own(kind, chunk.format) && !is_final(job.state);
   if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
   const std::string name = file_name(wanted.artifact, chunk.format);
-  const std::optional<StoredFile> file = StoredFile::open(folder_, job.folder, name);
+  const std::optional<StoredFile> file = open(job, wanted.artifact, chunk.format);
   if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
     refuse_damaged(job, wanted.artifact, name, fault);
   chunk.size = size_now(file);
@@ -193,7 +200,7 @@ void Artifacts::follow(const JobRecord& job, const proto::ArtifactReadParams& wa
   so_far.next += chunk.bytes.size();
   if (!chunk.final || so_far.next < chunk.size || so_far.hash.hex() == seal.sha256) return;
   const std::string name = file_name(wanted.artifact, chunk.format);
-  const std::string fault = fault_of(StoredFile::open(folder_, job.folder, name), seal);
+  const std::string fault = fault_of(open(job, wanted.artifact, chunk.format), seal);
   if (!fault.empty()) refuse_damaged(job, wanted.artifact, name, fault);
   throw StorageError("the " + wanted.artifact + " of job " + wanted.job + " changed while it was read: read it again");
 }
@@ -205,7 +212,7 @@ void Artifacts::refuse_damaged(const JobRecord& record, const std::string& artif
   const std::string sentence = "the file " + file + " of job " + job + " is damaged: it " + fault;
   spdlog::error("job={} {}", job, sentence);
   if (is_export(artifact, file)) {
-    break_seal(folder_, record.folder, file);
+    break_seal(folder(), record.folder, file);
     throw proto::ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
   }
   store_.note_damage(job, sentence + ": plan it again with 'sculpt retry " + job + "'");
@@ -215,7 +222,7 @@ void Artifacts::refuse_damaged(const JobRecord& record, const std::string& artif
 bool Artifacts::needs_export(const proto::ArtifactReadParams& wanted) const {
   const std::string format = choose_format(wanted);
   if (is_own(find_kind(wanted.artifact), format)) return false;
-  return !read_seal(folder_, find_job(store_, wanted.job).folder, file_name(wanted.artifact, format));
+  return !read_seal(folder(), find_job(store_, wanted.job).folder, file_name(wanted.artifact, format));
 }
 
 void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
@@ -227,10 +234,10 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   }
   check_whole(job, wanted.artifact);
   const std::string name = file_name(wanted.artifact, wanted.format);
-  const fs::path file = folder_ / job.folder / name;
+  const fs::path file = folder() / job.folder / name;
   const fs::path draft = draft_of(file);
   const Kind& kind = find_kind(wanted.artifact);
-  std::ifstream in(folder_ / job.folder / file_name(kind.artifact, kind.formats.front()), std::ios::binary);
+  std::ifstream in(folder() / job.folder / file_name(kind.artifact, kind.formats.front()), std::ios::binary);
   std::ofstream out(draft, std::ios::binary | std::ios::trunc);
   rewrite_to(wanted.format, planner_)(in, out);
   out.close();
@@ -238,7 +245,7 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted) const {
   sync_to_disk(draft);
   crash_point(CrashPoint::export_synced);
   fs::rename(draft, file);
-  write_seal(folder_, job.folder, name);
+  write_seal(folder(), job.folder, name);
 }
 
 std::string Artifacts::read_whole(const JobRecord& job, const std::string& artifact) const {
@@ -254,7 +261,15 @@ void Artifacts::check_whole(const JobRecord& job, const std::string& artifact) c
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), artifact);
   if (!stored) refuse_missing(job, artifact);
   const std::string name = file_name(artifact, stored->format);
-  const std::string fault = fault_of(StoredFile::open(folder_, job.folder, name), {stored->size, stored->sha256});
+  files_.fetch(job.folder, name);
+  const FileSeal seal{stored->size, stored->sha256};
+  std::string fault = fault_of(StoredFile::open(folder(), job.folder, name), seal);
+  if (!fault.empty() && files_.shared() != nullptr) {  // it may be the copy that is bad
+    std::error_code ignored;
+    fs::remove(folder() / job.folder / name, ignored);
+    fault = fault_of(files_.open(job.folder, name), seal);
+    if (fault.empty()) files_.fetch(job.folder, name);
+  }
   if (!fault.empty()) refuse_damaged(job, artifact, name, fault);
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/base/sha256.hpp"
 #include "proto/messages.hpp"
-#include "server/files/stored_file.hpp"
+#include "server/files/job_files.hpp"
 #include "server/run/planner.hpp"
 #include "server/store/job_store.hpp"
 
@@ -32,10 +32,10 @@ struct WholeRead {
 /// Safe from any thread, but `make_export` belongs to one.
 class Artifacts {
  public:
-  Artifacts(std::filesystem::path folder, JobStore& store, const Planner& planner)
-      : folder_(std::move(folder)), store_(store), planner_(planner) {}
+  Artifacts(JobFiles files, JobStore& store, const Planner& planner)
+      : files_(std::move(files)), store_(store), planner_(planner) {}
 
-  std::filesystem::path job_folder(const std::string& job) const { return folder_ / job; }
+  const JobFiles& files() const { return files_; }
 
   /// Removes the files of a job that has ended without artifacts, or was removed; those of one that the store has never
   /// known are put aside (orphans.hpp).
@@ -53,19 +53,23 @@ class Artifacts {
   void make_export(const proto::ArtifactReadParams& wanted) const;
   /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
-  /// Its file is the one that was stored. Throws as read_whole.
+  /// Its file is the one that was stored, and at files().folder(), under its name, for programs that want a path.
+  /// Throws as read_whole.
   void check_whole(const JobRecord& job, const std::string& artifact) const;
   /// What a download of it is called, whether it is there or not. Throws ProtocolError `params_invalid`.
   std::string file_name_of(const proto::ArtifactReadParams& wanted) const;
 
  private:
   std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
+  std::optional<StoredFile> open(const JobRecord& job, const std::string& artifact, const std::string& format) const;
   void follow(const JobRecord& job, const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk,
               const FileSeal& seal, WholeRead& so_far) const;
   [[noreturn]] void refuse_damaged(const JobRecord& record, const std::string& artifact, const std::string& file,
                                    const std::string& fault) const;
 
-  std::filesystem::path folder_;
+  const std::filesystem::path& folder() const { return files_.folder(); }
+
+  JobFiles files_;
   JobStore& store_;
   const Planner& planner_;
 };

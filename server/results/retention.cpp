@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "proto/cell_bundle.hpp"
 #include "server/base/crash_point.hpp"
+#include "server/files/shared_files.hpp"
 #include "server/run/job_run.hpp"
 
 namespace sculpt::server {
@@ -14,16 +14,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int page = 100;
+constexpr std::chrono::hours copy_age{1};
 
-std::uint64_t folder_bytes(const fs::path& folder) {
-  std::uint64_t bytes = 0;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
-    std::error_code gone;
-    const std::uintmax_t size = entry.is_regular_file(gone) ? entry.file_size(gone) : 0;
-    if (!gone) bytes += size;
-  }
-  return bytes;
+std::set<std::string> shared_blobs(const std::set<std::string>& hashes) {
+  std::set<std::string> names;
+  for (const std::string& hash : hashes) names.insert(shared_blob(hash));
+  return names;
 }
 
 template <typename Visit>
@@ -44,8 +40,23 @@ void for_each_job(JobStore& store, Visit visit) {
 std::vector<std::string> Retention::sweep(const RetentionRules& rules, std::uint64_t now_ms) {
   std::vector<std::string> removed = remove_jobs(rules, now_ms);
   remove_leftovers();
-  blobs_.remove_unused(needed_blobs(), rules.blob_age);
+  if (SharedFiles* shared = files().shared())
+    shared->remove_unused(shared_blobs(needed_blobs()), rules.blob_age);
+  else
+    blobs_.remove_unused(needed_blobs(), rules.blob_age);
   return removed;
+}
+
+void Retention::drop_copies(const RetentionRules& rules) {
+  if (files().shared() == nullptr) return;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(files().folder(), error)) {
+    const std::string job = entry.path().filename();
+    artifacts_.discard_leftovers(job);
+    const std::optional<JobRecord> record = store_.find(job);
+    if (record && is_final(record->state)) files().drop_copies(job, copy_age);
+  }
+  blobs_.remove_unused({}, rules.blob_age);  // the rest is fetched again when it is used
 }
 
 // In the order of their ends.
@@ -55,11 +66,12 @@ std::vector<std::string> Retention::remove_jobs(const RetentionRules& rules, std
     bool pinned = false;
     std::uint64_t bytes = 0;
   };
+  const auto bytes_of = files().sizes();
   std::vector<Finished> finished;
   std::uint64_t bytes = 0;
   for_each_job(store_, [&](const JobRecord& job) {
     if (!is_final(job.state)) return;
-    finished.push_back({job.id, job.finished_at, job.pinned, folder_bytes(artifacts_.job_folder(job.id))});
+    finished.push_back({job.id, job.finished_at, job.pinned, bytes_of(job.id)});
     bytes += finished.back().bytes;
   });
   std::ranges::stable_sort(finished, {}, &Finished::finished_at);
@@ -78,25 +90,14 @@ std::vector<std::string> Retention::remove_jobs(const RetentionRules& rules, std
 
 // Of the jobs just removed, and what a crash or a stop left.
 void Retention::remove_leftovers() {
-  std::vector<std::string> folders;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(jobs_, error))
-    folders.push_back(entry.path().filename());
-  for (const std::string& job : folders) artifacts_.discard_leftovers(job);
+  for (const std::string& job : files().jobs()) artifacts_.discard_leftovers(job);
   crash_point(CrashPoint::files_removed);
 }
 
 std::set<std::string> Retention::needed_blobs() {
   std::set<std::string> needed;
-  for_each_job(store_, [&](const JobRecord& job) {
-    const proto::JobSpec spec = read_stored_spec(job);
-    needed.insert(spec.mesh.sha256);
-    if (spec.stock_mesh) needed.insert(spec.stock_mesh->sha256);
-    for (const proto::ClampingSpec& clamping : spec.clampings) needed.insert(clamping.left);
-    if (!needed.insert(job.cell_bundle).second) return;
-    for (const auto& [reference, sha256] : proto::read_cell_bundle(blobs_.read(job.cell_bundle, "")).files)
-      needed.insert(sha256);
-  });
+  std::set<std::string> bundles;
+  for_each_job(store_, [&](const JobRecord& job) { needed.merge(blobs_of(job, blobs_, bundles)); });
   return needed;
 }
 

@@ -27,14 +27,17 @@ struct RetentionRules {
 /// results are lost.
 class Retention {
  public:
-  Retention(JobStore& store, Blobs& blobs, const Artifacts& artifacts, std::filesystem::path jobs)
-      : store_(store), blobs_(blobs), artifacts_(artifacts), jobs_(std::move(jobs)) {}
+  Retention(JobStore& store, Blobs& blobs, const Artifacts& artifacts)
+      : store_(store), blobs_(blobs), artifacts_(artifacts) {}
 
   /// Removes what is due at `now_ms`: jobs, then folders and blobs that nobody needs. Gives the jobs that are gone.
   /// Throws StorageError.
   std::vector<std::string> sweep(const RetentionRules& rules, std::uint64_t now_ms);
+  /// Removes what this daemon alone keeps of files that a fleet shares; nothing where files are in a folder.
+  void drop_copies(const RetentionRules& rules);
 
  private:
+  const JobFiles& files() const { return artifacts_.files(); }
   std::vector<std::string> remove_jobs(const RetentionRules& rules, std::uint64_t now_ms);
   void remove_leftovers();
   std::set<std::string> needed_blobs();
@@ -42,7 +45,6 @@ class Retention {
   JobStore& store_;
   Blobs& blobs_;
   const Artifacts& artifacts_;
-  std::filesystem::path jobs_;
 };
 
 }  // namespace sculpt::server

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "server/base/progress_text.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
 #include "server/files/job_folder.hpp"
@@ -45,23 +46,11 @@ Ending read_ending(const Json& json) {
   return ending;
 }
 
-Json to_json(const Progress& progress) {
-  const Doubts& doubts = progress.doubts;
-  return {static_cast<int>(progress.stage),
-          progress.done,
-          progress.total,
-          doubts.keep,
-          doubts.loose_keep,
-          doubts.ambiguous,
-          doubts.ambiguous_at_mm};
-}
-
 // What a process says that has read strangers' files is not believed either.
-Progress read_progress(const Json& json) {
-  const int stage = json.at(0);
-  if (stage < 0 || stage > static_cast<int>(Stage::write))
-    throw CrashError("the process that planned it speaks of a stage that is none");
-  return {static_cast<Stage>(stage), json.at(1), json.at(2), {json.at(3), json.at(4), json.at(5), json.at(6)}};
+Progress heard_progress(const Json& json) {
+  const std::optional<Progress> progress = read_progress(json);
+  if (!progress) throw CrashError("the process that planned it speaks of a stage that is none");
+  return *progress;
 }
 
 // What a child has said.
@@ -74,7 +63,7 @@ struct Conversation {
     unread += bytes;
     for (std::size_t end = 0; (end = unread.find('\n')) != std::string::npos; unread.erase(0, end + 1)) {
       const Json line = proto::parse_json(unread.substr(0, end));
-      if (line.contains("progress") && watch.tell) watch.tell(read_progress(line["progress"]));
+      if (line.contains("progress") && watch.tell) watch.tell(heard_progress(line["progress"]));
       if (line.contains("ending")) ending = read_ending(line["ending"]);
       if (line.contains("let_go")) let_go = true;
     }
@@ -153,7 +142,7 @@ class Voice {
     if (progress.stage == stage_ && now - told_ < tell_every) return;
     told_ = now;
     stage_ = progress.stage;
-    say_line({{"progress", to_json(progress)}});
+    say_line({{"progress", progress_json(progress)}});
   }
 
  private:

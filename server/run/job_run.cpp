@@ -5,6 +5,7 @@
 
 #include "core/base/sha256.hpp"
 #include "core/plan/checkpoint_folder.hpp"
+#include "proto/cell_bundle.hpp"
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"
 #include "server/files/durable.hpp"
@@ -81,6 +82,22 @@ proto::JobSpec read_stored_spec(const JobRecord& job) {
   } catch (const std::runtime_error& error) {
     throw StorageError("the stored spec of job " + job.id + " cannot be read: " + error.what());
   }
+}
+
+std::set<std::string> blobs_of(const JobRecord& job, const Blobs& blobs, std::set<std::string>& bundles) {
+  const proto::JobSpec spec = read_stored_spec(job);
+  std::set<std::string> needed{spec.mesh.sha256, job.cell_bundle};
+  if (spec.stock_mesh) needed.insert(spec.stock_mesh->sha256);
+  for (const proto::ClampingSpec& clamping : spec.clampings) needed.insert(clamping.left);
+  if (!bundles.insert(job.cell_bundle).second) return needed;
+  for (const auto& [reference, sha256] : proto::read_cell_bundle(blobs.read(job.cell_bundle, "")).files)
+    needed.insert(sha256);
+  return needed;
+}
+
+void fetch_blobs(const JobRecord& job, const Blobs& blobs) {
+  std::set<std::string> bundles;
+  for (const std::string& blob : blobs_of(job, blobs, bundles)) blobs.use(blob);
 }
 
 RunJob make_run_job(const Planner& planner, const Blobs& blobs, const fs::path& jobs, const JobDefaults& defaults) {

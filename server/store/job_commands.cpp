@@ -34,6 +34,17 @@ void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::
   }
 }
 
+void refuse_unserved(const std::string& queue, const std::vector<std::string>& served) {
+  if (std::ranges::find(served, queue) != served.end()) return;
+  std::string names;
+  for (const std::string& name : served) names += (names.empty() ? "" : ", ") + name;
+  throw proto::ProtocolError("queue_unknown",
+                             "no daemon serves the queue '" + queue + "': there is " +
+                                 (names.empty() ? "none that is served" : names) +
+                                 "; name one of those, or start a daemon that has '" + queue + "' among its queues",
+                             "/params/queue");
+}
+
 Submitted repeat_submit(const JobRecord& first, const NewJob& wanted) {
   if (first.spec == wanted.spec) return {first, true};
   throw proto::ProtocolError("key_conflict",

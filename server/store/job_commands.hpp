@@ -12,6 +12,9 @@ inline constexpr const char* damage_code = "artifact_damaged";
 /// Throws ProtocolError `queue_full` and `quota` for one more job than there may be (StoreRules).
 void refuse_too_many(const JobTally& tally, const StoreRules& rules, const std::string& owner);
 
+/// Throws ProtocolError `queue_unknown` where nobody serves the queue, for whoever mistyped it.
+void refuse_unserved(const std::string& queue, const std::vector<std::string>& served);
+
 /// Throws ProtocolError `not_found`.
 [[noreturn]] void refuse_unknown(const std::string& id);
 

@@ -10,12 +10,16 @@
 
 namespace sculpt::server {
 
+/// The queue of a job that names none, and the one that a daemon serves unless told otherwise.
+inline constexpr const char* default_queue = "default";
+
 /// What the client decides beside the spec.
 struct Schedule {
   int priority = 0;
-  std::string not_before;          ///< held until then
-  std::string start_by;            ///< expired if it has never started by then
-  std::int64_t max_runtime_s = 0;  ///< of one run; 0: no limit
+  std::string not_before;             ///< held until then
+  std::string start_by;               ///< expired if it has never started by then
+  std::int64_t max_runtime_s = 0;     ///< of one run; 0: no limit
+  std::string queue = default_queue;  ///< only daemons that serve it claim the job
 };
 
 struct NewJob {

@@ -55,17 +55,37 @@ struct StoreRules {
   int max_failures = 3;              ///< a job that fails for the third time has failed, even if it could pass
   std::uint64_t first_backoff_ms = 10'000;  ///< doubled with each failure
   int max_crashes = 2;
-  bool isolate = false;            ///< every job runs in a process of its own, not only suspects
-  std::uint64_t memory_bytes = 0;  ///< predicted memory of the jobs that run at once; 0: no bound
-  int max_jobs = 100'000;          ///< that have not ended
+  bool isolate = false;                            ///< every job runs in a process of its own, not only suspects
+  std::uint64_t memory_bytes = 0;                  ///< predicted memory of the jobs that run at once; 0: no bound
+  std::vector<std::string> queues{default_queue};  ///< whose jobs are claimed here
+  int max_jobs = 100'000;                          ///< that have not ended
   int max_jobs_per_owner = 10'000;
   /// Told after each commit, on the thread that made it, how many changes of jobs there are (SqliteRows::changes).
   std::function<void(std::uint64_t changes)> committed = {};
 };
 
+/// The questions about jobs: they see what is committed, and wait for no change that is being written. Safe from any
+/// thread. All throw StorageError.
+class JobReader {
+ public:
+  virtual ~JobReader() = default;
+  virtual bool queue_paused() = 0;
+  /// There was such a job, and JobStore::remove took it.
+  virtual bool was_removed(const std::string& job) = 0;
+  virtual std::optional<JobRecord> find(const std::string& job) = 0;
+  virtual std::optional<JobRecord> find_key(const std::string& key) = 0;
+  virtual JobPage list(const JobWindow& window) = 0;
+  /// How long ago the oldest queued job was submitted, by wall time; 0 if none is queued.
+  virtual std::uint64_t queue_age_s() = 0;
+  /// Events behind `after`, in order: of one job behind that seq, or (no job) of all behind that number.
+  virtual std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) = 0;
+  /// The seq of the job's last event, or (no job) the number of the last one that ever was; 0: none.
+  virtual std::uint64_t last_event(const std::string& job) = 0;
+  virtual std::vector<StoredArtifact> artifacts(const std::string& job) = 0;
+};
+
 /// Safe from any thread. A change is on disk when its call returns; with it, in the same transaction, is its event.
-/// Every method throws StorageError, but for those that say so. Questions never wait for a change that is being
-/// written.
+/// Every method throws StorageError, but for those that say so.
 class JobStore {
  public:
   virtual ~JobStore() = default;
@@ -73,11 +93,13 @@ class JobStore {
   virtual std::string epoch() = 0;
 
   /// The same key and spec give the first job again. Throws ProtocolError `key_conflict` for the same key with another
-  /// spec, `queue_full` and `quota` for a new job above max_jobs and, of an owner with a name, max_jobs_per_owner.
+  /// spec, `queue_unknown` for a queue that no daemon serves, `queue_full` and `quota` for a new job above max_jobs
+  /// and, of an owner with a name, max_jobs_per_owner.
   virtual Submitted submit(const NewJob& job) = 0;
-  /// queued -> running of the job that is next: the one with the highest priority, where each step of priority is worth
-  /// some waiting (StoreRules::ageing_ms). Nothing while the queue is paused, or while the next job has no room in the
-  /// memory: none overtakes it. Suspects (jobs with crashes) run one at a time and are passed over meanwhile.
+  /// queued -> running of the job that is next in StoreRules::queues: the one with the highest priority, where each
+  /// step of priority is worth some waiting (StoreRules::ageing_ms). Nothing while the queue is paused, or while the
+  /// next job has no room in the memory: none overtakes it. Suspects (jobs with crashes) run one at a time and are
+  /// passed over meanwhile.
   virtual std::optional<JobRecord> claim() = 0;
   /// Running: succeeded or failed, or by the ending's cause backoff or quarantined; pausing: the same, but paused
   /// instead of backoff; cancelling: cancelled. False when this attempt does not own the job any more: the result must
@@ -106,35 +128,37 @@ class JobStore {
 
   /// While the queue is paused nothing is claimed, also after a restart.
   virtual void set_queue_paused(bool paused) = 0;
-  virtual bool queue_paused() = 0;
 
   /// Keeps a job for ever, or not any more. Throws ProtocolError `not_found`.
   virtual void pin(const std::string& job, bool pinned) = 0;
   /// Forgets a final job that is not pinned, with its events and artifacts; its key is free again. False if it is none.
   virtual bool remove(const std::string& job) = 0;
-  /// There was such a job, and `remove` took it.
-  virtual bool was_removed(const std::string& job) = 0;
-
-  virtual std::optional<JobRecord> find(const std::string& job) = 0;
-  virtual std::optional<JobRecord> find_key(const std::string& key) = 0;
-  virtual JobPage list(const JobWindow& window) = 0;
-  /// How long ago the oldest queued job was submitted, by wall time; 0 if none is queued.
-  virtual std::uint64_t queue_age_s() = 0;
-  /// Events behind `after`, in order: of one job behind that seq, or (no job) of all behind that number.
-  virtual std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) = 0;
-  /// The seq of the job's last event, or (no job) the number of the last one that ever was; 0: none.
-  virtual std::uint64_t last_event(const std::string& job) = 0;
-  virtual std::vector<StoredArtifact> artifacts(const std::string& job) = 0;
   /// A file of a job that has ended with artifacts is not what was stored: from now on the job says so, as its error
   /// `artifact_damaged`. Nothing for any other job.
   virtual void note_damage(const std::string& job, const std::string& sentence) = 0;
 
   // These are kept counted: they read nothing and do not throw.
   virtual std::map<JobState, std::uint64_t> counts() = 0;
-  /// How many queued jobs will be claimed before this one.
+  /// How many queued jobs of its queue will be claimed before this one.
   virtual std::uint64_t position(const JobRecord& job) = 0;
   /// How long the commits took since the start.
   virtual const Histogram& commit_times() = 0;
+
+  // What JobReader says.
+  bool queue_paused() { return reader().queue_paused(); }
+  bool was_removed(const std::string& job) { return reader().was_removed(job); }
+  std::optional<JobRecord> find(const std::string& job) { return reader().find(job); }
+  std::optional<JobRecord> find_key(const std::string& key) { return reader().find_key(key); }
+  JobPage list(const JobWindow& window) { return reader().list(window); }
+  std::uint64_t queue_age_s() { return reader().queue_age_s(); }
+  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) {
+    return reader().events(job, after, limit);
+  }
+  std::uint64_t last_event(const std::string& job) { return reader().last_event(job); }
+  std::vector<StoredArtifact> artifacts(const std::string& job) { return reader().artifacts(job); }
+
+ protected:
+  virtual JobReader& reader() = 0;
 };
 
 /// Throws ProtocolError `not_found`, or `gone` for one that was removed, with the pointer of what names it.

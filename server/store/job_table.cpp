@@ -21,7 +21,7 @@ JobRow JobTable::insert(const JobRecord& job) {
   Json data{{"to", name(job.state)}, {"reason", "submitted"}};
   describe(job, data);
   rows_.add_event(row, job.state, now(), proto::write_json(data));
-  moves_.push_back({job.rank, job.id, job.owner, std::nullopt, job.state});
+  moves_.push_back({job.rank, job.id, job.owner, job.schedule.queue, std::nullopt, job.state});
   return row;
 }
 
@@ -43,12 +43,12 @@ void JobTable::move(JobRow& row, JobState to, const char* reason) {
   Json data{{"from", name(from)}, {"to", name(to)}, {"reason", reason}};
   describe(job, data);
   rows_.add_event(row, to, now(), proto::write_json(data));
-  moves_.push_back({job.rank, job.id, job.owner, from, to});
+  moves_.push_back({job.rank, job.id, job.owner, job.schedule.queue, from, to});
 }
 
 void JobTable::erase(const JobRow& row) {
   rows_.erase(row);
-  moves_.push_back({row.job.rank, row.job.id, row.job.owner, row.job.state, std::nullopt});
+  moves_.push_back({row.job.rank, row.job.id, row.job.owner, row.job.schedule.queue, row.job.state, std::nullopt});
 }
 
 }  // namespace sculpt::server

@@ -12,13 +12,16 @@ void JobTally::apply(const std::vector<TallyMove>& moves) {
 
 void JobTally::enter(const TallyMove& move, JobState state) {
   ++counts_[state];
-  if (state == JobState::queued) queue_.insert({move.rank, move.id});
+  if (state == JobState::queued) queues_[move.queue].insert({move.rank, move.id});
   if (!is_final(state) && !move.owner.empty()) ++open_by_owner_[move.owner];
 }
 
 void JobTally::leave(const TallyMove& move, JobState state) {
   --counts_[state];
-  if (state == JobState::queued) queue_.erase({move.rank, move.id});
+  if (const auto queue = queues_.find(move.queue); state == JobState::queued && queue != queues_.end()) {
+    queue->second.erase({move.rank, move.id});
+    if (queue->second.empty()) queues_.erase(queue);
+  }
   if (is_final(state) || move.owner.empty()) return;
   const auto open = open_by_owner_.find(move.owner);
   if (--open->second == 0) open_by_owner_.erase(open);
@@ -42,14 +45,16 @@ std::uint64_t JobTally::open(const std::string& owner) const {
   return open;
 }
 
-std::optional<std::int64_t> JobTally::first_rank() const {
+std::optional<std::int64_t> JobTally::first_rank(const std::string& queue) const {
   const std::lock_guard lock(mutex_);
-  return queue_.empty() ? std::nullopt : std::optional(queue_.begin()->first);
+  const auto found = queues_.find(queue);
+  return found == queues_.end() ? std::nullopt : std::optional(found->second.begin()->first);
 }
 
-std::uint64_t JobTally::position(std::int64_t rank, const std::string& id) const {
+std::uint64_t JobTally::position(const std::string& queue, std::int64_t rank, const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  return queue_.order_of_key({rank, id});
+  const auto found = queues_.find(queue);
+  return found == queues_.end() ? 0 : found->second.order_of_key({rank, id});
 }
 
 }  // namespace sculpt::server

@@ -20,7 +20,7 @@ namespace sculpt::server {
 /// A job came (no `from`), changed its state, or went (no `to`).
 struct TallyMove {
   std::int64_t rank = 0;
-  std::string id, owner;
+  std::string id, owner, queue;
   std::optional<JobState> from, to;
 };
 
@@ -32,10 +32,10 @@ class JobTally {
   std::map<JobState, std::uint64_t> counts() const;
   /// Jobs that have not ended: of everybody where no owner is given.
   std::uint64_t open(const std::string& owner = {}) const;
-  /// Of the queued job that is first; nothing if none is queued.
-  std::optional<std::int64_t> first_rank() const;
-  /// How many queued jobs come before this one, in O(log n).
-  std::uint64_t position(std::int64_t rank, const std::string& id) const;
+  /// Of the job that is first in this queue; nothing if none is queued.
+  std::optional<std::int64_t> first_rank(const std::string& queue) const;
+  /// How many jobs of this queue come before this one, in O(log n).
+  std::uint64_t position(const std::string& queue, std::int64_t rank, const std::string& id) const;
 
  private:
   using Place = std::pair<std::int64_t, std::string>;
@@ -48,7 +48,7 @@ class JobTally {
   mutable std::mutex mutex_;
   std::map<JobState, std::uint64_t> counts_;
   std::map<std::string, std::uint64_t> open_by_owner_;  // of owners with a name that have some
-  Queue queue_;
+  std::map<std::string, Queue> queues_;                 // that have jobs
 };
 
 }  // namespace sculpt::server

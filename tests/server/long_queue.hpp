@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 

@@ -57,7 +57,8 @@ std::string test_database(const std::filesystem::path& file) {
 
 std::unique_ptr<FleetStore> open_test_fleet(const std::filesystem::path& file, StoreRules rules,
                                             const std::string& daemon, std::chrono::milliseconds lease) {
-  return open_fleet_store({{test_database(file), {}}, {daemon, 2, rules.memory_bytes}, lease}, std::move(rules));
+  FleetRules fleet{{test_database(file), {}}, {daemon, 2, rules.memory_bytes, rules.queues}, lease};
+  return open_fleet_store(std::move(fleet), std::move(rules));
 }
 
 std::unique_ptr<JobStore> open_test_store(const std::filesystem::path& file, StoreRules rules) {

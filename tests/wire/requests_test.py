@@ -160,7 +160,7 @@ class Requests(unittest.TestCase):
         yield "blob.put", {"sha256": blob, "size": 1 << 40, "offset": 0, "bytes": 8}
         yield "cell.check", {"robot": "gantry", "resolution": 8}
         yield "cell.check", {"robot": self.bundle}
-        yield "job.submit", {"key": "k", "priority": 1, **times, "max_runtime_s": 60, "spec": {
+        yield "job.submit", {"key": "k", "priority": 1, "queue": "default", **times, "max_runtime_s": 60, "spec": {
             **spec, "robot": "gantry", "placement": placement, "stock": {"box": {"min_m": [0, 0, 0], "max_m": [0.1, 0.1, 0.1]}}}}
         yield "job.submit", {**times, "spec": {**spec, "robot": self.bundle, "stock": {"mesh": self.mesh}}}
         yield "job.submit", {**times, "spec": {**spec, "robot": "gantry", "continue": {"job": self.done, "rotation_rad": [0, 0, 0]}}}

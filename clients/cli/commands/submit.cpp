@@ -18,7 +18,7 @@ struct SubmitOptions {
   JobOptions job;
   std::string continued;  ///< the job that left its stock; empty: none
   std::optional<int> priority;
-  std::string key, not_before, start_by;
+  std::string key, queue, not_before, start_by;
   std::optional<std::int64_t> max_runtime_s;
   bool wait = false;
   bool json = false;
@@ -80,6 +80,7 @@ int run_submit(const std::string& server, const SubmitOptions& options) {
   Json params;
   if (!options.key.empty()) params["key"] = options.key;
   if (options.priority) params["priority"] = *options.priority;
+  if (!options.queue.empty()) params["queue"] = options.queue;
   if (!options.not_before.empty()) params["not_before"] = options.not_before;
   if (!options.start_by.empty()) params["start_by"] = options.start_by;
   if (options.max_runtime_s) params["max_runtime_s"] = *options.max_runtime_s;
@@ -123,6 +124,7 @@ void add_submit(CLI::App& app, Invocation& invocation) {
       .add_option("--priority", options->priority,
                   "Higher runs first, -100 to 100; a step is worth a minute of waiting")
       ->type_name("P");
+  command.add_option("--queue", options->queue, "Let only daemons plan it that serve this queue")->type_name("NAME");
   command.add_option("--not-before", options->not_before, "Hold it until then, UTC: 2026-01-31T12:00:00Z")
       ->type_name("TIME");
   command.add_option("--start-by", options->start_by, "Let it expire if it has not started by then")->type_name("TIME");

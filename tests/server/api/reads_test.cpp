@@ -5,7 +5,7 @@
 #include <sstream>
 #include <thread>
 
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 #include "tests/server/live_server.hpp"
 #include "tests/server/test_store.hpp"
 

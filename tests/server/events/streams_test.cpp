@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 #include "tests/server/live_server.hpp"
 #include "tests/server/test_store.hpp"
 

@@ -9,7 +9,9 @@
 #include <set>
 #include <thread>
 
+#include "proto/error_codes.hpp"
 #include "server/base/config.hpp"
+#include "server/fleet/fleet_schema.hpp"
 #include "tests/server/fleet/fleet_store_fixture.hpp"
 
 namespace sculpt::server {
@@ -124,13 +126,58 @@ TEST_F(FleetStoreTest, AJobThatNeverHasRoomHereIsLeftToWhoHasIt) {
   second->leave();
 }
 
+TEST_F(FleetStoreTest, AJobGoesToADaemonThatServesItsQueue) {
+  StoreRules large;
+  large.queues = {"large", "huge"};
+  second = open("large", large);
+  const auto add_to = [](FleetStore& store, const std::string& queue) {
+    NewJob job;
+    job.spec = "{}";
+    job.schedule.queue = queue;
+    return store.submit(job).job.id;
+  };
+  const std::string big = add_to(*second, "large"), huge = add_to(*second, "huge"), plain = add_to(*first, "default");
+  EXPECT_THROW(add_to(*first, "large"), proto::ProtocolError) << "it has not heard of the other yet";
+  second->join("here:2", quiet());
+  await([&] { return first->daemons().size() == 1; });
+  EXPECT_EQ(first->daemons().front().queues, large.queues);
+  const std::string bigger = add_to(*first, "large");
+  EXPECT_EQ(first->position(*first->find(bigger)), 1u);
+  EXPECT_EQ(first->claim()->id, plain);
+  EXPECT_FALSE(first->claim()) << "the rest is for the other";
+  EXPECT_EQ(second->claim()->id, big) << "of several queues the one that comes first";
+  EXPECT_EQ(second->claim()->id, huge);
+  EXPECT_EQ(second->claim()->id, bigger);
+  EXPECT_FALSE(second->claim());
+  second->leave();
+}
+
+TEST_F(FleetStoreTest, WhatIsDueAtOnceIsQueuedInParts) {
+  constexpr int jobs = 1200;
+  other->ask(
+      {"INSERT INTO sculptd.job(id, state, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, "
+       "memory_bytes, rank, wake_at, submitted_at, owner, inherited) SELECT lpad(n::text, 26, '0'), 'held', 0, '', '', "
+       "0, '{}', '', 1, n, '2020-01-01T00:00:00.000Z', '2020-01-01T00:00:00.000Z', '', '' FROM generate_series(1, $1) "
+       "AS n",
+       {sql_value(jobs)}});
+  first = open("first");
+  std::size_t woken = 0, most = 0;
+  for (std::vector<std::string> part = first->wake_due(); !part.empty(); part = first->wake_due()) {
+    most = std::max(most, part.size());
+    woken += part.size();
+  }
+  EXPECT_EQ(woken, static_cast<std::size_t>(jobs));
+  EXPECT_LE(most, 500u) << "one transaction of a whole night's jobs would outlast its time, again and again";
+  EXPECT_EQ(first->counts().at(queued), static_cast<std::uint64_t>(jobs));
+}
+
 TEST_F(FleetStoreTest, TablesOfANewerVersionAreLeftAlone) {
   add(*first);
   other->ask({"UPDATE sculptd.meta SET value='99' WHERE name='schema'"});
   EXPECT_FALSE(first->claim());
   EXPECT_NE(first->why_idle().find("update it"), std::string::npos);
   EXPECT_THROW(open("late"), StorageError);
-  other->ask({"UPDATE sculptd.meta SET value='1' WHERE name='schema'"});
+  other->ask({"UPDATE sculptd.meta SET value='2' WHERE name='schema'"});
   EXPECT_TRUE(first->claim());
 }
 
@@ -177,9 +224,8 @@ TEST_F(FleetStoreTest, AConnectionThatWasCutIsMadeAnewAndLosesNothing) {
 
 TEST_F(FleetStoreTest, ADaemonNeedsNoRightToMakeTables) {
   const std::string role = "daemon_" + std::to_string(::getpid());
-  other->run("CREATE ROLE " + role + " LOGIN; GRANT USAGE ON SCHEMA sculptd TO " + role +
-             "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + role +
-             "; GRANT USAGE ON ALL SEQUENCES IN SCHEMA sculptd TO " + role + ";");
+  other->run("CREATE ROLE " + role + " LOGIN;");
+  grant_to_daemons({test_database(file), {}}, role);
   std::string url = test_database(file);
   url.replace(url.find("user=sculptd"), std::string("user=sculptd").size(), "user=" + role);
   {

@@ -1,4 +1,4 @@
-// Two servers that share a database and a folder: each answers for every job.
+// Two servers that share a database, with their files in a folder or in the database too: each answers for every job.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,19 +11,23 @@
 namespace sculpt::server {
 namespace {
 
-class TwoServers : public testing::Test {
+class TwoServers : public testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
     SCULPT_POSTGRES_ONLY();
-    first.emplace([](Config& config) { config.workers = 1; });
+    first.emplace([](Config& config) {
+      config.workers = 1;
+      if (!in_folder()) config.shared.clear();
+    });
     second.emplace([this](Config& config) {
       config.workers = 1;
       config.store = test_database(first->data());
-      config.shared = first->data();
+      config.shared = in_folder() ? first->data() : std::filesystem::path();
     });
     one.emplace(first->connect());
     two.emplace(second->connect());
   }
+  static bool in_folder() { return GetParam(); }
   void open_gates() {
     first->fake.gate.open();
     second->fake.gate.open();
@@ -44,15 +48,54 @@ class TwoServers : public testing::Test {
   std::optional<client::Client> one, two;
 };
 
-TEST_F(TwoServers, AJobIsKnownEverywhereAndItsFilesAreRead) {
+TEST_P(TwoServers, AJobIsKnownEverywhereAndItsFilesAreRead) {
   const std::string job = submit(*one, "plain");
   EXPECT_EQ(final_state(*two, job), "succeeded");
   EXPECT_EQ(final_state(*one, job), "succeeded");
   EXPECT_EQ(trajectory(*one, job), trajectory(*two, job));
-  EXPECT_EQ(files_of(*first, job), 1u) << "one folder, that of its attempt";
+  if (in_folder()) {
+    EXPECT_EQ(files_of(*first, job), 1u) << "one folder, that of its attempt";
+  }
 }
 
-TEST_F(TwoServers, BothWorkAtOnceAndACancelReachesWhoeverHasTheJob) {
+TEST_P(TwoServers, ATrajectoryGrowsEverywhereAndItsOtherFormsAreMadeAnywhere) {
+  const std::string job = submit(*one, "hold");
+  std::string head;
+  while (head.empty()) {
+    std::ostringstream bytes;
+    const bool here = second->fake.runs > 0;
+    (here ? *one : *two).read_artifact({job, "trajectory"}, bytes, [] { return false; });
+    head = bytes.str();
+  }
+  open_gates();
+  EXPECT_EQ(final_state(*two, job), "succeeded");
+  EXPECT_TRUE(trajectory(*one, job).starts_with(head));
+  std::ostringstream a, b;
+  one->read_artifact({job, "trajectory", "csv"}, a);
+  two->read_artifact({job, "trajectory", "csv"}, b);
+  EXPECT_EQ(a.str(), b.str());
+  EXPECT_FALSE(a.str().empty());
+  EXPECT_TRUE(two->call("job.verify", {{"job", job}}).at("clean"));
+}
+
+TEST_P(TwoServers, ALinkOfOneIsGoodAtTheOther) {
+  const std::string job = submit(*one, "plain");
+  ASSERT_EQ(final_state(*one, job), "succeeded");
+  const std::string path = one->call("artifact.link", {{"job", job}, {"artifact", "trajectory"}}).at("path");
+  client::Connection http(second->address());
+  http.send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+  EXPECT_EQ(http.read_line()->substr(0, 12), "HTTP/1.1 200");
+}
+
+TEST_P(TwoServers, ADaemonThatKeepsFilesElsewhereIsRefused) {
+  EXPECT_THROW(LiveServer([this](Config& config) {
+                 config.store = test_database(first->data());
+                 if (in_folder()) config.shared.clear();
+               }),
+               ConfigError);
+}
+
+TEST_P(TwoServers, BothWorkAtOnceAndACancelReachesWhoeverHasTheJob) {
   const std::string a = submit(*one, "hold"), b = submit(*one, "hold");
   await_state(*two, a, "running");
   await_state(*two, b, "running");
@@ -64,7 +107,7 @@ TEST_F(TwoServers, BothWorkAtOnceAndACancelReachesWhoeverHasTheJob) {
   EXPECT_EQ(final_state(*two, b), "cancelled");
 }
 
-TEST_F(TwoServers, ADaemonThatStopsHandsItsJobOver) {
+TEST_P(TwoServers, ADaemonThatStopsHandsItsJobOver) {
   first->fake.gate.open();
   const std::string job = submit(*two, "hold");
   // Whoever took it: the one whose gate is open ends it.
@@ -74,7 +117,7 @@ TEST_F(TwoServers, ADaemonThatStopsHandsItsJobOver) {
   EXPECT_EQ(final_state(*one, job), "succeeded");
 }
 
-TEST_F(TwoServers, TheFleetIsShown) {
+TEST_P(TwoServers, TheFleetIsShown) {
   Json fleet;
   do fleet = one->call("server.info").at("fleet");
   while (fleet.size() < 2);
@@ -85,7 +128,7 @@ TEST_F(TwoServers, TheFleetIsShown) {
   EXPECT_NE(fleet[0].at("daemon"), fleet[1].at("daemon"));
 }
 
-TEST_F(TwoServers, APausedQueueIsPausedForAll) {
+TEST_P(TwoServers, APausedQueueIsPausedForAll) {
   one->call("queue.pause");
   const std::string job = submit(*two, "plain");
   EXPECT_EQ(two->call("job.get", {{"job", job}}).at("state"), "queued");
@@ -93,6 +136,9 @@ TEST_F(TwoServers, APausedQueueIsPausedForAll) {
   two->call("queue.resume");
   EXPECT_EQ(final_state(*one, job), "succeeded");
 }
+
+INSTANTIATE_TEST_SUITE_P(Files, TwoServers, testing::Bool(),
+                         [](const auto& which) { return which.param ? "InAFolder" : "InTheDatabase"; });
 
 }  // namespace
 }  // namespace sculpt::server

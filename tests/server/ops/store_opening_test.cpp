@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "server/files/store_mark.hpp"
-#include "server/store/store_facts.hpp"
+#include "server/store/sqlite/store_facts.hpp"
 #include "tests/server/temp_folder.hpp"
 
 namespace sculpt::server {

@@ -50,8 +50,8 @@ class RetentionTest : public testing::Test {
     return id;
   }
   std::vector<std::string> sweep(const RetentionRules& rules) {
-    const Artifacts artifacts(jobs(), *store, planner);
-    return Retention(*store, blobs, artifacts, jobs()).sweep(rules, now);
+    const Artifacts artifacts(JobFiles(jobs()), *store, planner);
+    return Retention(*store, blobs, artifacts).sweep(rules, now);
   }
 
   TempFolder folder;

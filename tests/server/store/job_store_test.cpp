@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "proto/error_codes.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 #include "tests/server/store/job_store_fixture.hpp"
 
 namespace sculpt::server {

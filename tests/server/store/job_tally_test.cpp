@@ -14,7 +14,7 @@ constexpr int steps = 400;
 
 struct Counted {
   std::int64_t rank;
-  std::string id, owner;
+  std::string id, owner, queue;
   JobState state;
 };
 
@@ -35,9 +35,11 @@ void compare(const JobTally& tally, const std::vector<Counted>& jobs) {
               count_if(jobs, [&](const Counted& job) { return !is_final(job.state) && job.owner == owner; }));
   }
   for (const Counted& job : jobs) {
-    ASSERT_EQ(tally.position(job.rank, job.id), count_if(jobs, [&](const Counted& other) {
-                return other.state == JobState::queued && comes_before(other, job);
-              }));
+    const auto is_before = [&](const Counted& other) {
+      return other.state == JobState::queued && other.queue == job.queue && comes_before(other, job);
+    };
+    ASSERT_EQ(tally.position(job.queue, job.rank, job.id), count_if(jobs, is_before));
+    ASSERT_TRUE(job.state != JobState::queued || *tally.first_rank(job.queue) <= job.rank);
   }
 }
 
@@ -53,15 +55,15 @@ TEST(JobTally, IsWhatCountingSays) {
       const std::uint64_t act = random.next() % 4;
       if (jobs.empty() || act == 0) {
         const std::string owner = std::vector<std::string>{"", "arm", "gantry"}[random.next() % 3];
-        jobs.push_back(
-            {static_cast<std::int64_t>(random.next() % 20) - 10, "job " + std::to_string(step), owner, any_state()});
-        tally.apply({{jobs.back().rank, jobs.back().id, owner, std::nullopt, jobs.back().state}});
+        jobs.push_back({static_cast<std::int64_t>(random.next() % 20) - 10, "job " + std::to_string(step), owner,
+                        random.next() % 2 == 0 ? "day" : "night", any_state()});
+        tally.apply({{jobs.back().rank, jobs.back().id, owner, jobs.back().queue, std::nullopt, jobs.back().state}});
         continue;
       }
       const auto job = jobs.begin() + static_cast<std::ptrdiff_t>(random.next() % jobs.size());
       const bool goes = act == 1 && jobs.size() > 10;
       const std::optional<JobState> to = goes ? std::nullopt : std::optional(any_state());
-      tally.apply({{job->rank, job->id, job->owner, job->state, to}});
+      tally.apply({{job->rank, job->id, job->owner, job->queue, job->state, to}});
       goes ? static_cast<void>(jobs.erase(job)) : static_cast<void>(job->state = *to);
       if (step % 10 == 0) compare(tally, jobs);
     }

@@ -26,7 +26,12 @@ bool StoreModel::is_late(const ModelJob& job) const {
   return job.start_by_ms != 0 && job.start_by_ms < now_ms_ && job.attempt == 0;
 }
 
-std::string StoreModel::refusal_of(const std::string& owner) const {
+bool StoreModel::is_served(const std::string& queue) const {
+  return std::ranges::find(rules_.queues, queue) != rules_.queues.end();
+}
+
+std::string StoreModel::refusal_of(const std::string& owner, const std::string& queue) const {
+  if (!is_served(queue)) return "queue_unknown";
   int open = 0, own = 0;
   for (const ModelJob& job : jobs_) {
     if (is_final(job.state)) continue;
@@ -37,16 +42,17 @@ std::string StoreModel::refusal_of(const std::string& owner) const {
   return !owner.empty() && own >= rules_.max_jobs_per_owner ? "quota" : "";
 }
 
-void StoreModel::submit(const std::string& id, const std::string& owner, int priority, std::uint64_t not_before_ms,
-                        std::uint64_t start_by_ms, std::uint64_t memory_bytes) {
+void StoreModel::submit(const std::string& id, const NewJob& wanted, std::uint64_t not_before_ms,
+                        std::uint64_t start_by_ms) {
   ModelJob job;
   job.id = id;
-  job.owner = owner;
-  job.priority = priority;
+  job.owner = wanted.owner;
+  job.queue = wanted.schedule.queue;
+  job.priority = wanted.schedule.priority;
   job.submitted_ms = now_ms_;
   job.not_before_ms = job.wake_ms = not_before_ms;
   job.start_by_ms = start_by_ms;
-  job.memory_bytes = memory_bytes;
+  job.memory_bytes = wanted.memory_bytes;
   job.state = not_before_ms > now_ms_ ? held : queued;
   jobs_.push_back(job);
 }
@@ -63,7 +69,7 @@ std::optional<std::string> StoreModel::claim() {
   }
   ModelJob* next = nullptr;
   for (ModelJob& job : jobs_) {
-    if (job.state != queued || is_late(job) || (job.crashes > 0 && suspect_runs)) continue;
+    if (job.state != queued || !is_served(job.queue) || is_late(job) || (job.crashes > 0 && suspect_runs)) continue;
     if (next == nullptr || comes_before(job, *next)) next = &job;
   }
   if (next == nullptr || (!idle && taken + next->memory_bytes > rules_.memory_bytes)) return std::nullopt;
@@ -178,8 +184,9 @@ bool StoreModel::remove(const std::string& id) {
 }
 
 std::uint64_t StoreModel::position(const ModelJob& wanted) const {
-  return static_cast<std::uint64_t>(std::ranges::count_if(
-      jobs_, [&](const ModelJob& job) { return job.state == queued && comes_before(job, wanted); }));
+  return static_cast<std::uint64_t>(std::ranges::count_if(jobs_, [&](const ModelJob& job) {
+    return job.state == queued && job.queue == wanted.queue && comes_before(job, wanted);
+  }));
 }
 
 }  // namespace sculpt::server

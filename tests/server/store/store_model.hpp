@@ -19,7 +19,7 @@ struct ModelJob {
   std::uint64_t memory_bytes = 0;
   int attempt = 0, failures = 0, crashes = 0;
   bool isolated = false, pinned = false;
-  std::string owner;
+  std::string owner, queue;
 };
 
 /// Refused moves give nothing.
@@ -28,9 +28,8 @@ class StoreModel {
   StoreModel(const StoreRules& rules, const std::uint64_t& now_ms) : rules_(rules), now_ms_(now_ms) {}
 
   /// The code of the error with which a submit is refused now, or empty.
-  std::string refusal_of(const std::string& owner) const;
-  void submit(const std::string& id, const std::string& owner, int priority, std::uint64_t not_before_ms,
-              std::uint64_t start_by_ms, std::uint64_t memory_bytes);
+  std::string refusal_of(const std::string& owner, const std::string& queue) const;
+  void submit(const std::string& id, const NewJob& wanted, std::uint64_t not_before_ms, std::uint64_t start_by_ms);
   std::optional<std::string> claim();
   bool finish(const std::string& id, int attempt, const Ending& ending);
   bool release(const std::string& id, int attempt);
@@ -52,6 +51,7 @@ class StoreModel {
   ModelJob* owned(const std::string& id, int attempt);
   bool comes_before(const ModelJob& a, const ModelJob& b) const;
   bool is_late(const ModelJob& job) const;
+  bool is_served(const std::string& queue) const;
   void interrupt(ModelJob& job);
   void fail(ModelJob& job, Cause cause);
 

@@ -53,6 +53,8 @@ class History {
  private:
   void open() {
     store_.reset();
+    rules_.queues = {default_queue};
+    if (below(2) == 0) rules_.queues.emplace_back("large");
     store_ = open_test_store(folder_.path() / "db", rules_);
   }
 
@@ -68,10 +70,11 @@ class History {
     job.schedule.start_by = text(start_by);
     job.memory_bytes = 1 + below(12);
     job.owner = std::vector<std::string>{"", "arm", "gantry"}[below(3)];
-    const std::string refusal = model_.refusal_of(job.owner);
+    if (below(3) == 0) job.schedule.queue = "large";
+    const std::string refusal = model_.refusal_of(job.owner, job.schedule.queue);
     try {
       const std::string id = store_->submit(job).job.id;
-      model_.submit(id, job.owner, job.schedule.priority, not_before, start_by, job.memory_bytes);
+      model_.submit(id, job, not_before, start_by);
       ASSERT_EQ(refusal, "");
     } catch (const proto::ProtocolError& error) {
       ASSERT_EQ(refusal, error.code());

@@ -1,6 +1,6 @@
 // What questions to a long queue cost, in steps of SQLite's machine: time would tell of the machine that the test is
 // on.
-#include "server/store/store_reader.hpp"
+#include "server/store/sqlite/store_reader.hpp"
 
 #include <gtest/gtest.h>
 

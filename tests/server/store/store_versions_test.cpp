@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 #include "tests/server/store/job_store_fixture.hpp"
 
 namespace sculpt::server {

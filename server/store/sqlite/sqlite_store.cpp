@@ -2,14 +2,15 @@
 #include <algorithm>
 #include <mutex>
 
+#include "proto/json.hpp"
 #include "server/base/job_id.hpp"
 #include "server/store/job_commands.hpp"
 #include "server/store/job_store.hpp"
 #include "server/store/job_table.hpp"
 #include "server/store/run_ending.hpp"
-#include "server/store/sqlite_rows.hpp"
-#include "server/store/sqlite_schema.hpp"
-#include "server/store/store_reader.hpp"
+#include "server/store/sqlite/sqlite_rows.hpp"
+#include "server/store/sqlite/sqlite_schema.hpp"
+#include "server/store/sqlite/store_reader.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -46,6 +47,7 @@ class SqliteStore : public JobStore {
     Change change(*this);
     if (const std::optional<JobRow> first = rows_.first("key=?", {wanted.key}); first && !wanted.key.empty())
       return repeat_submit(first->job, wanted);
+    refuse_unserved(wanted.schedule.queue, rules_.queues);
     refuse_too_many(tally_, rules_, wanted.owner);
     const JobRow row = jobs_.insert(new_record(wanted));
     change.commit();
@@ -56,10 +58,11 @@ class SqliteStore : public JobStore {
     Change change(*this);
     if (queue_is_paused()) return std::nullopt;
     std::optional<JobRow> next =
-        rows_.first(std::string("state='queued' AND (start_by='' OR attempt>0 OR start_by>=?) AND "
-                                "(crashes=0 OR NOT EXISTS(SELECT 1 FROM job WHERE isolated=1 AND crashes>0 AND ") +
+        rows_.first(std::string("state='queued' AND queue IN (SELECT value FROM json_each(?)) AND "
+                                "(start_by='' OR attempt>0 OR start_by>=?) AND (crashes=0 OR NOT EXISTS(SELECT 1 FROM "
+                                "job WHERE isolated=1 AND crashes>0 AND ") +
                         active + ")) ORDER BY rank, number",
-                    {jobs_.now()});
+                    {queues_, jobs_.now()});
     if (!next || !has_room(next->job)) return std::nullopt;
     start_run(jobs_, rules_, *next);
     change.commit();
@@ -139,8 +142,6 @@ class SqliteStore : public JobStore {
         .run();
   }
 
-  bool queue_paused() override { return reader_.queue_paused(); }
-
   void note_damage(const std::string& id, const std::string& sentence) override {
     const std::lock_guard lock(mutex_);
     Statement update(database_,
@@ -164,20 +165,14 @@ class SqliteStore : public JobStore {
     return true;
   }
 
-  bool was_removed(const std::string& id) override { return reader_.was_removed(id); }
-  std::optional<JobRecord> find(const std::string& id) override { return reader_.find(id); }
-  std::optional<JobRecord> find_key(const std::string& key) override { return reader_.find_key(key); }
-  JobPage list(const JobWindow& window) override { return reader_.list(window); }
-  std::uint64_t queue_age_s() override { return reader_.queue_age_s(); }
-  std::uint64_t last_event(const std::string& job) override { return reader_.last_event(job); }
-  std::vector<StoredArtifact> artifacts(const std::string& id) override { return reader_.artifacts(id); }
-  std::vector<StateEvent> events(const std::string& job, std::uint64_t after, int limit) override {
-    return reader_.events(job, after, limit);
-  }
-
   std::map<JobState, std::uint64_t> counts() override { return tally_.counts(); }
-  std::uint64_t position(const JobRecord& job) override { return tally_.position(job.rank, job.id); }
+  std::uint64_t position(const JobRecord& job) override {
+    return tally_.position(job.schedule.queue, job.rank, job.id);
+  }
   const Histogram& commit_times() override { return database_.commit_times(); }
+
+ protected:
+  JobReader& reader() override { return reader_; }
 
  private:
   // What is committed is so, even if the database cannot be asked any more.
@@ -222,9 +217,10 @@ class SqliteStore : public JobStore {
 
   // A row in a state that nobody knows is not counted.
   void count_jobs() {
-    Statement query(database_, "SELECT rank, id, owner, state FROM job");
+    Statement query(database_, "SELECT rank, id, owner, queue, state FROM job");
     while (query.step())
-      tally_.apply({{query.number(0), query.text(1), query.text(2), std::nullopt, find_state(query.text(3))}});
+      tally_.apply(
+          {{query.number(0), query.text(1), query.text(2), query.text(3), std::nullopt, find_state(query.text(4))}});
   }
 
   bool has_room(const JobRecord& job) {
@@ -251,6 +247,7 @@ class SqliteStore : public JobStore {
 
   std::mutex mutex_;  // of what changes; the reader and the tally have their own
   StoreRules rules_;
+  std::string queues_ = proto::write_json(rules_.queues);
   Database database_;
   SqliteRows rows_{database_};
   JobTable jobs_{rows_, rules_.now_ms ? rules_.now_ms : unix_ms};

@@ -1,7 +1,7 @@
-#include "server/store/store_facts.hpp"
+#include "server/store/sqlite/store_facts.hpp"
 
 #include "server/store/job_store.hpp"
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/store/sqlite_schema.hpp"
+#include "server/store/sqlite/sqlite_schema.hpp"
 
 #include <array>
 
@@ -89,7 +89,12 @@ constexpr const char* version_5 = R"(
 ALTER TABLE job ADD COLUMN inherited TEXT NOT NULL DEFAULT '';
 )";
 
-constexpr std::array<const char*, schema_version> steps{version_1, version_2, version_3, version_4, version_5};
+constexpr const char* version_6 = R"(
+ALTER TABLE job ADD COLUMN queue TEXT NOT NULL DEFAULT 'default';
+)";
+
+constexpr std::array<const char*, schema_version> steps{version_1, version_2, version_3,
+                                                        version_4, version_5, version_6};
 
 std::int64_t read_version(Database& database) {
   Statement query(database, "PRAGMA user_version");

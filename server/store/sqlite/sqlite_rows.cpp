@@ -1,62 +1,21 @@
-#include "server/store/sqlite_rows.hpp"
+#include "server/store/sqlite/sqlite_rows.hpp"
+
+#include "server/store/job_columns.hpp"
 
 namespace sculpt::server {
 namespace {
 
-constexpr const char* columns =
-    "number, id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, memory_bytes, rank, "
-    "attempt, failures, crashes, isolated, wake_at, submitted_at, started_at, finished_at, error_code, error_sentence, "
-    "pinned, owner, inherited";
-
 Statement query(Database& database, const std::string& rest, const std::vector<std::string>& values) {
-  Statement statement(database, std::string("SELECT ") + columns + " FROM job WHERE " + rest);
+  Statement statement(database, std::string("SELECT ") + job_columns + " FROM job WHERE " + rest);
   for (const std::string& value : values) statement.bind(value);
   return statement;
 }
 
-JobState read_state(const std::string& job, const std::string& word) {
-  const std::optional<JobState> state = find_state(word);
-  if (!state) throw StorageError("job " + job + " has the unknown state '" + word + "' in the database");
-  return *state;
-}
-
 JobRow read_row(const Statement& row) {
-  JobRow read;
-  JobRecord& job = read.job;
-  int column = 0;
-  const auto text = [&] { return row.text(column++); };
-  const auto number = [&] { return row.number(column++); };
-  const auto small = [&] { return static_cast<int>(row.number(column++)); };
-  read.number = number();
-  job.id = text();
-  job.state = read_state(job.id, text());
-  job.key = text();
-  job.schedule.priority = small();
-  job.schedule.not_before = text();
-  job.schedule.start_by = text();
-  job.schedule.max_runtime_s = number();
-  job.spec = text();
-  job.cell_bundle = text();
-  job.memory_bytes = static_cast<std::uint64_t>(number());
-  job.rank = number();
-  job.attempt = small();
-  job.failures = small();
-  job.crashes = small();
-  job.isolated = number() != 0;
-  job.wake_at = text();
-  job.submitted_at = text();
-  job.started_at = text();
-  job.finished_at = text();
-  job.error_code = text();
-  job.error_sentence = text();
-  job.pinned = number() != 0;
-  job.owner = text();
-  job.inherited = text();
-  job.folder = job.id;
+  JobRow read = read_job_row(row);
+  read.job.folder = read.job.id;
   return read;
 }
-
-constexpr int id_column = 1;
 
 }  // namespace
 
@@ -90,26 +49,17 @@ JobPage select_page(Database& database, const std::string& rest, const std::vect
 }
 
 JobRow SqliteRows::insert(const JobRecord& job) {
-  Statement insert(database_,
-                   "INSERT INTO job(id, state, key, priority, not_before, start_by, max_runtime_s, spec, cell_bundle, "
-                   "memory_bytes, rank, wake_at, submitted_at, owner, inherited) "
-                   "VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-  insert.bind(job.id).bind(name(job.state));
-  job.key.empty() ? insert.bind_null() : insert.bind(job.key);
-  insert.bind(job.schedule.priority).bind(job.schedule.not_before).bind(job.schedule.start_by);
-  insert.bind(job.schedule.max_runtime_s).bind(job.spec).bind(job.cell_bundle);
-  insert.bind(static_cast<std::int64_t>(job.memory_bytes)).bind(job.rank).bind(job.wake_at).bind(job.submitted_at);
-  insert.bind(job.owner).bind(job.inherited).run();
+  Statement insert(database_, std::string("INSERT INTO job(") + submitted_columns +
+                                  ") VALUES(nullif(?, ''),?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  add_submitted(job, [&insert](const auto& value) { insert.bind(value); });
+  insert.run();
   return *find(job.id);
 }
 
 bool SqliteRows::update(const JobRow& row, JobState from, int attempt) {
-  const JobRecord& job = row.job;
-  Statement update(database_,
-                   "UPDATE job SET state=?, attempt=?, failures=?, crashes=?, isolated=?, wake_at=?, started_at=?, "
-                   "finished_at=?, error_code=?, error_sentence=? WHERE number=? AND state=? AND attempt=?");
-  update.bind(name(job.state)).bind(job.attempt).bind(job.failures).bind(job.crashes).bind(job.isolated ? 1 : 0);
-  update.bind(job.wake_at).bind(job.started_at).bind(job.finished_at).bind(job.error_code).bind(job.error_sentence);
+  Statement update(database_, std::string("UPDATE job SET (") + changing_columns +
+                                  ")=(?,?,?,?,?,?,?,?,?,?) WHERE number=? AND state=? AND attempt=?");
+  add_changing(row.job, [&update](const auto& value) { update.bind(value); });
   return update.bind(row.number).bind(name(from)).bind(attempt).run() == 1;
 }
 

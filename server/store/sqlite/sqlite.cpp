@@ -1,4 +1,4 @@
-#include "server/store/sqlite.hpp"
+#include "server/store/sqlite/sqlite.hpp"
 
 #include "server/base/crash_point.hpp"
 #include "server/files/durable.hpp"

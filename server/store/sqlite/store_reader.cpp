@@ -1,8 +1,8 @@
-#include "server/store/store_reader.hpp"
+#include "server/store/sqlite/store_reader.hpp"
 
 #include <algorithm>
 
-#include "server/store/sqlite_rows.hpp"
+#include "server/store/sqlite/sqlite_rows.hpp"
 
 namespace sculpt::server {
 namespace {

@@ -51,6 +51,7 @@ class Statement {
   int run();
   std::string text(int column) const;
   std::int64_t number(int column) const { return sqlite3_column_int64(handle_.get(), column); }
+  bool flag(int column) const { return number(column) != 0; }
 
  private:
   Database* database_;
