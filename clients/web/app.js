@@ -15,6 +15,7 @@ import {show_tab, start_tabs} from './panels/tabs.js';
 import {TimeBar} from './panels/time_bar.js';
 import {listen_to_keys} from './keys.js';
 import {Stage, sentence_of} from './stage.js';
+import {TakeAlong} from './take_along.js';
 import {View} from './view/view.js';
 import {Connection} from './wire/connection.js';
 import {take_token_of_address} from './wire/token.js';
@@ -38,8 +39,9 @@ class App {
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
-    show_layers(this.layers, () => this.#apply_layers());
-    this.#apply_layers();
+    show_layers(this.layers, () => this.apply_layers());
+    this.apply_layers();
+    this.take_along = new TakeAlong(this);
     this.connection.open();
   }
 
@@ -55,16 +57,16 @@ class App {
     const set_theme = () => this.view.set_theme(dark.matches ? 'dark' : 'light');
     dark.addEventListener('change', set_theme);
     set_theme();
-    this.view.addEventListener('lost', () => this.#banner('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
-    this.view.addEventListener('restored', () => this.#banner(''));
+    this.view.addEventListener('lost', () => this.say('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
+    this.view.addEventListener('restored', () => this.say(''));
     this.view.addEventListener('moved', () => this.#write_address());
     this.stage.addEventListener('note', (event) => { by_id('stage-note').textContent = event.detail; });
     this.stage.addEventListener('started', () => {
       by_id('time').hidden = false;
       by_id('stage-note').textContent = '';
-      this.#apply_layers();
+      this.apply_layers();
     });
-    this.stage.addEventListener('robot', () => this.#apply_layers());
+    this.stage.addEventListener('robot', () => this.apply_layers());
     this.stage.addEventListener('picked', (event) => this.#show_picked(event.detail));
     let plotted = 0;
     this.stage.addEventListener('shown', () => {
@@ -81,17 +83,17 @@ class App {
     connection.addEventListener('lost', (event) => {
       by_id('server').className = '';
       by_id('server').textContent = 'not connected';
-      this.#banner(`The connection to the server is lost. It is tried again in ${Math.ceil(event.detail / 1000)} s; jobs go on meanwhile.`);
+      this.say(`The connection to the server is lost. It is tried again in ${Math.ceil(event.detail / 1000)} s; jobs go on meanwhile.`);
     });
     connection.addEventListener('refused', (event) => {
-      this.#banner(event.detail.message);
+      this.say(event.detail.message);
       by_id('show-token').hidden = false;
       if (event.detail.code === 'auth_required') ask_token(event.detail.message);
     });
     queue.addEventListener('chosen', (event) => this.choose(event.detail, {at: null, place: null}));
     queue.addEventListener('changed', (event) => event.detail.job === this.chosen && this.#on_changed(event.detail));
     queue.addEventListener('gone', (event) => {
-      if (event.detail === this.chosen) this.#banner('This job was removed from the server with its results. What is shown stays until you leave it.');
+      if (event.detail === this.chosen) this.say('This job was removed from the server with its results. What is shown stays until you leave it.');
     });
     by_id('new-job').addEventListener('click', () => this.#open_form());
     by_id('show-help').addEventListener('click', show_help);
@@ -118,7 +120,7 @@ class App {
     by_id('server').textContent = [hello.server, hello.owner, this.may('admin') ? '' : `may ${this.scope}`].filter(Boolean).join(' \u00b7 ');
     by_id('new-job').hidden = !this.may('submit');
     by_id('pause-queue').hidden = !this.may('admin');
-    this.#banner('');
+    this.say('');
     try {
       await this.queue.start();
       if (this.may('admin')) this.#show_queue_state((await this.connection.call('server.info')).queue_paused);
@@ -128,7 +130,7 @@ class App {
       else if (this.queue.jobs.size) await this.choose([...this.queue.jobs.keys()].sort().at(-1), {at: null, place: null});
       else by_id('stage-note').textContent = this.may('submit') ? 'Drop a mesh anywhere to make a job of it.' : 'There are no jobs yet.';
     } catch (error) {
-      this.#banner(error.message);
+      this.say(error.message);
     }
   }
 
@@ -165,7 +167,7 @@ class App {
 
   #show_head(job) {
     show_job_head(job, {connection: this.connection, scope: this.scope, after: (text) => {
-      this.#banner(text);
+      this.say(text);
       this.queue.look_up(job.job).catch(() => { /* the banner says it */ });
     }});
   }
@@ -197,7 +199,9 @@ class App {
     plots.show_volume(this.time.removed, this.time.keyframes, this.time.remove);
     if (!stage.joints || !stage.robot) return;
     const segment = await stage.joints.around(Math.min(this.time.keyframes - 1, Math.floor(this.time.at)));
-    plots.show_joints(segment, stage.joints.names, stage.joints.names.map((name) => stage.robot.limits(name)));
+    const {names} = stage.joints, limits = names.map((name) => stage.robot.limits(name));
+    plots.show_joints(segment, names, limits);
+    plots.show_speeds(segment, names, limits);
   }
 
   #show_picked(hit) {
@@ -208,7 +212,8 @@ class App {
     }});
   }
 
-  #apply_layers() {
+  /** What the layers say, in the picture. */
+  apply_layers() {
     const {view, stage, layers} = this;
     show_legend(layers.look, stage?.head ? sentence_of(stage.head) : '');
     if (!view) return;
@@ -217,6 +222,7 @@ class App {
     view.set_scenery(layers.floor, layers.box);
     view.robot?.show(layers.robot);
     view.robot?.set_opacity(layers.opacity);
+    stage?.show_path(layers.path);
     view.draw();
     this.#write_address();
   }
@@ -224,23 +230,17 @@ class App {
   /** @param {Partial<typeof FIRST>} changed */
   set_layers(changed) {
     Object.assign(this.layers, changed);
-    show_layers(this.layers, () => this.#apply_layers());
-    this.#apply_layers();
+    show_layers(this.layers, () => this.apply_layers());
+    this.apply_layers();
   }
 
   #open_form(file) {
-    this.form.open(file, this.queue.jobs.get(this.chosen)?.robot ?? '').catch((error) => this.#banner(error.message));
+    this.form.open(file, this.queue.jobs.get(this.chosen)?.robot ?? '').catch((error) => this.say(error.message));
   }
 
   /** For the key; the buttons are hidden where it may not be. */
   new_job() {
     if (this.may('submit')) this.#open_form();
-  }
-
-  async save_picture() {
-    const url = URL.createObjectURL(await this.view.picture());
-    make('a', {href: url, download: `${this.chosen || 'sculptd'}.png`}).click();
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
   /** @param {string} tab */
@@ -253,7 +253,7 @@ class App {
       const paused = by_id('pause-queue').getAttribute('aria-pressed') === 'true';
       this.#show_queue_state((await this.connection.call(paused ? 'queue.resume' : 'queue.pause')).paused);
     } catch (error) {
-      this.#banner(error.message);
+      this.say(error.message);
     }
   }
 
@@ -262,7 +262,8 @@ class App {
     by_id('pause-queue').setAttribute('aria-pressed', String(paused));
   }
 
-  #banner(text) {
+  /** On top of the page. @param {string} text empty: nothing any more */
+  say(text) {
     by_id('banner').textContent = text;
     by_id('banner').hidden = !text;
   }

@@ -3,8 +3,12 @@
 import {FINAL} from './panels/queue.js';
 import {Joints} from './plan/joints.js';
 import {follow_timeline, read_timeline} from './plan/follow.js';
+import {Path} from './view/path.js';
 import {Robot} from './view/robot.js';
 import {count} from './dom.js';
+
+const FIRST_PICTURE = 'first picture';  // of a finished plan: a mark for who measures
+const PATH_STEP = 64, PATH_AROUND = 192;  // keyframes
 
 /** Events: `note` with a sentence for the middle of the picture, `started` when the grid is known, `picked` with what the worker found. */
 export class Stage extends EventTarget {
@@ -19,16 +23,15 @@ export class Stage extends EventTarget {
     this.worker.onerror = (event) => this.#note(`The picture of the stock cannot be made: ${event.message}`);
     this.busy = false;
     this.wanted = false;
-    this.whole = true;
-    this.chosen = null;
     this.generation = 0;
+    this.tickets = 0;
     this.viewed = false;
-    this.head = null;
-    this.final = false;
-    this.pending = 0;
-    this.joints = null;
+    /** @type {Robot | null} of the job before, until the next one's is there */
     this.robot = null;
     this.stop = new AbortController();
+    this.path = new Path();
+    this.path_wanted = false;
+    this.#forget();
     time.addEventListener('moved', () => this.#moved());
     view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
   }
@@ -53,18 +56,31 @@ export class Stage extends EventTarget {
     }
   }
 
-  /** Nothing is shown any more. */
-  close() {
-    this.stop.abort();
+  // Nothing is known of a plan: what is on its way to or from the worker is of another one.
+  #forget() {
     ++this.generation;
     this.worker.postMessage({kind: 'reset'});
+    /** @type {any} of the timeline */
     this.head = null;
     this.final = false;
     this.pending = 0;
+    /** @type {Joints | null} */
     this.joints = null;
     this.whole = true;
+    /** @type {number[][] | null} */
     this.chosen = null;
+    for (const settle of this.asked?.values() ?? []) settle(null);
+    /** @type {Map<number, (body: any) => void>} who waits for an outline, by ticket */
+    this.asked = new Map();
+    this.path_from = -1;
+    this.path.clear();
     this.time.clear();
+  }
+
+  /** Nothing is shown any more. */
+  close() {
+    this.stop.abort();
+    this.#forget();
     this.time.set_growing(false);
     this.view.pages.clear();
     this.view.draw();
@@ -88,14 +104,7 @@ export class Stage extends EventTarget {
     this.time.set_live(this.wish.at === null);
     await follow_timeline({connection: this.connection, job: job.job, signal}, {
       take: (bytes) => this.#add(bytes),
-      start_over: () => {
-        this.worker.postMessage({kind: 'reset'});
-        this.time.clear();
-        this.head = null;
-        this.pending = 0;
-        ++this.generation;
-        this.whole = true;
-      },
+      start_over: () => this.#forget(),
       joints: (values) => this.time.live && this.#pose(values),
       is_over: () => FINAL.has(this.job.state),
     });
@@ -128,6 +137,7 @@ export class Stage extends EventTarget {
       if (signal.aborted) return;
       this.robot = robot;
       this.view.set_robot(robot);
+      robot.stock_frame.add(this.path.lines);
       if (this.head) robot.set_tool(this.head.header.tool);
       this.#first_view();
       this.dispatchEvent(new CustomEvent('robot'));
@@ -147,6 +157,7 @@ export class Stage extends EventTarget {
 
   #on_worker(message) {
     if (message.kind === 'grown') this.#on_grown(message);
+    else if (message.kind === 'outlined') this.#on_outlined(message);
     else if (message.kind === 'picked') message.ticket === this.generation && this.dispatchEvent(new CustomEvent('picked', {detail: message.hit}));
     else this.#on_faces(message);
   }
@@ -172,9 +183,30 @@ export class Stage extends EventTarget {
     if (message.generation === this.generation) {
       this.view.put_faces(message.chunks);
       this.shown = message.removed;
-      this.dispatchEvent(new CustomEvent('shown'));
+      if (message.final && !performance.getEntriesByName(FIRST_PICTURE).length) requestAnimationFrame(() => performance.mark(FIRST_PICTURE));  // drawn by then
+      this.dispatchEvent(new CustomEvent('shown', {detail: {made_ms: message.made_ms}}));
     }
     if (this.wanted) this.#ask();
+  }
+
+  /**
+   * What stands now, for a file.
+   * @param {'stock' | 'sculpture'} what
+   * @returns {Promise<import('./export/outline.js').Outline>} throws an Error with a sentence where nothing is shown
+   */
+  outline(what) {
+    if (!this.head) return Promise.reject(new Error('there is no plan to export: choose a job that is planned'));
+    const ticket = this.tickets++;
+    return new Promise((resolve, reject) => {
+      this.asked.set(ticket, (body) => (body ? resolve(body) : reject(new Error('another job was chosen meanwhile: export again'))));
+      this.worker.postMessage({kind: 'outline', generation: this.generation, ticket, moment: {removed: this.time.cut, final: this.final, what}});
+    });
+  }
+
+  #on_outlined({generation, ticket, body}) {
+    if (generation !== this.generation) return;
+    this.asked.get(ticket)?.(body);
+    this.asked.delete(ticket);
   }
 
   #moved() {
@@ -216,7 +248,9 @@ export class Stage extends EventTarget {
       do {
         this.pose_again = false;
         const values = await joints.at(this.time.at);
-        if (joints === this.joints) this.#pose(values);
+        if (joints !== this.joints) continue;
+        this.#pose(values);
+        await this.#draw_path();
       } while (this.pose_again);
     } catch (error) {
       this.#note(`The robot stands still: ${error.message}`);
@@ -228,6 +262,25 @@ export class Stage extends EventTarget {
   #pose(values) {
     const names = this.head?.header.joints ?? [];
     this.robot?.move(names.map((name, at) => [name, values[at]]));
+    this.view.draw();
+  }
+
+  /** @param {boolean} wanted the way of the tool around now */
+  show_path(wanted) {
+    this.path_wanted = wanted;
+    this.path.lines.visible = wanted;
+    this.#move_robot();
+  }
+
+  // Some keyframes before and behind now; made anew only when now has left its middle.
+  async #draw_path() {
+    const {joints, robot, time} = this;
+    const from = Math.max(0, PATH_STEP * Math.floor(time.at / PATH_STEP) - PATH_AROUND), to = Math.min(time.keyframes, from + 2 * PATH_AROUND + PATH_STEP);
+    if (!this.path_wanted || !joints || !robot || from === this.path_from) return;
+    const values = await joints.between(from, to);
+    if (joints !== this.joints) return;
+    this.path_from = from;
+    this.path.set(robot.balls(joints.names, values), Array.from(time.kinds.subarray(from, to), (kind) => (kind & 7) !== 0));
     this.view.draw();
   }
 

@@ -121,7 +121,7 @@ class Finished(PageTest):
             self.assertIn(str(figure), text)
         self.assertIn("clean", text)
         page.click("#tab-plots")
-        page.until("document.querySelectorAll('#panel-plots .uplot').length === 2")
+        page.until("document.querySelectorAll('#panel-plots .uplot').length === 3")
         self.assert_well_behaved(page)
 
     def test_lost_graphics_have_a_sentence_and_come_back(self):

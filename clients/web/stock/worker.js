@@ -1,5 +1,6 @@
 // Beside the page: decodes the timeline and makes the faces of what stands. One message in, at most one out.
 
+import {outline} from '../export/outline.js';
 import {NEVER, Timeline} from '../plan/timeline.js';
 import {Chunks} from './chunks.js';
 import {Standing} from './faces.js';
@@ -46,11 +47,17 @@ const on = {
   /** The moment, or with `all` everything anew: another picture of the same moment. */
   show({generation, removed, final, chosen, all}) {
     if (!chunks) return postMessage({kind: 'faces', generation, removed, chunks: []});
-    const wanted = all ? [...Array(chunks.count).keys()] : chunks.between(moment.removed, removed);
+    const begin = performance.now(), wanted = all ? [...Array(chunks.count).keys()] : chunks.between(moment.removed, removed);
     moment = {removed, final, chosen: chosen && new Set(chosen.map(([i, j, k]) => timeline.cell(i, j, k)))};
     for (const chunk of wanted) standing.update(chunks.corner(chunk), removed);
     const made = wanted.map((chunk) => ({chunk, faces: standing.faces(chunks.corner(chunk), moment)}));
-    postMessage({kind: 'faces', generation, removed, chunks: made}, made.map(({faces}) => faces.buffer));
+    postMessage({kind: 'faces', generation, removed, final, chunks: made, made_ms: performance.now() - begin}, made.map(({faces}) => faces.buffer));
+  },
+
+  /** What stands at a moment, as rectangles. */
+  outline({generation, ticket, moment: {removed, final, what}}) {
+    const body = timeline.started ? outline(timeline, {removed, final, what}) : null;
+    postMessage({kind: 'outlined', generation, ticket, body}, body ? body.kinds.flatMap(({corners, sides}) => [corners.buffer, sides.buffer]) : []);
   },
 
   /** What a ray in cells hits first. */
