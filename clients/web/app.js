@@ -34,6 +34,8 @@ class App {
     this.layers = {...FIRST, look: link.get('look') ?? FIRST.look};
     this.scope = 'read';
     this.chosen = '';
+    /** the chosen job once the server has said what it is */
+    this.on_stage = '';
     this.residue = null;
     this.wish = {job: link.get('job'), at: link.has('at') ? Number(link.get('at')) : null, place: link.get('view')};
     this.#make_view();
@@ -91,7 +93,7 @@ class App {
       if (event.detail.code === 'auth_required') ask_token(event.detail.message);
     });
     queue.addEventListener('chosen', (event) => this.choose(event.detail, {at: null, place: null}));
-    queue.addEventListener('changed', (event) => event.detail.job === this.chosen && this.#on_changed(event.detail));
+    queue.addEventListener('changed', (event) => event.detail.job === this.on_stage && this.#on_changed(event.detail));
     queue.addEventListener('gone', (event) => {
       if (event.detail === this.chosen) this.say('This job was removed from the server with its results. What is shown stays until you leave it.');
     });
@@ -125,7 +127,7 @@ class App {
       await this.queue.start();
       if (this.may('admin')) this.#show_queue_state((await this.connection.call('server.info')).queue_paused);
       const {job, at, place} = this.wish;
-      if (this.chosen) this.#on_changed(await this.queue.look_up(this.chosen));
+      if (this.on_stage) await this.queue.look_up(this.on_stage);
       else if (job) await this.choose(job, {at, place});
       else if (this.queue.jobs.size) await this.choose([...this.queue.jobs.keys()].sort().at(-1), {at: null, place: null});
       else by_id('stage-note').textContent = this.may('submit') ? 'Drop a mesh anywhere to make a job of it.' : 'There are no jobs yet.';
@@ -137,9 +139,9 @@ class App {
   /** @param {string} id @param {{at: number | null, place: string | null}} wish */
   async choose(id, wish) {
     this.chosen = id;
+    this.on_stage = '';
     this.queue.choose(id);
     this.residue = null;
-    this.report = null;
     by_id('picked').hidden = true;
     this.plots.clear();
     let job;
@@ -152,11 +154,13 @@ class App {
       return;
     }
     if (this.chosen !== id) return;
+    this.on_stage = id;
     this.queue.choose(id);
     this.#show_head(job);
-    this.#load_results();
     this.#write_address();
-    await this.stage?.show(job, wish);
+    const shown = this.stage?.show(job, wish);
+    this.#load_results(shown);
+    await shown;
   }
 
   #on_changed(job) {
@@ -172,7 +176,8 @@ class App {
     }});
   }
 
-  async #load_results() {
+  /** @param {Promise<void>} [picture] what is less urgent comes after it */
+  async #load_results(picture) {
     const id = this.chosen, job = this.queue.jobs.get(id);
     this.results_state = job?.state;
     const finished = job?.state === 'succeeded' || job?.error?.code === 'verify_failed';
@@ -180,10 +185,13 @@ class App {
     show_residue(null, () => {});
     if (!finished) return;
     try {
-      const [report, residue] = await Promise.all([this.connection.call('job.report', {job: id}), read_residue(id)]);
+      const report = await this.connection.call('job.report', {job: id});
+      if (this.chosen !== id) return;
+      show_report(report, '');
+      await picture;
+      const residue = await read_residue(id);
       if (this.chosen !== id) return;
       this.residue = residue;
-      show_report(report, '');
       show_residue(residue, (voxels, at) => {
         this.stage?.point_out(voxels);
         if (at) this.view?.fly_to(at.map((value) => value / (this.stage.head?.block ?? 1)));

@@ -1,11 +1,13 @@
 // What can be taken along: pictures, films, bodies; and the way into one's own room.
 
 import {by_id, make, size} from '../dom.js';
-import {to_glb} from '../export/glb.js';
-import {to_usdz} from '../export/usdz.js';
 import {has_room_viewer, save, show_in_room} from './save.js';
 
-const FORMS = {glb: {name: 'GLB', pack: to_glb}, usdz: {name: 'USDZ', pack: to_usdz}};
+/** Their files are asked for when the first body is. */
+const FORMS = {
+  glb: {name: 'GLB', pack: async (body, of) => (await import('../export/glb.js')).to_glb(body, of)},
+  usdz: {name: 'USDZ', pack: async (body, of) => (await import('../export/usdz.js')).to_usdz(body, of)},
+};
 /** @type {['stock' | 'sculpture', string][]} */
 const BODIES = [['stock', 'Stock as it is now'], ['sculpture', 'Sculpture']];
 const SCALES = [['1', '1 : 1'], ['0.5', '1 : 2'], ['0.2', '1 : 5']];

@@ -13,6 +13,7 @@ let chunks = null;
 let standing = null;
 /** @type {import('./faces.js').Moment} */
 let moment = {removed: 0, final: false, chosen: null};
+/** @type {[number, number, number, number][]} of the piece in which the grid became known */
 let cuts_before = [];
 let told = 0;
 
@@ -27,12 +28,12 @@ const on = {
 
   add({generation, bytes}) {
     const began = timeline.started;
-    timeline.add(bytes, (cell, ordinal) => (chunks ? chunks.add(cell, ordinal) : cuts_before.push(cell, ordinal)));
+    timeline.add(bytes, (first, last, from, to) => (chunks ? chunks.add(first, last, from, to) : cuts_before.push([first, last, from, to])));
     if (!timeline.started) return postMessage({kind: 'grown', generation, head: null, keyframes: 0, removed: new Uint32Array(0), kinds: new Uint8Array(0)});
     if (!chunks) {
       chunks = new Chunks(timeline.edge, timeline.voxels.remove);
       standing = new Standing(timeline);
-      for (let at = 0; at < cuts_before.length; at += 2) chunks.add(cuts_before[at], cuts_before[at + 1]);
+      for (const [first, last, from_cut, to_cut] of cuts_before) chunks.add(first, last, from_cut, to_cut);
       cuts_before = [];
     }
     const from = told;
