@@ -8,7 +8,6 @@ import {Robot} from './view/robot.js';
 import {count} from './dom.js';
 
 const FIRST_PICTURE = 'first picture';  // of a finished plan: a mark for who measures
-const PATH_STEP = 64, PATH_AROUND = 192;  // keyframes
 
 /** Events: `note` with a sentence for the middle of the picture, `started` when the grid is known, `picked` with what the worker found. */
 export class Stage extends EventTarget {
@@ -30,7 +29,6 @@ export class Stage extends EventTarget {
     this.robot = null;
     this.stop = new AbortController();
     this.path = new Path();
-    this.path_wanted = false;
     this.#forget();
     time.addEventListener('moved', () => this.#moved());
     view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
@@ -72,7 +70,9 @@ export class Stage extends EventTarget {
     for (const settle of this.asked?.values() ?? []) settle(null);
     /** @type {Map<number, (body: any) => void>} who waits for an outline, by ticket */
     this.asked = new Map();
-    this.path_from = -1;
+    this.tell_pictured?.();
+    /** the end of a finished plan is drawn, or the plan was left */
+    this.pictured = new Promise((tell) => { this.tell_pictured = tell; });
     this.path.clear();
     this.time.clear();
   }
@@ -96,7 +96,9 @@ export class Stage extends EventTarget {
 
   async #load_finished(job, signal) {
     await read_timeline(job.job, (bytes) => this.#add(bytes), signal);
-    if (!signal.aborted) this.#become_final();
+    if (signal.aborted) return;
+    this.#become_final();
+    await this.pictured;
   }
 
   async #follow(job, signal) {
@@ -183,6 +185,7 @@ export class Stage extends EventTarget {
     if (message.generation === this.generation) {
       this.view.put_faces(message.chunks);
       this.shown = message.removed;
+      if (message.final) this.tell_pictured();
       if (message.final && !performance.getEntriesByName(FIRST_PICTURE).length) requestAnimationFrame(() => performance.mark(FIRST_PICTURE));  // drawn by then
       this.dispatchEvent(new CustomEvent('shown', {detail: {made_ms: message.made_ms}}));
     }
@@ -250,7 +253,7 @@ export class Stage extends EventTarget {
         const values = await joints.at(this.time.at);
         if (joints !== this.joints) continue;
         this.#pose(values);
-        await this.#draw_path();
+        if (this.robot && await this.path.follow(joints, this.robot, this.time)) this.view.draw();
       } while (this.pose_again);
     } catch (error) {
       this.#note(`The robot stands still: ${error.message}`);
@@ -267,21 +270,8 @@ export class Stage extends EventTarget {
 
   /** @param {boolean} wanted the way of the tool around now */
   show_path(wanted) {
-    this.path_wanted = wanted;
     this.path.lines.visible = wanted;
     this.#move_robot();
-  }
-
-  // Some keyframes before and behind now; made anew only when now has left its middle.
-  async #draw_path() {
-    const {joints, robot, time} = this;
-    const from = Math.max(0, PATH_STEP * Math.floor(time.at / PATH_STEP) - PATH_AROUND), to = Math.min(time.keyframes, from + 2 * PATH_AROUND + PATH_STEP);
-    if (!this.path_wanted || !joints || !robot || from === this.path_from) return;
-    const values = await joints.between(from, to);
-    if (joints !== this.joints) return;
-    this.path_from = from;
-    this.path.set(robot.balls(joints.names, values), Array.from(time.kinds.subarray(from, to), (kind) => (kind & 7) !== 0));
-    this.view.draw();
   }
 
   /** @returns {boolean} nothing is on its way any more */
