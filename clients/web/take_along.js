@@ -65,9 +65,8 @@ export class TakeAlong {
     time.go(time.span[0]);
     time.play(false);
     await stopped;
-    const bytes = await film.stop();
     this.film = null;
     show_filming(false);
-    save(bytes, `${this.name}.${film.extension}`);
+    save(await film.stop(), `${this.name}.${film.extension}`);
   }
 }

@@ -179,7 +179,7 @@ class TakeAlong(PageTest):
 
     def test_a_film_and_a_picture_of_what_is_seen(self):
         page = self.open_at(0)
-        page.run("document.querySelector('#speed').append(Object.assign(document.createElement('option'), {value: '1', selected: true}))")
+        page.run("document.querySelector('#speed').append(Object.assign(document.createElement('option'), {value: '8', selected: true}))")
         page.app("(app.time.go(0.5 * app.time.keyframes), app.time.mark('a'), app.time.go(0.9 * app.time.keyframes), app.time.mark('b'))")
         shown = page.app("(app.shown = [], app.time.addEventListener('moved', ({detail}) => app.shown.push(detail / app.time.keyframes)), 0)")
         film = self.saved(page, lambda: page.click("#film"), "vase.webm")

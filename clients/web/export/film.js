@@ -21,12 +21,14 @@ export class Film {
     return this.kind === 'video/mp4' ? 'mp4' : 'webm';
   }
 
-  /** @returns {Promise<Blob>} all of it */
+  /** @returns {Promise<Blob>} all of it; throws an Error with a sentence where no picture came in time */
   stop() {
-    return new Promise((resolve) => {
+    return new Promise((resolve, reject) => {
       this.recorder.onstop = () => {
         for (const track of this.stream.getTracks()) track.stop();
-        resolve(new Blob(this.pieces, {type: this.kind}));
+        const film = new Blob(this.pieces, {type: this.kind});
+        if (film.size > 0) resolve(film);
+        else reject(new Error('the film was over before its first picture: let it play longer'));
       };
       this.recorder.stop();
     });
