@@ -106,14 +106,23 @@ export class Timeline {
       this.order.fill(NEVER, this.filled, end);
       this.label.fill(label, this.filled, end);
     } else if (label !== AIR) {
-      for (let at = this.filled; at < end; ++at) {
-        const cell = this.cell(at % this.n, Math.floor(at / this.n) % this.n, Math.floor(at / (this.n * this.n)));
-        this.order[cell] = NEVER;
-        ++this.left[cell];
-        if (this.label[cell] !== KEEP) this.label[cell] = label;
-      }
+      this.#fill_blocks(label, end);
     }
     this.filled = end;
+  }
+
+  /** From what is filled to there, a block's part of a row at a time. @param {number} label @param {number} end */
+  #fill_blocks(label, end) {
+    const {n, block, order, label: labels} = this, left = /** @type {Uint16Array} */ (this.left);
+    for (let at = this.filled; at < end;) {
+      const x = at % n, row = (at - x) / n, stop = Math.min(end, at - x + n);
+      let cell = this.cell(x, row % n, Math.floor(row / n)), taken = Math.min(stop - at, block - (x % block));
+      for (; at < stop; at += taken, taken = Math.min(stop - at, block), ++cell) {
+        order[cell] = NEVER;
+        left[cell] += taken;
+        if (labels[cell] !== KEEP) labels[cell] = label;
+      }
+    }
   }
 
   /** @param {number} i @param {number} j @param {number} k of a voxel @returns {number} */
@@ -185,15 +194,23 @@ export class Timeline {
 
   /** The same where cells are blocks: each goes with its last voxel. @param {OnCut} on_cut */
   #cut_blocks(on_cut) {
-    const {last} = this, left = /** @type {Uint16Array} */ (this.left), axis = last.direction >> 1, way = last.direction & 1 ? 1 : -1;
-    for (let m = 0; m < last.length; ++m) {
-      if (m > 0) this.#go_on(axis, way);
-      const cell = this.cell(last.x, last.y, last.z);
-      ++this.ordinal;
-      if (--left[cell] > 0) continue;
-      this.order[cell] = this.ordinal;
-      on_cut(cell, cell, this.ordinal, this.ordinal);
+    const {last, block, edge, order} = this, left = /** @type {Uint16Array} */ (this.left), axis = last.direction >> 1, up = last.direction & 1;
+    const step = (up ? 1 : -1) * (axis === 0 ? 1 : axis === 1 ? edge : edge * edge), place = (axis === 0 ? last.x : axis === 1 ? last.y : last.z) % block;
+    let cell = this.cell(last.x, last.y, last.z), taken = up ? block - place : place + 1;  // voxels of the run in its first block
+    let first = -1, from = 0, final = 0;
+    for (let rest = last.length; rest > 0; rest -= taken, taken = block, cell += step) {
+      if (taken > rest) taken = rest;
+      this.ordinal += taken;
+      if ((left[cell] -= taken) > 0) continue;
+      order[cell] = this.ordinal;
+      if (first < 0) {
+        first = cell;
+        from = this.ordinal;
+      }
+      final = cell;
     }
+    this.#go_on(axis, (up ? 1 : -1) * (last.length - 1));
+    if (first >= 0) on_cut(first, final, from, this.ordinal);
   }
 
   /** @param {number} axis @param {number} steps */
