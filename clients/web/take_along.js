@@ -6,6 +6,8 @@ import {show_export, show_filming} from './panels/export.js';
 import {save} from './panels/save.js';
 import {Room, why_no_room} from './view/room.js';
 
+const STILL_MS = 50;
+
 export class TakeAlong {
   /** @param {import('./app.js').app} app */
   constructor(app) {
@@ -63,6 +65,9 @@ export class TakeAlong {
     show_filming(true);
     const stopped = new Promise((resolve) => time.addEventListener('stopped', resolve, {once: true}));
     time.go(time.span[0]);
+    const still = setInterval(() => view.draw(), STILL_MS);  // what is not drawn anew is not filmed
+    await film.begun;
+    clearInterval(still);
     time.play(false);
     await stopped;
     this.film = null;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "core/cell/link_poses.hpp"
@@ -29,8 +30,7 @@ const std::array<Side, 6> sides{{{"corner", {0.62, -0.85, 0.6}},
 
 View view_from(const std::string& side) {
   const auto found = std::ranges::find_if(sides, [&](const Side& one) { return side == one.name; });
-  if (found == sides.end())
-    throw InputError("side_unknown", "a plan cannot be drawn from '" + side + "': choose one of those in the help");
+  if (found == sides.end()) throw std::invalid_argument("a plan is not drawn from '" + side + "'");
   const Vec3 from = found->from.normalized();
   const Vec3 right = from.z() == 1 ? Vec3::UnitX() : Vec3(Vec3::UnitZ().cross(from).normalized());
   return {right, from.cross(right), Vec3::Zero(), 1, 0};

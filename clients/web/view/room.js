@@ -53,7 +53,12 @@ export class Room extends EventTarget {
     this.time.next_frame = (draw) => this.session.requestAnimationFrame(draw);
     xr.enabled = true;
     xr.setReferenceSpaceType('local-floor');
-    await xr.setSession(this.session);
+    try {
+      await xr.setSession(this.session);
+    } catch (error) {
+      this.leave();
+      throw new Error(`The picture does not go into your room: ${error.message}`);
+    }
     this.hits = await this.#find_hits();
     this.#take_body(thing, scale);
     this.place_again();

@@ -60,7 +60,7 @@ TEST(DrawPlan, IsTheSameEachTimeAndAnotherFromEachSide) {
     for (std::size_t other = 0; other + 1 < seen.size(); ++other)
       EXPECT_NE(seen[other], seen.back()) << side << " and " << picture_sides()[other];
   }
-  EXPECT_THROW(draw_plan(corner_gone, nullptr, {"below", pixels}), InputError);
+  EXPECT_THROW(draw_plan(corner_gone, nullptr, {"below", pixels}), std::invalid_argument);
 }
 
 TEST(DrawPlan, TheCellStandsAsTheJointsSay) {
