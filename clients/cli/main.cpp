@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   cli::add_queue(app, invocation);
   cli::add_report(app, invocation);
   cli::add_fetch(app, invocation);
+  cli::add_link(app, invocation);
+  cli::add_render(app, invocation);
   cli::add_verify(app, invocation);
   cli::add_voxelize(app, invocation);
   cli::add_plan(app, invocation);

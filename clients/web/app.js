@@ -15,6 +15,7 @@ import {show_tab, start_tabs} from './panels/tabs.js';
 import {TimeBar} from './panels/time_bar.js';
 import {listen_to_keys} from './keys.js';
 import {Stage, sentence_of} from './stage.js';
+import {TakeAlong} from './take_along.js';
 import {View} from './view/view.js';
 import {Connection} from './wire/connection.js';
 import {take_token_of_address} from './wire/token.js';
@@ -33,13 +34,16 @@ class App {
     this.layers = {...FIRST, look: link.get('look') ?? FIRST.look};
     this.scope = 'read';
     this.chosen = '';
+    /** the chosen job once the server has said what it is */
+    this.on_stage = '';
     this.residue = null;
     this.wish = {job: link.get('job'), at: link.has('at') ? Number(link.get('at')) : null, place: link.get('view')};
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
-    show_layers(this.layers, () => this.#apply_layers());
-    this.#apply_layers();
+    show_layers(this.layers, () => this.apply_layers());
+    this.apply_layers();
+    this.take_along = new TakeAlong(this);
     this.connection.open();
   }
 
@@ -55,16 +59,16 @@ class App {
     const set_theme = () => this.view.set_theme(dark.matches ? 'dark' : 'light');
     dark.addEventListener('change', set_theme);
     set_theme();
-    this.view.addEventListener('lost', () => this.#banner('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
-    this.view.addEventListener('restored', () => this.#banner(''));
+    this.view.addEventListener('lost', () => this.say('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
+    this.view.addEventListener('restored', () => this.say(''));
     this.view.addEventListener('moved', () => this.#write_address());
     this.stage.addEventListener('note', (event) => { by_id('stage-note').textContent = event.detail; });
     this.stage.addEventListener('started', () => {
       by_id('time').hidden = false;
       by_id('stage-note').textContent = '';
-      this.#apply_layers();
+      this.apply_layers();
     });
-    this.stage.addEventListener('robot', () => this.#apply_layers());
+    this.stage.addEventListener('robot', () => this.apply_layers());
     this.stage.addEventListener('picked', (event) => this.#show_picked(event.detail));
     let plotted = 0;
     this.stage.addEventListener('shown', () => {
@@ -81,17 +85,17 @@ class App {
     connection.addEventListener('lost', (event) => {
       by_id('server').className = '';
       by_id('server').textContent = 'not connected';
-      this.#banner(`The connection to the server is lost. It is tried again in ${Math.ceil(event.detail / 1000)} s; jobs go on meanwhile.`);
+      this.say(`The connection to the server is lost. It is tried again in ${Math.ceil(event.detail / 1000)} s; jobs go on meanwhile.`);
     });
     connection.addEventListener('refused', (event) => {
-      this.#banner(event.detail.message);
+      this.say(event.detail.message);
       by_id('show-token').hidden = false;
       if (event.detail.code === 'auth_required') ask_token(event.detail.message);
     });
     queue.addEventListener('chosen', (event) => this.choose(event.detail, {at: null, place: null}));
-    queue.addEventListener('changed', (event) => event.detail.job === this.chosen && this.#on_changed(event.detail));
+    queue.addEventListener('changed', (event) => event.detail.job === this.on_stage && this.#on_changed(event.detail));
     queue.addEventListener('gone', (event) => {
-      if (event.detail === this.chosen) this.#banner('This job was removed from the server with its results. What is shown stays until you leave it.');
+      if (event.detail === this.chosen) this.say('This job was removed from the server with its results. What is shown stays until you leave it.');
     });
     by_id('new-job').addEventListener('click', () => this.#open_form());
     by_id('show-help').addEventListener('click', show_help);
@@ -118,26 +122,26 @@ class App {
     by_id('server').textContent = [hello.server, hello.owner, this.may('admin') ? '' : `may ${this.scope}`].filter(Boolean).join(' \u00b7 ');
     by_id('new-job').hidden = !this.may('submit');
     by_id('pause-queue').hidden = !this.may('admin');
-    this.#banner('');
+    this.say('');
     try {
       await this.queue.start();
       if (this.may('admin')) this.#show_queue_state((await this.connection.call('server.info')).queue_paused);
       const {job, at, place} = this.wish;
-      if (this.chosen) this.#on_changed(await this.queue.look_up(this.chosen));
+      if (this.on_stage) await this.queue.look_up(this.on_stage);
       else if (job) await this.choose(job, {at, place});
       else if (this.queue.jobs.size) await this.choose([...this.queue.jobs.keys()].sort().at(-1), {at: null, place: null});
       else by_id('stage-note').textContent = this.may('submit') ? 'Drop a mesh anywhere to make a job of it.' : 'There are no jobs yet.';
     } catch (error) {
-      this.#banner(error.message);
+      this.say(error.message);
     }
   }
 
   /** @param {string} id @param {{at: number | null, place: string | null}} wish */
   async choose(id, wish) {
     this.chosen = id;
+    this.on_stage = '';
     this.queue.choose(id);
     this.residue = null;
-    this.report = null;
     by_id('picked').hidden = true;
     this.plots.clear();
     let job;
@@ -150,11 +154,13 @@ class App {
       return;
     }
     if (this.chosen !== id) return;
+    this.on_stage = id;
     this.queue.choose(id);
     this.#show_head(job);
-    this.#load_results();
     this.#write_address();
-    await this.stage?.show(job, wish);
+    const shown = this.stage?.show(job, wish);
+    this.#load_results(shown);
+    await shown;
   }
 
   #on_changed(job) {
@@ -165,12 +171,13 @@ class App {
 
   #show_head(job) {
     show_job_head(job, {connection: this.connection, scope: this.scope, after: (text) => {
-      this.#banner(text);
+      this.say(text);
       this.queue.look_up(job.job).catch(() => { /* the banner says it */ });
     }});
   }
 
-  async #load_results() {
+  /** @param {Promise<void>} [picture] what is less urgent comes after it */
+  async #load_results(picture) {
     const id = this.chosen, job = this.queue.jobs.get(id);
     this.results_state = job?.state;
     const finished = job?.state === 'succeeded' || job?.error?.code === 'verify_failed';
@@ -178,10 +185,13 @@ class App {
     show_residue(null, () => {});
     if (!finished) return;
     try {
-      const [report, residue] = await Promise.all([this.connection.call('job.report', {job: id}), read_residue(id)]);
+      const report = await this.connection.call('job.report', {job: id});
+      if (this.chosen !== id) return;
+      show_report(report, '');
+      await picture;
+      const residue = await read_residue(id);
       if (this.chosen !== id) return;
       this.residue = residue;
-      show_report(report, '');
       show_residue(residue, (voxels, at) => {
         this.stage?.point_out(voxels);
         if (at) this.view?.fly_to(at.map((value) => value / (this.stage.head?.block ?? 1)));
@@ -197,7 +207,9 @@ class App {
     plots.show_volume(this.time.removed, this.time.keyframes, this.time.remove);
     if (!stage.joints || !stage.robot) return;
     const segment = await stage.joints.around(Math.min(this.time.keyframes - 1, Math.floor(this.time.at)));
-    plots.show_joints(segment, stage.joints.names, stage.joints.names.map((name) => stage.robot.limits(name)));
+    const {names} = stage.joints, limits = names.map((name) => stage.robot.limits(name));
+    plots.show_joints(segment, names, limits);
+    plots.show_speeds(segment, names, limits);
   }
 
   #show_picked(hit) {
@@ -208,7 +220,8 @@ class App {
     }});
   }
 
-  #apply_layers() {
+  /** What the layers say, in the picture. */
+  apply_layers() {
     const {view, stage, layers} = this;
     show_legend(layers.look, stage?.head ? sentence_of(stage.head) : '');
     if (!view) return;
@@ -217,6 +230,7 @@ class App {
     view.set_scenery(layers.floor, layers.box);
     view.robot?.show(layers.robot);
     view.robot?.set_opacity(layers.opacity);
+    stage?.show_path(layers.path);
     view.draw();
     this.#write_address();
   }
@@ -224,23 +238,17 @@ class App {
   /** @param {Partial<typeof FIRST>} changed */
   set_layers(changed) {
     Object.assign(this.layers, changed);
-    show_layers(this.layers, () => this.#apply_layers());
-    this.#apply_layers();
+    show_layers(this.layers, () => this.apply_layers());
+    this.apply_layers();
   }
 
   #open_form(file) {
-    this.form.open(file, this.queue.jobs.get(this.chosen)?.robot ?? '').catch((error) => this.#banner(error.message));
+    this.form.open(file, this.queue.jobs.get(this.chosen)?.robot ?? '').catch((error) => this.say(error.message));
   }
 
   /** For the key; the buttons are hidden where it may not be. */
   new_job() {
     if (this.may('submit')) this.#open_form();
-  }
-
-  async save_picture() {
-    const url = URL.createObjectURL(await this.view.picture());
-    make('a', {href: url, download: `${this.chosen || 'sculptd'}.png`}).click();
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
   /** @param {string} tab */
@@ -253,7 +261,7 @@ class App {
       const paused = by_id('pause-queue').getAttribute('aria-pressed') === 'true';
       this.#show_queue_state((await this.connection.call(paused ? 'queue.resume' : 'queue.pause')).paused);
     } catch (error) {
-      this.#banner(error.message);
+      this.say(error.message);
     }
   }
 
@@ -262,7 +270,8 @@ class App {
     by_id('pause-queue').setAttribute('aria-pressed', String(paused));
   }
 
-  #banner(text) {
+  /** On top of the page. @param {string} text empty: nothing any more */
+  say(text) {
     by_id('banner').textContent = text;
     by_id('banner').hidden = !text;
   }

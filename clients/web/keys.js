@@ -9,7 +9,7 @@ const TYPES = 'input:not([type=range]):not([type=checkbox]), select, textarea, d
 
 /** @param {typeof import('./app.js').app} app */
 export function listen_to_keys(app) {
-  const {time} = app;
+  const {time} = app, complain = (/** @type {Error} */ error) => app.say(error.message);
   /** @type {Record<string, (event: KeyboardEvent) => void>} */
   const keys = {
     ' ': () => time.toggle_play(),
@@ -17,11 +17,15 @@ export function listen_to_keys(app) {
     ArrowRight: (event) => (event.shiftKey ? time.step_share(0.01) : time.step_row(1)),
     Home: () => time.go(0),
     End: () => time.go(time.keyframes),
+    a: () => time.mark('a'),
+    b: () => time.mark('b'),
+    f: () => app.take_along.toggle_film().catch(complain),
     l: () => time.set_live(!time.live),
     r: () => app.set_layers({robot: app.layers.robot === 'none' ? 'collision' : 'none'}),
     c: () => app.set_layers({look: LOOKS[(LOOKS.indexOf(app.layers.look) + 1) % LOOKS.length]}),
+    w: () => app.set_layers({path: !app.layers.path}),
     n: () => app.new_job(),
-    p: () => app.save_picture(),
+    p: () => app.take_along.save_picture().catch(complain),
     j: () => next_job(app, 1),
     k: () => next_job(app, -1),
     '/': () => by_id('filter').focus(),

@@ -3,8 +3,11 @@
 import {FINAL} from './panels/queue.js';
 import {Joints} from './plan/joints.js';
 import {follow_timeline, read_timeline} from './plan/follow.js';
+import {Path} from './view/path.js';
 import {Robot} from './view/robot.js';
 import {count} from './dom.js';
+
+const FIRST_PICTURE = 'first picture';  // of a finished plan: a mark for who measures
 
 /** Events: `note` with a sentence for the middle of the picture, `started` when the grid is known, `picked` with what the worker found. */
 export class Stage extends EventTarget {
@@ -19,16 +22,14 @@ export class Stage extends EventTarget {
     this.worker.onerror = (event) => this.#note(`The picture of the stock cannot be made: ${event.message}`);
     this.busy = false;
     this.wanted = false;
-    this.whole = true;
-    this.chosen = null;
     this.generation = 0;
+    this.tickets = 0;
     this.viewed = false;
-    this.head = null;
-    this.final = false;
-    this.pending = 0;
-    this.joints = null;
+    /** @type {Robot | null} of the job before, until the next one's is there */
     this.robot = null;
     this.stop = new AbortController();
+    this.path = new Path();
+    this.#forget();
     time.addEventListener('moved', () => this.#moved());
     view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
   }
@@ -53,18 +54,33 @@ export class Stage extends EventTarget {
     }
   }
 
-  /** Nothing is shown any more. */
-  close() {
-    this.stop.abort();
+  // Nothing is known of a plan: what is on its way to or from the worker is of another one.
+  #forget() {
     ++this.generation;
     this.worker.postMessage({kind: 'reset'});
+    /** @type {any} of the timeline */
     this.head = null;
     this.final = false;
     this.pending = 0;
+    /** @type {Joints | null} */
     this.joints = null;
     this.whole = true;
+    /** @type {number[][] | null} */
     this.chosen = null;
+    for (const settle of this.asked?.values() ?? []) settle(null);
+    /** @type {Map<number, (body: any) => void>} who waits for an outline, by ticket */
+    this.asked = new Map();
+    this.tell_pictured?.();
+    /** the end of a finished plan is drawn, or the plan was left */
+    this.pictured = new Promise((tell) => { this.tell_pictured = tell; });
+    this.path.clear();
     this.time.clear();
+  }
+
+  /** Nothing is shown any more. */
+  close() {
+    this.stop.abort();
+    this.#forget();
     this.time.set_growing(false);
     this.view.pages.clear();
     this.view.draw();
@@ -80,7 +96,9 @@ export class Stage extends EventTarget {
 
   async #load_finished(job, signal) {
     await read_timeline(job.job, (bytes) => this.#add(bytes), signal);
-    if (!signal.aborted) this.#become_final();
+    if (signal.aborted) return;
+    this.#become_final();
+    await this.pictured;
   }
 
   async #follow(job, signal) {
@@ -88,14 +106,7 @@ export class Stage extends EventTarget {
     this.time.set_live(this.wish.at === null);
     await follow_timeline({connection: this.connection, job: job.job, signal}, {
       take: (bytes) => this.#add(bytes),
-      start_over: () => {
-        this.worker.postMessage({kind: 'reset'});
-        this.time.clear();
-        this.head = null;
-        this.pending = 0;
-        ++this.generation;
-        this.whole = true;
-      },
+      start_over: () => this.#forget(),
       joints: (values) => this.time.live && this.#pose(values),
       is_over: () => FINAL.has(this.job.state),
     });
@@ -128,6 +139,7 @@ export class Stage extends EventTarget {
       if (signal.aborted) return;
       this.robot = robot;
       this.view.set_robot(robot);
+      robot.stock_frame.add(this.path.lines);
       if (this.head) robot.set_tool(this.head.header.tool);
       this.#first_view();
       this.dispatchEvent(new CustomEvent('robot'));
@@ -147,6 +159,7 @@ export class Stage extends EventTarget {
 
   #on_worker(message) {
     if (message.kind === 'grown') this.#on_grown(message);
+    else if (message.kind === 'outlined') this.#on_outlined(message);
     else if (message.kind === 'picked') message.ticket === this.generation && this.dispatchEvent(new CustomEvent('picked', {detail: message.hit}));
     else this.#on_faces(message);
   }
@@ -172,9 +185,31 @@ export class Stage extends EventTarget {
     if (message.generation === this.generation) {
       this.view.put_faces(message.chunks);
       this.shown = message.removed;
-      this.dispatchEvent(new CustomEvent('shown'));
+      if (message.final) this.tell_pictured();
+      if (message.final && !performance.getEntriesByName(FIRST_PICTURE).length) requestAnimationFrame(() => performance.mark(FIRST_PICTURE));  // drawn by then
+      this.dispatchEvent(new CustomEvent('shown', {detail: {made_ms: message.made_ms}}));
     }
     if (this.wanted) this.#ask();
+  }
+
+  /**
+   * What stands now, for a file.
+   * @param {'stock' | 'sculpture'} what
+   * @returns {Promise<import('./export/outline.js').Outline>} throws an Error with a sentence where nothing is shown
+   */
+  outline(what) {
+    if (!this.head) return Promise.reject(new Error('there is no plan to export: choose a job that is planned'));
+    const ticket = this.tickets++;
+    return new Promise((resolve, reject) => {
+      this.asked.set(ticket, (body) => (body ? resolve(body) : reject(new Error('another job was chosen meanwhile: export again'))));
+      this.worker.postMessage({kind: 'outline', generation: this.generation, ticket, moment: {removed: this.time.cut, final: this.final, what}});
+    });
+  }
+
+  #on_outlined({generation, ticket, body}) {
+    if (generation !== this.generation) return;
+    this.asked.get(ticket)?.(body);
+    this.asked.delete(ticket);
   }
 
   #moved() {
@@ -216,7 +251,9 @@ export class Stage extends EventTarget {
       do {
         this.pose_again = false;
         const values = await joints.at(this.time.at);
-        if (joints === this.joints) this.#pose(values);
+        if (joints !== this.joints) continue;
+        this.#pose(values);
+        if (this.robot && await this.path.follow(joints, this.robot, this.time)) this.view.draw();
       } while (this.pose_again);
     } catch (error) {
       this.#note(`The robot stands still: ${error.message}`);
@@ -229,6 +266,12 @@ export class Stage extends EventTarget {
     const names = this.head?.header.joints ?? [];
     this.robot?.move(names.map((name, at) => [name, values[at]]));
     this.view.draw();
+  }
+
+  /** @param {boolean} wanted the way of the tool around now */
+  show_path(wanted) {
+    this.path.lines.visible = wanted;
+    this.#move_robot();
   }
 
   /** @returns {boolean} nothing is on its way any more */

@@ -6,7 +6,7 @@
 #include "core/cell/link_tree.hpp"
 #include "core/collision/link_pairs.hpp"
 #include "core/collision/shape/motion_bound.hpp"
-#include "core/doctor/picture/facets.hpp"
+#include "core/picture/facets.hpp"
 
 namespace sculpt {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <ostream>
 
+#include "core/base/error.hpp"
 #include "core/trajectory/binary/segment.hpp"
+#include "core/trajectory/binary/token_reader.hpp"
 #include "core/trajectory/binary/varint.hpp"
 #include "core/trajectory/trajectory_line.hpp"
 
@@ -64,6 +66,65 @@ void TimelineWriter::flush() {
   out_.write(unsent_.data(), static_cast<std::streamsize>(unsent_.size()));
   out_.flush();
   unsent_.clear();
+}
+
+struct TimelineReader::Impl {
+  explicit Impl(std::string_view bytes)
+      : line_end(bytes.find('\n')),
+        header(parse_header_line(bytes.substr(0, line_end), where)),
+        voxels{VoxelSet(header.grid.n), VoxelSet(header.grid.n)},
+        tokens(line_end == bytes.npos ? std::string_view() : bytes.substr(line_end + 1), header, where) {
+    read_runs();
+  }
+
+  void read_runs() {
+    const auto n = static_cast<std::uint64_t>(header.grid.n), total = n * n * n;
+    for (std::uint64_t filled = 0; filled < total;) {
+      const std::uint64_t run = tokens.varint(), length = run / labels + 1;
+      if (length > total - filled) tokens.refuse("its runs of voxels are longer than the grid");
+      const auto label = static_cast<Label>(run % labels);
+      for (const std::uint64_t end = filled + length; filled < end; ++filled) {
+        const std::uint64_t bit = std::uint64_t{1} << filled % voxels_a_word, word = filled / voxels_a_word;
+        if (label != Label::air) voxels.stock.words()[word] |= bit;
+        if (label == Label::keep) voxels.keep.words()[word] |= bit;
+      }
+    }
+  }
+
+  static constexpr const char* where = "the timeline";
+  std::size_t line_end;
+  TrajectoryHeader header;
+  VoxelGrid voxels;
+  TokenReader tokens;
+  std::size_t in_segment = 0;  ///< keyframes
+};
+
+TimelineReader::TimelineReader(std::string_view bytes) : impl_(std::make_unique<Impl>(bytes)) {}
+TimelineReader::~TimelineReader() = default;
+
+const TrajectoryHeader& TimelineReader::header() const {
+  return impl_->header;
+}
+
+const VoxelGrid& TimelineReader::voxels() const {
+  return impl_->voxels;
+}
+
+std::optional<Keyframe> TimelineReader::next() {
+  if (impl_->tokens.at_end()) return {};
+  if (impl_->in_segment == max_segment_keyframes) {
+    impl_->tokens.begin_segment();
+    impl_->in_segment = 0;
+  }
+  Keyframe keyframe;
+  try {
+    impl_->tokens.read_token(keyframe);
+  } catch (const InputError&) {
+    if (impl_->tokens.ran_out()) return {};
+    throw;
+  }
+  ++impl_->in_segment;
+  return keyframe;
 }
 
 }  // namespace sculpt

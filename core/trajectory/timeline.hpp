@@ -1,8 +1,12 @@
 // What every voxel is at the start, and which are cut when: docs/trajectory.md, "The timeline".
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/material/voxel_grid.hpp"
 #include "core/trajectory/binary/cut_token.hpp"
@@ -25,6 +29,23 @@ class TimelineWriter {
   std::string unsent_;
   LastCut last_;
   std::size_t in_segment_ = 0;  ///< keyframes
+};
+
+/// Reads what TimelineWriter wrote; `bytes` must outlive it. Whatever has a beginning may end anywhere, as one does
+/// that grows; the beginning must be whole. Throws InputError `trajectory_invalid`. Not shared between threads.
+class TimelineReader {
+ public:
+  explicit TimelineReader(std::string_view bytes);
+  ~TimelineReader();
+  const TrajectoryHeader& header() const;
+  /// At the start.
+  const VoxelGrid& voxels() const;
+  /// The next keyframe that is there as a whole, without joints.
+  std::optional<Keyframe> next();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sculpt

@@ -4,10 +4,9 @@ import json
 import os
 import pathlib
 import stat
-import struct
 import unittest
-import zlib
 
+import png
 import shapes
 from harness import SCULPT, SCULPT_PY, ClientTest, DaemonTest, shared_data
 
@@ -33,20 +32,6 @@ ARM = """<robot name="maker">
     <axis xyz="0 0 1"/><limit lower="-6" upper="6" velocity="1" effort="1"/></joint>
 </robot>
 """
-
-
-def pixels(path):
-    """Width, height and the rows of a PNG of eight bits a colour without interlacing, each with its filter byte."""
-    data = path.read_bytes()
-    assert data.startswith(b"\x89PNG\r\n\x1a\n")
-    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
-    assert (depth, kind) == (8, 2), (depth, kind)
-    packed, at = b"", 8
-    while at < len(data):
-        length, name = struct.unpack(">I4s", data[at:at + 8])
-        packed += data[at + 8:at + 8 + length] if name == b"IDAT" else b""
-        at += 12 + length
-    return width, height, zlib.decompress(packed)
 
 
 def copy_of_the_shipped_cell(folder, **changes):
@@ -78,7 +63,7 @@ class Cell(ClientTest):
         found = json.loads(done.stdout)
         self.assertEqual(found["faults"][0]["code"], "home_blocked")
         self.assertFalse(found["home"]["free"])
-        self.assertEqual(pixels(self.scratch / "home.png")[:2], (1920, 640))
+        self.assertEqual(png.unpacked(self.scratch / "home.png")[:2], (1920, 640))
         cell = copy_of_the_shipped_cell(self.scratch, home=found["better_home"])
         self.assertIn("ready to plan with", self.fine("cell", cell))
 

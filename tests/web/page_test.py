@@ -36,7 +36,17 @@ class Finished(PageTest):
             page.settled()
             self.assertEqual(page.app("app.stage.shown"), page.app("app.time.cut"))
         self.assertLess(page.bytes, 600_000)
+        for name in ("timeline", "residue", "cell/"):
+            self.assertEqual(sum(name in url and "/v1/" in url and url.partition("?")[0].endswith(name) for url in page.requests), 1, name)
         self.assert_well_behaved(page)
+
+    def test_every_module_is_asked_for_at_once(self):
+        page = self.open()
+        page.settled()
+        modules = {url.partition("/ui/")[2] for url in page.requests if url.endswith(".js")} - {"stock/worker.js"}
+        named = page.run("[...document.querySelectorAll('link[rel=modulepreload]')].map(link => link.getAttribute('href').slice(4))")
+        workers = {"export/outline.js", "stock/chunks.js", "stock/faces.js", "stock/ray.js", "plan/varint.js", "plan/timeline.js"}
+        self.assertEqual(set(named) - {"plan/varint.js"}, modules - workers - {"app.js"}, "index.html names what app.js needs, not what it may need later")
 
     def test_more_voxels_than_are_drawn_go_as_blocks_with_their_last_voxel(self):
         with sculpt.Client(self.daemon.address) as client:
@@ -121,7 +131,7 @@ class Finished(PageTest):
             self.assertIn(str(figure), text)
         self.assertIn("clean", text)
         page.click("#tab-plots")
-        page.until("document.querySelectorAll('#panel-plots .uplot').length === 2")
+        page.until("document.querySelectorAll('#panel-plots .uplot').length === 3")
         self.assert_well_behaved(page)
 
     def test_lost_graphics_have_a_sentence_and_come_back(self):

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/doctor/picture/canvas.hpp"
+#include "core/picture/canvas.hpp"
 
 namespace sculpt::cli {
 

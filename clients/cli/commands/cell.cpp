@@ -15,9 +15,9 @@
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_options.hpp"
 #include "clients/cli/uploads.hpp"
+#include "core/doctor/draw_cell.hpp"
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
-#include "core/doctor/picture/draw_cell.hpp"
 
 namespace sculpt::cli {
 

@@ -39,6 +39,8 @@ void add_pin(CLI::App& app, Invocation& invocation);
 void add_queue(CLI::App& app, Invocation& invocation);
 void add_report(CLI::App& app, Invocation& invocation);
 void add_fetch(CLI::App& app, Invocation& invocation);
+void add_link(CLI::App& app, Invocation& invocation);
+void add_render(CLI::App& app, Invocation& invocation);
 void add_verify(CLI::App& app, Invocation& invocation);
 void add_voxelize(CLI::App& app, Invocation& invocation);
 void add_plan(CLI::App& app, Invocation& invocation);

@@ -1,8 +1,10 @@
-// sculpt report, fetch: what a job has to show for itself.
+// sculpt report, fetch, link: what a job has to show for itself.
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -15,6 +17,9 @@ namespace sculpt::cli {
 
 namespace {
 
+const std::vector<std::string> artifact_names{"trajectory", "timeline", "voxels", "stock", "residue", "report"},
+    format_names{"ndjson", "binary", "csv", "tokens", "gzip"};
+
 struct ReportOptions {
   std::string job;
   bool json = false;
@@ -24,6 +29,33 @@ struct FetchOptions {
   std::string job, output, format;
   std::string artifact = "trajectory";
 };
+
+struct LinkOptions {
+  std::string job, artifact = "trajectory", format;
+  bool json = false;
+};
+
+/// What begins a URL of this server.
+std::string url_of(const std::string& server) {
+  constexpr std::string_view unix_socket = "unix:", tls = "tls:";
+  if (server.starts_with(unix_socket))
+    throw Failure(
+        exit_usage, "usage",
+        "no browser or player opens " + server + ": add --server HOST:PORT, an address that the server listens on");
+  return server.starts_with(tls) ? "https://" + server.substr(tls.size()) : "http://" + server;
+}
+
+int run_link(const std::string& server, const LinkOptions& options) {
+  const std::string url = url_of(server);
+  client::Client client = connect(server);
+  Json request{{"job", options.job}, {"artifact", options.artifact}};
+  if (!options.format.empty()) request["format"] = options.format;
+  Json link = client.call("artifact.link", request);
+  link["url"] = url + link.at("path").get<std::string>();
+  std::cout << (options.json ? proto::write_json(link) : link.at("url").get<std::string>()) << "\n";
+  if (!options.json) std::cerr << "good until " << link.at("expires_at").get<std::string>() << "\n";
+  return exit_fine;
+}
 
 int run_report(const std::string& server, const ReportOptions& options) {
   client::Client client = connect(server);
@@ -92,13 +124,28 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--format", options->format,
                   "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip")
-      ->check(CLI::IsMember({"ndjson", "binary", "csv", "tokens", "gzip"}));
+      ->check(CLI::IsMember(format_names));
   command
       .add_option("--artifact", options->artifact,
                   "trajectory, timeline (what goes when), voxels (.binvox), "
                   "stock (left over, .binvox), residue (ndjson) or report (json)")
-      ->check(CLI::IsMember({"trajectory", "timeline", "voxels", "stock", "residue", "report"}))
+      ->check(CLI::IsMember(artifact_names))
       ->capture_default_str();
+}
+
+void add_link(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<LinkOptions>();
+  CLI::App& command =
+      add_command(app, invocation, "link",
+                  "Print a URL at which whoever has it can read a result for five minutes: for players, "
+                  "viewers and plain downloads, which send no token",
+                  [&invocation, options] { return run_link(invocation.server, *options); });
+  command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
+  command.add_option("--artifact", options->artifact, "As of fetch")
+      ->check(CLI::IsMember(artifact_names))
+      ->capture_default_str();
+  command.add_option("--format", options->format, "As of fetch")->check(CLI::IsMember(format_names));
+  command.add_flag("--json", options->json, "Print {job, artifact, path, url, expires_at} as one JSON document");
 }
 
 }  // namespace sculpt::cli

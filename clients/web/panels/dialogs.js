@@ -5,8 +5,8 @@ import {keep_token, token} from '../wire/token.js';
 
 const KEYS = [
   ['space', 'play or pause'], ['\u2190 \u2192', 'a row back or on'], ['shift \u2190 \u2192', '1 % back or on'], ['Home End', 'start, end'], ['L', 'follow a plan that is made'],
-  ['1 to 5', 'cell, stock, front, right, top'], ['R', 'hide or show the robot'], ['C', 'next colouring of the stock'], ['N', 'new job'], ['/', 'filter the queue'],
-  ['J K', 'next, previous job'], ['P', 'save a picture'], ['?', 'this'], ['Esc', 'close'],
+  ['A B', 'the loop begins, ends here'], ['1 to 5', 'cell, stock, front, right, top'], ['R', 'hide or show the robot'], ['W', 'the way of the tool around now'], ['C', 'next colouring of the stock'], ['N', 'new job'], ['/', 'filter the queue'],
+  ['J K', 'next, previous job'], ['P', 'save a picture'], ['F', 'film it, or end the film'], ['?', 'this'], ['Esc', 'close'],
 ];
 
 /** @param {string} sentence what the server said */

@@ -4,7 +4,7 @@ import {by_id, make} from '../dom.js';
 
 const LOOK_NAMES = {plain: 'raw and cut', time: 'when it was cut', side: 'direction of the face', classes: 'excess, target, residue'};
 /** Of the page's link. */
-export const FIRST = {look: 'plain', smooth: true, robot: 'collision', opacity: 1, axis: '', cut_at: 0.5, floor: true, box: true};
+export const FIRST = {look: 'plain', smooth: true, robot: 'collision', opacity: 1, axis: '', cut_at: 0.5, floor: true, box: true, path: false};
 
 /**
  * @param {typeof FIRST} layers
@@ -29,6 +29,7 @@ export function show_layers(layers, on_change) {
     make('h3', {}, 'Robot'),
     choice('Links', 'robot', {collision: 'collision shapes', visual: 'visual shapes', none: 'hidden'}),
     range('Opacity', 'opacity', 0.1),
+    tick('Way of the tool around now (orange: cuts)', 'path'),
     make('h3', {}, 'Room'),
     tick('Floor grid', 'floor'),
     tick('Edges of the grid of voxels', 'box'),

@@ -1,6 +1,7 @@
-// Removed volume over the plan, and the joints around the playhead.
+// Removed volume over the plan, and the joints around the playhead: where they are and how fast they would have to go.
 
-import {by_id, count, make} from '../dom.js';
+import {by_id, count, duration, make} from '../dom.js';
+import {speed_shares} from '../plan/speeds.js';
 import {uPlot} from '../vendor/libraries.js';
 
 const POINTS = 600;
@@ -13,13 +14,17 @@ export class Plots {
     this.volume_box = make('div');
     this.joints_box = make('div');
     this.note = make('p', {class: 'hint'});
-    this.panel.replaceChildren(make('h3', {}, 'Removed'), this.volume_box, make('h3', {}, 'Joints around now'), this.joints_box, this.note);
+    this.speeds_box = make('div');
+    this.speeds_note = make('p', {class: 'hint'});
+    this.panel.replaceChildren(make('h3', {}, 'Removed'), this.volume_box, make('h3', {}, 'Joints around now'), this.joints_box, this.note,
+      make('h3', {}, 'Speeds around now'), this.speeds_box, this.speeds_note);
   }
 
   clear() {
     this.volume_box.replaceChildren();
     this.joints_box.replaceChildren();
-    this.note.textContent = '';
+    this.speeds_box.replaceChildren();
+    this.note.textContent = this.speeds_note.textContent = '';
   }
 
   get hidden() {
@@ -52,6 +57,27 @@ export class Plots {
     const columns = segment.columns.map((column, joint) => x.map((_, at) => share(column[at * step], limits[joint])));
     this.#draw(this.joints_box, [x, ...columns], names.map((label, at) => ({label, stroke: COLOURS[at % COLOURS.length]})), [0, 100]);
     this.note.textContent = `Each joint from its lower (0 %) to its upper limit (100 %), keyframes ${count(x[0])} to ${count(segment.first + length)}.`;
+  }
+
+  /**
+   * A plan has no times yet: each motion is taken as fast as its joints allow.
+   * @param {{first: number, columns: Float64Array[]}} segment
+   * @param {string[]} names
+   * @param {({velocity: number} | null)[]} limits
+   */
+  show_speeds(segment, names, limits) {
+    if (this.hidden) return;
+    const found = speed_shares(segment.columns, limits.map((limit) => limit?.velocity ?? 0), POINTS);
+    if (!found) {
+      this.speeds_box.replaceChildren();
+      this.speeds_note.textContent = 'The robot\u2019s description (URDF) gives no greatest speed of each joint: limit velocity.';
+      return;
+    }
+    const x = found.at.map((at) => segment.first + at + 1);
+    this.#draw(this.speeds_box, [x, ...found.shares], names.map((label, at) => ({label, stroke: COLOURS[at % COLOURS.length]})), [0, 100]);
+    const slowest = names.map((name, at) => ({name, share: found.slowest[at]})).filter(({share}) => share >= 0.005).sort((a, b) => b.share - a.share);
+    this.speeds_note.textContent = `Each motion as fast as its joints\u2019 greatest speeds (100 %) allow: these keyframes then take ${duration(found.seconds)}, at least. `
+      + `What limits them: ${slowest.map(({name, share}) => `${name} ${Math.round(100 * share)} %`).join(', ')} of that time.`;
   }
 
   #draw(box, data, series, range) {

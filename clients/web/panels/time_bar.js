@@ -4,7 +4,7 @@ import {by_id, count, percent} from '../dom.js';
 
 const MOVE = '#b9a06a', CUT = ['#5b88b5', '#3f6f9f', '#6f9a86', '#4b8069', '#8a79ad', '#6c5a94'];
 
-/** Events: `moved` with the place in keyframes. */
+/** Events: `moved` with the place in keyframes, `stopped` when playing ended, by itself or not. */
 export class TimeBar extends EventTarget {
   constructor() {
     super();
@@ -12,6 +12,8 @@ export class TimeBar extends EventTarget {
     this.live = false;
     this.growing = false;
     this.playing = false;
+    /** asks for the next picture's time: a headset has a clock of its own */
+    this.next_frame = (/** @type {FrameRequestCallback} */ draw) => requestAnimationFrame(draw);
     this.clear();
     const slider = by_id('playhead');
     slider.addEventListener('input', () => this.#by_hand(Number(slider.value)));
@@ -24,6 +26,8 @@ export class TimeBar extends EventTarget {
     by_id('row-on').addEventListener('click', () => this.step_row(1));
     by_id('play').addEventListener('click', () => this.toggle_play());
     by_id('live').addEventListener('click', () => this.set_live(!this.live));
+    by_id('mark-a').addEventListener('click', () => this.mark('a'));
+    by_id('mark-b').addEventListener('click', () => this.mark('b'));
     new ResizeObserver(() => this.#draw_strip()).observe(by_id('strip'));
   }
 
@@ -33,8 +37,34 @@ export class TimeBar extends EventTarget {
     this.keyframes = 0;
     this.at = 0;
     this.remove = 0;
+    /** @type {{a: number | null, b: number | null}} keyframes between which a loop plays */
+    this.marks = {a: null, b: null};
     this.stop();
     this.#show();
+    this.#show_marks();
+  }
+
+  /** Begin or end of what is played: here, or where it is here already, as if it was never set. @param {'a' | 'b'} name */
+  mark(name) {
+    this.marks[name] = this.marks[name] === this.at ? null : this.at;
+    const {a, b} = this.marks;
+    if (a !== null && b !== null && a >= b) this.marks[name === 'a' ? 'b' : 'a'] = null;
+    if (this.marks.a !== null || this.marks.b !== null) by_id('loop').checked = true;
+    this.#show_marks();
+  }
+
+  /** @returns {[number, number]} keyframes that are played, from and to */
+  get span() {
+    return [this.marks.a ?? 0, this.marks.b ?? this.keyframes];
+  }
+
+  #show_marks() {
+    for (const name of ['a', 'b']) {
+      const at = this.marks[name];
+      by_id(`mark-${name}`).setAttribute('aria-pressed', String(at !== null));
+      by_id(`mark-${name}`).title = at === null ? `The loop ${name === 'a' ? 'begins' : 'ends'} here (${name.toUpperCase()})` : `Keyframe ${count(at)}; again there: take it away`;
+    }
+    this.#draw_strip();
   }
 
   /** @param {{removed: Uint32Array, kinds: Uint8Array, keyframes: number}} grown */
@@ -110,27 +140,35 @@ export class TimeBar extends EventTarget {
 
   toggle_play() {
     if (this.playing) return this.stop();
+    this.play(by_id('loop').checked);
+  }
+
+  /** From here, or from the beginning where this is the end; `loop`: again and again. @param {boolean} loop */
+  play(loop) {
     this.set_live(false);
-    if (this.at >= this.keyframes) this.#go(0);
+    const [from, to] = this.span;
+    if (this.at >= to || (loop && this.at < from)) this.#go(from);
     this.playing = true;
-    let last = performance.now();
-    const frame = (now) => {
+    let last = /** @type {number | null} */ (null);
+    const frame = (/** @type {number} */ now) => {
       if (!this.playing) return;
-      const pace = this.keyframes / Number(by_id('speed').value);
-      let at = this.at + (pace * (now - last)) / 1000;
+      const pace = this.keyframes / Number(by_id('speed').value), [begin, end] = this.span;
+      let at = Math.min(end, this.at + (pace * (now - (last ?? now))) / 1000);
       last = now;
-      if (at >= this.keyframes && by_id('loop').checked) at = 0;
+      if (at >= end && loop) at = begin;
       this.#go(at);
-      if (at >= this.keyframes && !this.growing) return this.stop();
-      requestAnimationFrame(frame);
+      if (at >= end && !this.growing) return this.stop();
+      this.next_frame(frame);
     };
-    requestAnimationFrame(frame);
+    this.next_frame(frame);
     this.#show_play();
   }
 
   stop() {
+    const was_playing = this.playing;
     this.playing = false;
     this.#show_play();
+    if (was_playing) this.dispatchEvent(new CustomEvent('stopped'));
   }
 
   #by_hand(at) {
@@ -173,5 +211,9 @@ export class TimeBar extends EventTarget {
       pen.fillStyle = this.keyframes === 0 ? '#8884' : kind === 0 ? MOVE : CUT[kind - 1];
       pen.fillRect(x, 0, 1, canvas.height);
     }
+    pen.fillStyle = '#000a';
+    const [from, to] = this.span.map((at) => (width * at) / Math.max(1, this.keyframes));
+    if (this.marks.a !== null) pen.fillRect(0, 0, from, canvas.height);
+    if (this.marks.b !== null) pen.fillRect(to, 0, width, canvas.height);
   }
 }

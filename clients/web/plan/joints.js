@@ -69,6 +69,13 @@ export class Joints {
     return {first: index[number].first, columns: await this.#segment(number, index)};
   }
 
+  /** @param {number} from @param {number} to keyframes @returns {Promise<number[][]>} the joints at each, both ends included */
+  async between(from, to) {
+    const values = [];
+    for (let at = from; at <= to; ++at) values.push(await this.at(at));
+    return values;
+  }
+
   async #of_keyframe(keyframe) {
     const {first, columns} = await this.around(keyframe);
     return columns.map((column) => column[Math.min(column.length - 1, keyframe - first)]);

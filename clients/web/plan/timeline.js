@@ -28,6 +28,8 @@ class Growing {
   }
 }
 
+/** @typedef {(first: number, last: number, from: number, to: number) => void} OnCut cells in a row that go, one after the other, when `from` to `to` voxels are cut */
+
 /**
  * The decoded part. Cells are voxels, or where there are more than FINEST along an edge, blocks of them: a block goes with its last voxel.
  * `order[cell]`: 0 = nothing was there, else it stands until so many voxels are cut, NEVER = as long as is known.
@@ -46,7 +48,7 @@ export class Timeline {
     this.kinds = new Growing(Uint8Array);
     this.ordinal = 0;
     this.filled = 0;
-    this.last = {at: [0, 0, 0], direction: 0, length: 1};
+    this.last = {x: 0, y: 0, z: 0, direction: 0, length: 1};
   }
 
   get keyframes() {
@@ -58,7 +60,7 @@ export class Timeline {
 
   /**
    * @param {Uint8Array} bytes the next ones
-   * @param {(cell: number, ordinal: number) => void} on_cut a cell that goes when so many voxels are cut
+   * @param {OnCut} on_cut
    */
   add(bytes, on_cut) {
     const all = new Uint8Array(this.unread.length + bytes.length);
@@ -104,14 +106,23 @@ export class Timeline {
       this.order.fill(NEVER, this.filled, end);
       this.label.fill(label, this.filled, end);
     } else if (label !== AIR) {
-      for (let at = this.filled; at < end; ++at) {
-        const cell = this.cell(at % this.n, Math.floor(at / this.n) % this.n, Math.floor(at / (this.n * this.n)));
-        this.order[cell] = NEVER;
-        ++this.left[cell];
-        if (this.label[cell] !== KEEP) this.label[cell] = label;
-      }
+      this.#fill_blocks(label, end);
     }
     this.filled = end;
+  }
+
+  /** From what is filled to there, a block's part of a row at a time. @param {number} label @param {number} end */
+  #fill_blocks(label, end) {
+    const {n, block, order, label: labels} = this, left = /** @type {Uint16Array} */ (this.left);
+    for (let at = this.filled; at < end;) {
+      const x = at % n, row = (at - x) / n, stop = Math.min(end, at - x + n);
+      let cell = this.cell(x, row % n, Math.floor(row / n)), taken = Math.min(stop - at, block - (x % block));
+      for (; at < stop; at += taken, taken = Math.min(stop - at, block), ++cell) {
+        order[cell] = NEVER;
+        left[cell] += taken;
+        if (labels[cell] !== KEEP) labels[cell] = label;
+      }
+    }
   }
 
   /** @param {number} i @param {number} j @param {number} k of a voxel @returns {number} */
@@ -121,15 +132,14 @@ export class Timeline {
     return Math.floor(i / block) + edge * (Math.floor(j / block) + edge * Math.floor(k / block));
   }
 
-  /** @param {Varints} numbers @param {(cell: number, ordinal: number) => void} on_cut */
+  /** @param {Varints} numbers @param {OnCut} on_cut */
   #read_tokens(numbers, on_cut) {
     const {last, removed, kinds} = this;
     for (;;) {
       const begin = numbers.at, token = numbers.next();
       if (token < 0) return;
       if (kinds.length % SEGMENT === 0) {
-        last.at = [0, 0, 0];
-        last.direction = 0;
+        last.x = last.y = last.z = last.direction = 0;
         last.length = 1;
       }
       if (token === 0) {
@@ -137,44 +147,76 @@ export class Timeline {
         removed.push(this.ordinal);
         continue;
       }
-      let start = last.direction, {direction, length} = last;
+      let start = last.direction, {direction, length} = last, x = 0, y = 0, z = 0;  // from the last cut's end
       if (token > 1) {
         start = (token - 2) % 7;
         const rest = (token - 2 - start) / 7;
         direction = rest % 6;
         length = (rest - direction) / 6 + 1;
       }
-      const at = [...last.at];
       if (start < 6) {
-        at[start >> 1] += start & 1 ? 1 : -1;
+        const step = start & 1 ? 1 : -1;
+        if (start < 2) x = step;
+        else if (start < 4) y = step;
+        else z = step;
       } else {
-        for (let axis = 0; axis < 3; ++axis) {
-          const gap = numbers.next();
-          if (gap < 0) {
-            numbers.at = begin;
-            return;
-          }
-          at[axis] += signed(gap);
+        const [a, b, c] = [numbers.next(), numbers.next(), numbers.next()];
+        if (c < 0) {  // it does not end yet
+          numbers.at = begin;
+          return;
         }
+        x = signed(a);
+        y = signed(b);
+        z = signed(c);
       }
+      last.x += x;
+      last.y += y;
+      last.z += z;
       const before = kinds.length ? kinds.values[kinds.length - 1] & 7 : 0;
       kinds.push((1 + direction) | (before === 1 + direction && start === direction ? 0 : 8));
-      this.#cut(at, direction, length, on_cut);
+      last.direction = direction;
+      last.length = length;
+      if (this.left) this.#cut_blocks(on_cut);
+      else this.#cut_cells(on_cut);
       removed.push(this.ordinal);
-      Object.assign(last, {at, direction, length});
     }
   }
 
-  /** Cuts a run; `at` becomes its last voxel. */
-  #cut(at, direction, length, on_cut) {
-    const axis = direction >> 1, step = direction & 1 ? 1 : -1;
-    for (let m = 0; m < length; ++m) {
-      if (m > 0) at[axis] += step;
-      const cell = this.cell(at[0], at[1], at[2]);
-      ++this.ordinal;
-      if (this.left && --this.left[cell] > 0) continue;
-      this.order[cell] = this.ordinal;
-      on_cut(cell, this.ordinal);
+  /** Cuts the last run; its place becomes that of its last voxel. @param {OnCut} on_cut */
+  #cut_cells(on_cut) {
+    const {last, n, order} = this, axis = last.direction >> 1, way = last.direction & 1 ? 1 : -1;
+    const step = way * (axis === 0 ? 1 : axis === 1 ? n : n * n), first = last.x + n * (last.y + n * last.z), from = this.ordinal + 1;
+    let cell = first;
+    for (let left = last.length; left > 0; --left, cell += step) order[cell] = ++this.ordinal;
+    this.#go_on(axis, way * (last.length - 1));
+    on_cut(first, cell - step, from, this.ordinal);
+  }
+
+  /** The same where cells are blocks: each goes with its last voxel. @param {OnCut} on_cut */
+  #cut_blocks(on_cut) {
+    const {last, block, edge, order} = this, left = /** @type {Uint16Array} */ (this.left), axis = last.direction >> 1, up = last.direction & 1;
+    const step = (up ? 1 : -1) * (axis === 0 ? 1 : axis === 1 ? edge : edge * edge), place = (axis === 0 ? last.x : axis === 1 ? last.y : last.z) % block;
+    let cell = this.cell(last.x, last.y, last.z), taken = up ? block - place : place + 1;  // voxels of the run in its first block
+    let first = -1, from = 0, final = 0;
+    for (let rest = last.length; rest > 0; rest -= taken, taken = block, cell += step) {
+      if (taken > rest) taken = rest;
+      this.ordinal += taken;
+      if ((left[cell] -= taken) > 0) continue;
+      order[cell] = this.ordinal;
+      if (first < 0) {
+        first = cell;
+        from = this.ordinal;
+      }
+      final = cell;
     }
+    this.#go_on(axis, (up ? 1 : -1) * (last.length - 1));
+    if (first >= 0) on_cut(first, final, from, this.ordinal);
+  }
+
+  /** @param {number} axis @param {number} steps */
+  #go_on(axis, steps) {
+    if (axis === 0) this.last.x += steps;
+    else if (axis === 1) this.last.y += steps;
+    else this.last.z += steps;
   }
 }

@@ -1,8 +1,8 @@
-// Which chunks of the grid look different at two moments: a bit for each chunk and each of 1024 stretches of the plan.
+// Which chunks of the grid look different at two moments: a bit for each chunk and each of 4096 stretches of the plan.
 
 import {CHUNK} from './faces.js';
 
-const STRETCHES = 1024, WORDS = STRETCHES / 32;
+const STRETCHES = 4096, WORDS = STRETCHES / 32;
 const REACH = 2;  // a cut changes the normals of cells as far away
 
 export class Chunks {
@@ -22,20 +22,22 @@ export class Chunks {
     return [CHUNK * (chunk % across), CHUNK * (Math.floor(chunk / across) % across), CHUNK * Math.floor(chunk / (across * across))];
   }
 
-  /** @param {number} cell @param {number} ordinal */
-  add(cell, ordinal) {
-    const {edge, across, row_bits} = this;  // an edge is a power of two
-    const x = cell & (edge - 1), y = (cell >>> row_bits) & (edge - 1), z = cell >>> (2 * row_bits);
-    const stretch = this.#stretch(ordinal), word = stretch >> 5, bit = 1 << (stretch & 31);
-    if ((x + REACH) >> 5 === (x - REACH) >> 5 && (y + REACH) >> 5 === (y - REACH) >> 5 && (z + REACH) >> 5 === (z - REACH) >> 5) {
-      this.bits[((x >> 5) + across * ((y >> 5) + across * (z >> 5))) * WORDS + word] |= bit;
-      return;
+  /**
+   * Cells in a row along an axis that go one after the other, from and to these counts of voxels.
+   * @param {number} first @param {number} last @param {number} from @param {number} to
+   */
+  add(first, last, from, to) {
+    const {edge, row_bits, across, bits} = this, top = across - 1, low = Math.min(first, last), high = Math.max(first, last);  // an edge is a power of two
+    const end = this.#stretch(to);
+    const a0 = Math.max(0, ((low & (edge - 1)) - REACH) >> 5), a1 = Math.min(top, ((high & (edge - 1)) + REACH) >> 5);
+    const b0 = Math.max(0, (((low >>> row_bits) & (edge - 1)) - REACH) >> 5), b1 = Math.min(top, (((high >>> row_bits) & (edge - 1)) + REACH) >> 5);
+    const c0 = Math.max(0, ((low >>> (2 * row_bits)) - REACH) >> 5), c1 = Math.min(top, ((high >>> (2 * row_bits)) + REACH) >> 5);
+    for (let stretch = this.#stretch(from); stretch <= end; ++stretch) {
+      const word = stretch >> 5, bit = 1 << (stretch & 31);
+      for (let c = c0; c <= c1; ++c)
+        for (let b = b0; b <= b1; ++b)
+          for (let a = a0; a <= a1; ++a) bits[(a + across * (b + across * c)) * WORDS + word] |= bit;
     }
-    const last = across - 1;
-    const to = (value) => Math.min(last, (value + REACH) >> 5), from = (value) => Math.max(0, (value - REACH) >> 5);
-    for (let c = from(z), c_end = to(z); c <= c_end; ++c)
-      for (let b = from(y), b_end = to(y); b <= b_end; ++b)
-        for (let a = from(x), a_end = to(x); a <= a_end; ++a) this.bits[(a + across * (b + across * c)) * WORDS + word] |= bit;
   }
 
   /** @param {number} before @param {number} after voxels cut @returns {number[]} */

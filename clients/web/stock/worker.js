@@ -1,5 +1,6 @@
 // Beside the page: decodes the timeline and makes the faces of what stands. One message in, at most one out.
 
+import {outline} from '../export/outline.js';
 import {NEVER, Timeline} from '../plan/timeline.js';
 import {Chunks} from './chunks.js';
 import {Standing} from './faces.js';
@@ -12,6 +13,7 @@ let chunks = null;
 let standing = null;
 /** @type {import('./faces.js').Moment} */
 let moment = {removed: 0, final: false, chosen: null};
+/** @type {[number, number, number, number][]} of the piece in which the grid became known */
 let cuts_before = [];
 let told = 0;
 
@@ -26,12 +28,12 @@ const on = {
 
   add({generation, bytes}) {
     const began = timeline.started;
-    timeline.add(bytes, (cell, ordinal) => (chunks ? chunks.add(cell, ordinal) : cuts_before.push(cell, ordinal)));
+    timeline.add(bytes, (first, last, from, to) => (chunks ? chunks.add(first, last, from, to) : cuts_before.push([first, last, from, to])));
     if (!timeline.started) return postMessage({kind: 'grown', generation, head: null, keyframes: 0, removed: new Uint32Array(0), kinds: new Uint8Array(0)});
     if (!chunks) {
       chunks = new Chunks(timeline.edge, timeline.voxels.remove);
       standing = new Standing(timeline);
-      for (let at = 0; at < cuts_before.length; at += 2) chunks.add(cuts_before[at], cuts_before[at + 1]);
+      for (const [first, last, from_cut, to_cut] of cuts_before) chunks.add(first, last, from_cut, to_cut);
       cuts_before = [];
     }
     const from = told;
@@ -46,11 +48,17 @@ const on = {
   /** The moment, or with `all` everything anew: another picture of the same moment. */
   show({generation, removed, final, chosen, all}) {
     if (!chunks) return postMessage({kind: 'faces', generation, removed, chunks: []});
-    const wanted = all ? [...Array(chunks.count).keys()] : chunks.between(moment.removed, removed);
+    const begin = performance.now(), wanted = all ? [...Array(chunks.count).keys()] : chunks.between(moment.removed, removed);
     moment = {removed, final, chosen: chosen && new Set(chosen.map(([i, j, k]) => timeline.cell(i, j, k)))};
     for (const chunk of wanted) standing.update(chunks.corner(chunk), removed);
     const made = wanted.map((chunk) => ({chunk, faces: standing.faces(chunks.corner(chunk), moment)}));
-    postMessage({kind: 'faces', generation, removed, chunks: made}, made.map(({faces}) => faces.buffer));
+    postMessage({kind: 'faces', generation, removed, final, chunks: made, made_ms: performance.now() - begin}, made.map(({faces}) => faces.buffer));
+  },
+
+  /** What stands at a moment, as rectangles. */
+  outline({generation, ticket, moment: {removed, final, what}}) {
+    const body = timeline.started ? outline(timeline, {removed, final, what}) : null;
+    postMessage({kind: 'outlined', generation, ticket, body}, body ? body.kinds.flatMap(({corners, sides}) => [corners.buffer, sides.buffer]) : []);
   },
 
   /** What a ray in cells hits first. */

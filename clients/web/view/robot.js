@@ -1,6 +1,6 @@
 // The cell of a job as objects: its URDF with collision and visual shapes, the tool in its holder, and the frame of the stock.
 
-import {CylinderGeometry, Group, Mesh, MeshLambertMaterial, OBJLoader, STLLoader, SphereGeometry, URDFLoader} from '../vendor/libraries.js';
+import {CylinderGeometry, Group, Mesh, MeshLambertMaterial, OBJLoader, STLLoader, SphereGeometry, URDFLoader, Vector3} from '../vendor/libraries.js';
 import {get} from '../wire/token.js';
 
 const BODY = '#c3cbd3', ROOM = '#77828d', TOOL = '#e0b04a', HOLDER = '#59636e';
@@ -17,6 +17,7 @@ export class Robot {
     this.stock_frame = new Group();
     this.root.add(this.stock_frame);
     this.tool = new Group();
+    this.stickout_m = 0;
     /** @type {string[]} what could not be drawn, as sentences */
     this.missing = [];
     /** @type {any} the cell file */
@@ -106,6 +107,7 @@ export class Robot {
   /** @param {{ball_radius_m: number, shank_radius_m: number, stickout_m: number}} tool of the trajectory's header */
   set_tool(tool) {
     this.tool.clear();
+    this.stickout_m = tool.stickout_m;
     const ball = new Mesh(new SphereGeometry(tool.ball_radius_m, 24, 16), material(TOOL));
     ball.position.z = tool.stickout_m;
     this.tool.add(ball);
@@ -120,6 +122,24 @@ export class Robot {
   /** @param {Iterable<[string, number]>} values rad or m by joint */
   move(values) {
     for (const [joint, value] of values) this.urdf.joints[joint]?.setJointValue(value);
+  }
+
+  /**
+   * @param {string[]} joints
+   * @param {number[][]} postures rad or m, one value a joint
+   * @returns {any[]} the ball's centre at each as a Vector3, in the stock's frame (m); the robot stands as before
+   */
+  balls(joints, postures) {
+    const before = joints.map((joint) => this.urdf.joints[joint]?.angle ?? 0), name = (values) => joints.map((joint, at) => /** @type {[string, number]} */ ([joint, values[at]]));
+    const places = postures.map((values) => {
+      this.move(name(values));
+      this.tool.updateWorldMatrix(true, false);
+      this.stock_frame.updateWorldMatrix(true, false);
+      const ball = new Vector3(0, 0, this.stickout_m).applyMatrix4(this.tool.matrixWorld);
+      return this.stock_frame.worldToLocal(ball);
+    });
+    this.move(name(before));
+    return places;
   }
 
   /** @param {string} joint @returns {{lower: number, upper: number, velocity: number} | null} */

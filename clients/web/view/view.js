@@ -46,7 +46,7 @@ export class View extends EventTarget {
   }
 
   #listen() {
-    new ResizeObserver(() => this.#resize()).observe(this.canvas.parentElement);
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       this.#tell('lost');
@@ -145,9 +145,9 @@ export class View extends EventTarget {
     return x || y || z ? [x, y, z, w] : null;
   }
 
-  /** Draws soon; many calls, one picture. */
+  /** Draws soon; many calls, one picture. In a headset each frame is drawn anyway. */
   draw() {
-    if (this.waiting) return;
+    if (this.waiting || this.renderer.xr.isPresenting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
@@ -164,18 +164,33 @@ export class View extends EventTarget {
 
   // What the shader needs to draw the cut itself: the eye, in cells.
   #aim_section() {
+    const {xr} = this.renderer, camera = xr.isPresenting ? xr.getCamera() : this.camera;
     this.scene.updateMatrixWorld();
-    this.camera.updateMatrixWorld();
-    this.material.uniforms.eye.value.setFromMatrixPosition(this.camera.matrixWorld).applyMatrix4(this.stock.matrixWorld.clone().invert());
+    camera.updateMatrixWorld();
+    this.material.uniforms.eye.value.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(this.stock.matrixWorld.clone().invert());
   }
 
-  #resize() {
+  /** To the place that the picture has on the page; not while a headset has the picture. */
+  resize() {
+    if (this.renderer.xr.isPresenting) return;
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.draw_now();
+  }
+
+  /** @returns {any} all that stands in the room: the cell, or without one the stock */
+  get body() {
+    return this.robot?.root ?? this.grid_frame;
+  }
+
+  /** @returns {Vector3} the middle of the grid's lowest side, in the frame of `body`'s parent */
+  stock_foot() {
+    this.scene.updateMatrixWorld();
+    const foot = new Vector3(this.edge / 2, this.edge / 2, 0).applyMatrix4(this.grid_frame.matrixWorld);
+    return this.body.parent.worldToLocal(foot);
   }
 
   #stock_centre() {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/trajectory/binary/token_reader.hpp"
 #include "core/trajectory/binary/varint.hpp"
 #include "core/trajectory/number_text.hpp"
 #include "core/trajectory/quantum.hpp"
@@ -93,98 +94,26 @@ std::int64_t quanta_of(double value) {
                                              "trajectory as .ndjson, or round it and verify it again");
 }
 
-class Decoder {
- public:
-  Decoder(std::string_view body, const TrajectoryHeader& header, const std::string& where)
-      : rest_(body), header_(header), where_(where) {}
-
-  void read_tokens(std::vector<Keyframe>& keyframes) {
-    for (Keyframe& keyframe : keyframes) read_token(keyframe);
-  }
-
-  void read_column(std::vector<Keyframe>& keyframes, Eigen::Index joint) {
-    const int order = byte();
-    if (order > max_order) refuse("a joint's order of differences is " + std::to_string(order));
-    std::array<std::uint64_t, max_order> before{};  // unsigned: sums may wrap, what counts is checked
-    std::uint64_t zeros = 0;
-    for (Keyframe& keyframe : keyframes) {
-      std::uint64_t value = 0;
-      if (zeros > 0) {
-        --zeros;
-      } else {
-        value = static_cast<std::uint64_t>(unzigzag(varint()));
-        if (value == 0) zeros = varint();
-      }
-      for (int level = order; level-- > 0;) value = before[static_cast<std::size_t>(level)] += value;
-      const auto quanta = static_cast<std::int64_t>(value);
-      if (quanta > max_quanta || quanta < -max_quanta) refuse("a joint value is out of range");
-      keyframe.q[joint] = from_quanta(quanta);
-    }
-    if (zeros > 0) refuse("a run of zeros is longer than the segment");
-  }
-
-  void end() const {
-    if (!rest_.empty()) refuse("there is more than its keyframes need");
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError("trajectory_invalid", where_ + ": " + what + "; fetch or plan the trajectory again");
-  }
-
-  std::uint8_t byte() {
-    if (rest_.empty()) refuse("the segment is too short for its keyframes");
-    const auto value = static_cast<std::uint8_t>(rest_.front());
-    rest_.remove_prefix(1);
-    return value;
-  }
-
-  std::uint64_t varint() {
+void read_column(TokenReader& bytes, std::vector<Keyframe>& keyframes, Eigen::Index joint) {
+  const int order = bytes.byte();
+  if (order > max_order) bytes.refuse("a joint's order of differences is " + std::to_string(order));
+  std::array<std::uint64_t, max_order> before{};  // unsigned: sums may wrap, what counts is checked
+  std::uint64_t zeros = 0;
+  for (Keyframe& keyframe : keyframes) {
     std::uint64_t value = 0;
-    for (int shift = 0;; shift += 7) {
-      const std::uint64_t part = byte();
-      if (shift == 63 && part > 1) refuse("a number has more than 64 bits");
-      value |= (part & 0x7f) << shift;
-      if (part < 0x80) return value;
+    if (zeros > 0) {
+      --zeros;
+    } else {
+      value = static_cast<std::uint64_t>(unzigzag(bytes.varint()));
+      if (value == 0) zeros = bytes.varint();
     }
+    for (int level = order; level-- > 0;) value = before[static_cast<std::size_t>(level)] += value;
+    const auto quanta = static_cast<std::int64_t>(value);
+    if (quanta > max_quanta || quanta < -max_quanta) bytes.refuse("a joint value is out of range");
+    keyframe.q[joint] = from_quanta(quanta);
   }
-
-  int offset() {
-    const std::int64_t value = unzigzag(varint());
-    if (value > header_.grid.n || value < -header_.grid.n)
-      refuse("a voxel is outside the grid of " + std::to_string(header_.grid.n));
-    return static_cast<int>(value);
-  }
-
-  void read_token(Keyframe& keyframe) {
-    std::uint64_t token = varint();
-    keyframe.cut = token != token_move;
-    if (!keyframe.cut) return;
-    std::uint64_t start = last_.direction;
-    if (token != token_again) {
-      token -= first_cut_token;
-      start = token % starts;
-      last_.direction = token / starts % directions;
-      last_.length = token / starts / directions + 1;
-      if (last_.length > static_cast<std::uint64_t>(header_.grid.n))
-        refuse("a cut of " + std::to_string(last_.length) + " voxels is longer than the grid");
-    }
-    Voxel gap;
-    if (start == start_anywhere)
-      gap = {offset(), offset(), offset()};  // braces: in this order
-    else
-      gap = face_steps[start];
-    keyframe.first = last_.end + gap;
-    keyframe.last = keyframe.first + face_steps[last_.direction] * (static_cast<int>(last_.length) - 1);
-    check_run(keyframe, header_.grid, where_);
-    last_.end = keyframe.last;
-  }
-
-  std::string_view rest_;
-  const TrajectoryHeader& header_;
-  const std::string& where_;
-  LastCut last_;
-};
+  if (zeros > 0) bytes.refuse("a run of zeros is longer than the segment");
+}
 
 }  // namespace
 
@@ -219,10 +148,10 @@ std::vector<Keyframe> decode_segment(std::string_view body, std::size_t count, c
   const auto joints = static_cast<Eigen::Index>(header.joints.size());
   std::vector<Keyframe> keyframes(count);
   for (Keyframe& keyframe : keyframes) keyframe.q.resize(joints);
-  Decoder decoder(body, header, where);
-  decoder.read_tokens(keyframes);
-  for (Eigen::Index joint = 0; joint < joints; ++joint) decoder.read_column(keyframes, joint);
-  decoder.end();
+  TokenReader bytes(body, header, where);
+  for (Keyframe& keyframe : keyframes) bytes.read_token(keyframe);
+  for (Eigen::Index joint = 0; joint < joints; ++joint) read_column(bytes, keyframes, joint);
+  if (!bytes.at_end()) bytes.refuse("there is more than its keyframes need");
   return keyframes;
 }
 

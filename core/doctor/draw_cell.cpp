@@ -1,4 +1,4 @@
-#include "core/doctor/picture/draw_cell.hpp"
+#include "core/doctor/draw_cell.hpp"
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ class CellDrawing {
     const Vec3 eye = (Vec3(1, -1, 0).normalized() + 0.6 * z).normalized();
     std::vector<Picture> panels;
     for (const auto& [right, up] : {std::pair{across, Vec3(eye.cross(across))}, {x, z}, {x, y}})
-      panels.push_back(draw_panel({right, up, box_.center(), span_m_}, height));
+      panels.push_back(draw_panel({right, up, box_.center(), span_m_, 0}, height));
     return side_by_side(panels);
   }
 

@@ -1,4 +1,4 @@
-#include "core/doctor/picture/canvas.hpp"
+#include "core/picture/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ constexpr int finer = 2;
 constexpr Colour paper{250, 250, 248};
 constexpr double nowhere = -std::numeric_limits<double>::max();
 constexpr double least_light = 0.45, line_pixels = 2.5;
-constexpr double edge_of_span = 0.012;  // a jump of depth that shows as an edge
+constexpr double edge_of_span = 0.012;
 
 Colour shade(const Colour& colour, double light) {
   Colour out;
@@ -43,13 +43,18 @@ void Canvas::set(int x, int y, double depth, const Colour& colour) {
   colours_[at] = colour;
 }
 
+double Canvas::light_on(const Facet& facet) const {
+  const Vec3 lamp = (towards_eye_ + 0.5 * view_.up - 0.35 * view_.right).normalized();
+  if (facet.normal) return std::max(0.0, facet.normal->dot(lamp));
+  const Vec3 normal = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]).normalized();
+  return std::abs(normal.dot(lamp));  // from both sides
+}
+
 void Canvas::draw(const Facet& facet) {
   const Point a = project(facet.corners[0]), b = project(facet.corners[1]), c = project(facet.corners[2]);
   const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (std::abs(area) < 1e-9) return;
-  const Vec3 normal = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]).normalized();
-  const Vec3 lamp = (towards_eye_ + 0.5 * view_.up - 0.35 * view_.right).normalized();
-  const Colour colour = shade(facet.colour, least_light + (1 - least_light) * std::abs(normal.dot(lamp)));
+  const Colour colour = shade(facet.colour, least_light + (1 - least_light) * light_on(facet));
   const int left = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))),
             right = std::min(width_ - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x})))),
             top = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))),
@@ -79,7 +84,7 @@ void Canvas::draw_line(const Vec3& from_m, const Vec3& to_m, const Colour& colou
 }
 
 bool Canvas::is_edge(int x, int y) const {
-  const double here = depths_[index(x, y)], jump = edge_of_span * view_.span_m;
+  const double here = depths_[index(x, y)], jump = std::max(view_.edge_m, edge_of_span * view_.span_m);
   return (x + 1 < width_ && std::abs(here - depths_[index(x + 1, y)]) > jump) ||
          (y + 1 < height_ && std::abs(here - depths_[index(x, y + 1)]) > jump);
 }

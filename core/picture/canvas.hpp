@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/doctor/picture/facets.hpp"
+#include "core/picture/facets.hpp"
 
 namespace sculpt {
 
@@ -19,6 +19,7 @@ struct View {
   Vec3 right, up;                ///< unit vectors, at right angles; one looks against their cross product
   Vec3 middle_m = Vec3::Zero();  ///< in the middle of the picture
   double span_m = 1;             ///< that fits into its shorter side
+  double edge_m = 0;             ///< a jump of depth that shows as an edge; at least about a hundredth of the span
 };
 
 /// Draws with twice the pixels each way and gives the mean of four. Not shared between threads.
@@ -38,6 +39,7 @@ class Canvas {
     double x, y, depth;  ///< pixels; depth grows towards the eye (m)
   };
   Point project(const Vec3& at_m) const;
+  double light_on(const Facet& facet) const;  ///< 0 to 1
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/cell/robot.hpp"
@@ -14,6 +15,7 @@ using Colour = std::array<std::uint8_t, 3>;
 struct Facet {
   std::array<Vec3, 3> corners;  ///< m
   Colour colour;
+  std::optional<Vec3> normal = {};  ///< unit vector that the light falls on as if it were the surface's
 };
 
 /// Adds the surface of a shape whose link is at `pose`; round ones as prisms of 24 sides.

@@ -5,7 +5,7 @@
 
 #include "core/cell/cell.hpp"
 #include "core/collision/near_bodies.hpp"
-#include "core/doctor/picture/canvas.hpp"
+#include "core/picture/canvas.hpp"
 
 namespace sculpt {
 

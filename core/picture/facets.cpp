@@ -1,4 +1,4 @@
-#include "core/doctor/picture/facets.hpp"
+#include "core/picture/facets.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@ class Surface {
       : pose_(pose), colour_(colour), facets_(facets) {}
 
   void triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    facets_.push_back({{pose_ * a, pose_ * b, pose_ * c}, colour_});
+    facets_.push_back({{pose_ * a, pose_ * b, pose_ * c}, colour_, {}});
   }
   void square(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     triangle(a, b, c);

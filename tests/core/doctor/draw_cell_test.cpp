@@ -1,4 +1,4 @@
-#include "core/doctor/picture/draw_cell.hpp"
+#include "core/doctor/draw_cell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,10 +38,10 @@ TEST(DrawCell, WhatBlocksIsRed) {
 TEST(DrawCell, TheNearerOfTwoFacetsIsSeen) {
   const Colour green{0, 200, 0}, blue{0, 0, 200};
   const auto square = [](double depth, const Colour& colour) {
-    return Facet{{Vec3(-3, depth, -3), Vec3(3, depth, -3), Vec3(0, depth, 3)}, colour};
+    return Facet{{Vec3(-3, depth, -3), Vec3(3, depth, -3), Vec3(0, depth, 3)}, colour, {}};
   };
   for (const bool green_first : {true, false}) {
-    Canvas canvas(20, 20, {Vec3::UnitX(), Vec3::UnitZ(), Vec3::Zero(), 1});  // seen from y < 0
+    Canvas canvas(20, 20, {Vec3::UnitX(), Vec3::UnitZ(), Vec3::Zero(), 1, 0});  // seen from y < 0
     canvas.draw(green_first ? square(-1, green) : square(1, blue));
     canvas.draw(green_first ? square(1, blue) : square(-1, green));
     const Picture picture = canvas.finish();
