@@ -42,7 +42,7 @@ class Man(ClientTest):
 
     def test_sculptd_has_the_options_that_are_no_settings(self):
         settings = {row["flag"][1:] for row in self.settings()}
-        told = self.options(os.environ["SCULPTD"]) | set().union(*(self.options(os.environ["SCULPTD"], verb) for verb in ("config", "fsck", "adopt")))
+        told = self.options(os.environ["SCULPTD"]) | set().union(*(self.options(os.environ["SCULPTD"], verb) for verb in ("config", "fsck", "adopt", "migrate")))
         self.assertLessEqual(told - settings, options_of(read("sculptd.8")))
         self.assertLessEqual(options_of(read("sculptd.8")), told)
 
