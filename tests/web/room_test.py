@@ -41,9 +41,10 @@ class InTheRoom(PageTest):
         page.until("app.take_along.room.session && document.body.classList.contains('in-room')", page.text("#export-note"))
 
     def tap(self, page):
+        """Held until a frame has seen it, however seldom frames come."""
+        page.app("(globalThis.pressed = false, app.take_along.room.session.addEventListener('selectstart', () => { globalThis.pressed = true; }, {once: true}))")
         page.run("headset.controllers.right.updateButtonValue('trigger', 1)")
-        page.until("app.view.renderer.xr.isPresenting")
-        page.run("new Promise(done => setTimeout(done, 50))")
+        page.until("globalThis.pressed", "a frame sees the trigger")
         page.run("headset.controllers.right.updateButtonValue('trigger', 0)")
         page.until("app.take_along.room.placed")
 
