@@ -163,22 +163,22 @@ Contact SceneBodies::certify_links(const Configuration& from, const Configuratio
 }
 
 /// A tool point is within an eighth of that of the straight line between where it is at both ends. How far the tool
-/// reaches is convex along the edge then, and the plane moves evenly: who is short of it at the first and the last part
-/// is always.
+/// reaches is convex along the edge then, and the plane moves evenly: who is short of it at both ends of the first part
+/// and at the end of the last is always.
 bool SceneBodies::stays_behind_rest(const ToolEdge& edge, const VoxelLine& run) const {
   const auto point = [](Voxel v) { return Vec3(v.i, v.j, v.k); };
   const int count = l1(run.first, run.last) + 1;
   const Vec3 way = point(sign(run.last - run.first));
   const double stray = edge.second_derivative / 8 + tool_margin_voxels;
-  const auto is_short = [&](int removed) {
-    const double t = static_cast<double>(removed) / count;
+  const auto is_short = [&](int gone_through, int part) {
+    const double t = static_cast<double>(gone_through) / count;
     const double ball = way.dot(edge.start.ball + t * (edge.end.ball - edge.start.ball)),
                  top = way.dot(edge.start.top + t * (edge.end.top - edge.start.top));
     const double reach =
         radii.shank > 0 ? std::max(ball + radii.ball, std::max(ball, top) + radii.shank) : ball + radii.ball;
-    return reach + stray <= way.dot(point(run.first) + Vec3::Constant(0.5)) + removed - 0.5;
+    return reach + stray <= way.dot(point(run.first) + Vec3::Constant(0.5)) + part - 0.5;
   };
-  return is_short(1) && is_short(count);
+  return is_short(0, 1) && is_short(1, 1) && is_short(count, count);
 }
 
 /// Bound on the second derivative of any tool point along from + t step. The mixed derivative by two joints is a
