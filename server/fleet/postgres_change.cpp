@@ -1,5 +1,7 @@
 #include "server/fleet/postgres_change.hpp"
 
+#include <utility>
+
 #include "server/base/crash_point.hpp"
 #include "server/fleet/fleet_schema.hpp"
 
