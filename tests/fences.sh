@@ -39,7 +39,7 @@ forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision)/')" --
 forbid "planners know keyframes, not how a file of them is read or written" \
   "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
-forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_field')" "$(door 'cell/cell_file\.cpp')" -- core server clients
+forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/cell_(file|motion)\.[ch]pp')" -- core server clients
 forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|doctor|place|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
