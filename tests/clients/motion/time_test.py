@@ -1,5 +1,6 @@
-"""sculpt time: how long a plan takes on its robot."""
+"""sculpt time and sample: how long a plan takes on its robot, and where the joints are when."""
 
+import csv
 import json
 import pathlib
 import unittest
@@ -36,6 +37,40 @@ class Time(ClientTest):
         text = (pathlib.Path(self.scratch) / "bust.ndjson").read_text().splitlines(keepends=True)
         (pathlib.Path(self.scratch) / "cut.ndjson").write_text("".join(text[:-1]))
         self.refused(4, "trajectory_invalid", "time", "cut.ndjson", "--feed", 0.1)
+
+
+class Sample(ClientTest):
+    """Where the joints are at fixed times."""
+
+    def rows(self, *options):
+        self.fine("sample", "bust.sct", "--feed", 0.1, *options, "-o", "samples.csv")
+        with open(pathlib.Path(self.scratch) / "samples.csv") as table:
+            return list(csv.DictReader(table))
+
+    def test_samples_begin_and_end_at_rest_and_are_those_of_any_window(self):
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "panda-turntable", "-o", "bust.sct")
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "panda-turntable", "-o", "bust.ndjson")
+        plan = [json.loads(line) for line in (pathlib.Path(self.scratch) / "bust.ndjson").read_text().splitlines()]
+        joints = plan[0]["joints"]
+        all_of_it = self.rows("--rate", 100)
+        self.assertEqual(list(all_of_it[0]), ["t", *joints, *(joint + "_velocity" for joint in joints)])
+        for row, q in ((all_of_it[0], plan[0]["home"]), (all_of_it[-1], plan[-2]["q"])):
+            for joint, value in zip(joints, q):
+                self.assertAlmostEqual(float(row[joint]), value, places=8)
+                self.assertEqual(float(row[joint + "_velocity"]), 0)
+        total = json.loads(self.fine("time", "bust.sct", "--feed", 0.1, "--json"))["time"]["total_s"]
+        self.assertAlmostEqual(float(all_of_it[-1]["t"]), total, delta=0.011)
+        for row, after in zip(all_of_it, all_of_it[1:]):
+            for joint in joints:
+                mean = (float(after[joint]) - float(row[joint])) * 100
+                self.assertLess(abs(mean), 2.7)
+        window = self.rows("--rate", 100, "--from", 12.5, "--to", 20)
+        self.assertEqual(window, all_of_it[1250:2001])
+
+    def test_windows_that_hold_nothing_are_refused(self):
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "gantry", "-o", "bust.sct")
+        self.refused(4, "window_empty", "sample", "bust.sct", "--feed", 0.1, "--rate", 10, "--from", 1e6, "-o", "x.csv")
+        self.refused(2, "usage", "sample", "bust.sct", "--feed", 0.1, "--rate", 0, "-o", "x.csv")
 
 
 if __name__ == "__main__":
