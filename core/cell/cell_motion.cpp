@@ -110,7 +110,8 @@ AxisMap parse_programs(const Robot& robot, const Field& field) {
     map.axes.push_back(std::move(axis));
   }
   if (map.axes.empty()) refuse(field.at("axes").pointer(), "name at least one axis");
-  if (field.has("couple"))
+  map.couple_given = field.has("couple");
+  if (map.couple_given)
     for (const Field& each : field.at("couple").elements()) map.couple.push_back(parse_coupling(map, each));
   return map;
 }

@@ -24,14 +24,6 @@ void require_positive(double value, const char* what) {
   throw InputError("feed_invalid", text.str());
 }
 
-void check(const PlanPath& path, const Chain& chain, const Cell& cell) {
-  const Grid grid = cell.grid(path.header().grid.n);
-  if (path.header().joints != chain.names() || std::abs(path.header().grid.voxel_m - grid.voxel_m) > 1e-12 ||
-      (path.header().grid.origin_m - grid.origin_m).norm() > 1e-12)
-    throw InputError("cell_mismatch", "the plan was made for cell '" + path.header().cell +
-                                          "' with other joints or another stock: name that cell with --robot");
-}
-
 struct Attempt {
   Configuration acceleration;
   double window_s;
@@ -102,11 +94,19 @@ TimeLaw law_of(const PlanPath& path, Attempt&& attempt, const MotionDemands& dem
 
 }  // namespace
 
+void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell) {
+  const Grid grid = cell.grid(path.header().grid.n);
+  if (path.header().joints != chain.names() || std::abs(path.header().grid.voxel_m - grid.voxel_m) > 1e-12 ||
+      (path.header().grid.origin_m - grid.origin_m).norm() > 1e-12)
+    throw InputError("cell_mismatch", "the plan was made for cell '" + path.header().cell +
+                                          "' with other joints or another stock: name that cell with --robot");
+}
+
 TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands) {
   require_positive(demands.feed_m_s, "feed");
   require_positive(demands.rapid_m_s, "rapid rate");
   const Chain chain = cell.chain();
-  check(path, chain, cell);
+  check_cell(path, chain, cell);
   const MotionLimits limits = limits_of(cell, chain);
   StrayBound stray(cell, chain, path.header().grid, demands.reserve_m);
   stray.look_along(path);

@@ -19,6 +19,9 @@ struct TimedPlan {
   std::vector<SlowPlace> worst;  ///< ten at most, the slowest first, none twice
 };
 
+/// Throws InputError `cell_mismatch` for a plan of another cell.
+void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell);
+
 /// The shortest law for these demands that keeps velocity, acceleration and jerk of all joints, and stays as near to
 /// the plan's edges as their certificates allow (StrayBound, corners.hpp). Of cuts one after the other along one line
 /// of the grid the first and the last voxel do not count for `keep_feed`: there the motion comes to rest or turns.

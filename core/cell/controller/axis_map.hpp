@@ -22,6 +22,7 @@ struct AxisCoupling {
 struct AxisMap {
   std::vector<ControllerAxis> axes;
   std::vector<AxisCoupling> couple;
+  bool couple_given = false;  ///< also where it says that there is none
 };
 
 }  // namespace sculpt

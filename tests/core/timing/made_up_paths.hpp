@@ -53,7 +53,7 @@ inline std::vector<Keyframe> wander(const Cell& cell, Random& random, std::size_
     Keyframe keyframe;
     keyframe.q = rounded((at + step).cwiseMax(chain.lower()).cwiseMin(chain.upper()), chain.lower(), chain.upper());
     keyframe.cut = random.next() % 2 == 0;
-    if (keyframe.cut) keyframe.first = keyframe.last = {static_cast<int>(random.next() % 16), 3, 4};
+    if (keyframe.cut) keyframe.first = keyframe.last = {static_cast<int>(random.next() % 8), 3, 4};
     step = keyframe.q - at;
     at = keyframe.q;
     keyframes.push_back(keyframe);
