@@ -15,6 +15,10 @@
 namespace sculpt {
 namespace {
 
+// Nothing but digits strays in a program that stops at every keyframe: three quarters of the tool's margin may be used,
+// and 0.94 of the links', where a time law uses 0.6 and 0.75.
+constexpr double alone = 1.25;
+
 void check_name(const std::string& name) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   const bool good = !name.empty() && name.size() <= 19 && is_letter(name[0]) && std::ranges::all_of(name, [&](char c) {
@@ -134,13 +138,17 @@ class ProgramMaker {
     const double turned = rates_.turn.dot(size), second = rates_.orders(2) * turned * rates_.travel.dot(size) / 2;
     const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates_.stickout_m).norm()) + second;
     report_.rounding_m = std::max(report_.rounding_m, tool_m);
-    if (tool_m <= stray_.tool_m() && stray_.links().dot(size) <= 1 && stray_.tool_and_links(point, false, size) <= 1)
-      return;
+    const double tool = tool_m / stray_.tool_m(), links = stray_.links().dot(size),
+                 both = stray_.tool_and_links(point, false, size, tool_m), most = std::max({tool, links, both});
+    if (most <= alone) return;
     std::ostringstream text;
     text.precision(3);
-    text << "the digits that " << facts_of(demands_.dialect).name << " has put ball or shank " << 1e6 * tool_m
-         << " um beside the plan at keyframe " << path_.edge_to(point).keyframe << ", where " << 1e6 * stray_.tool_m()
-         << " um may be strayed: plan with a coarser resolution, or take a dialect with more digits";
+    text << "the digits that " << facts_of(demands_.dialect).name << " has put "
+         << (most == tool    ? "ball or shank"
+             : most == links ? "a link"
+                             : "the tool, to a link,")
+         << ' ' << most / alone << " times as far beside the plan as its certificates leave, at keyframe "
+         << path_.edge_to(point).keyframe << ": plan with a coarser resolution, or take a dialect with more digits";
     throw InputError("rounding_too_coarse", text.str());
   }
 

@@ -50,7 +50,8 @@ StrayBound::StrayBound(const Cell& cell, const Chain& chain, const Grid& grid, d
     if (group_of(body.link) == group_of(cell.stock_link)) continue;  // to these the tool's own straying counts
     if (group_of(body.link) != group_of(cell.tool_link)) {
       Others& others = stays_below(body, home) ? below_ : beside_;
-      others.all.push_back({at, approach_speed(chain, tool, body)});
+      others.all.push_back(
+          {at, approach_speed(chain, tool, body), motion_bound(chain, cell.stock_link, body.link, body.extent_m)});
       others.most = others.most.cwiseMax(others.all.back().speed);
     }
     const double room_m = share_of_link_margin * link_margin_m - reserve_m;
@@ -140,14 +141,17 @@ bool StrayBound::is_far(const Others& others, const Configuration& low, const Co
   });
 }
 
-double StrayBound::share(const Others& others, std::size_t point, const Configuration& size) const {
-  const bool near = others.near.empty() || others.near[point / points_a_stretch];
-  return others.most.dot(size) / (near ? tool_m_ : far_m);
+double StrayBound::share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const {
+  if (!others.near.empty() && !others.near[point / points_a_stretch]) return others.most.dot(size) / far_m;
+  double most = 0;
+  for (const Others::One& other : others.all)
+    most = std::max(most, std::min(other.speed.dot(size), tool_m + other.own.dot(size)));
+  return most / tool_m_;
 }
 
-double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size) const {
-  const double beside = share(beside_, point, size);
-  return above ? beside : std::max(beside, share(below_, point, size));
+double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size, double tool_m) const {
+  const double beside = share(beside_, point, size, tool_m);
+  return above ? beside : std::max(beside, share(below_, point, size, tool_m));
 }
 
 }  // namespace sculpt

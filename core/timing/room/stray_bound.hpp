@@ -1,6 +1,7 @@
 // How far from the certified path a motion may stray: what the planners' margins leave, and what joints make of it.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -27,8 +28,10 @@ class StrayBound {
   /// Links stay where they may be if the sum of links()[j] * |d_j| is at most 1.
   const Configuration& links() const { return links_; }
   /// The same at a point of the path of the tool and the links that can move against the stock: share of what these two
-  /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom.
-  double tool_and_links(std::size_t point, bool above, const Configuration& size) const;
+  /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom. `tool_m`:
+  /// how far ball and shank are displaced in the stock's frame, where that is known.
+  double tool_and_links(std::size_t point, bool above, const Configuration& size,
+                        double tool_m = std::numeric_limits<double>::infinity()) const;
   /// Finds out where on the path the tool is far from all links that can move against the stock. To be called once.
   void look_along(const PlanPath& path);
 
@@ -40,7 +43,7 @@ class StrayBound {
   struct Others {
     struct One {
       std::size_t body;
-      Configuration speed;  ///< seen from the tool
+      Configuration speed, own;  ///< seen from the tool, and from the stock
     };
     std::vector<One> all;
     Configuration most;      ///< of their speeds
@@ -49,7 +52,7 @@ class StrayBound {
   bool stays_below(const Body& body, const Configuration& q) const;
   void look_at(const PlanPath& path, Others& others, std::size_t first, std::size_t end) const;
   bool is_far(const Others& others, const Configuration& low, const Configuration& high) const;
-  double share(const Others& others, std::size_t point, const Configuration& size) const;
+  double share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const;
 
   const Cell& cell_;
   const Chain& chain_;
