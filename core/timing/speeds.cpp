@@ -132,7 +132,7 @@ class SpeedFinder {
       if (point + 1 == path_.size()) break;
       after = edge_to(point + 1);
       if (corner.half > 0) {
-        go_through(point, parts_of(corner, before, after));
+        go_through(point, before, parts_of(corner, before, after));
       } else if (corners_.caps[point].straight) {
         corner.x_mid = corner.x_out = corner.x_in;
       } else {
@@ -141,7 +141,7 @@ class SpeedFinder {
     }
   }
 
-  void go_through(std::size_t point, const Parts& parts) {
+  void go_through(std::size_t point, const EdgeWay& before, const Parts& parts) {
     LawCorner& corner = corners_.law[point];
     const NodeCaps caps = caps_of(point);
     const double half = static_cast<double>(corner.half);
@@ -152,7 +152,7 @@ class SpeedFinder {
       account_.at_caps += half / std::sqrt(std::max(cap, least_x));
       // Held down by what is possible behind it, or by what is here?
       const bool capped = end >= 0.999 * cap;
-      take(time, capped ? cause_of_cap(point) : static_cast<std::size_t>(std::max(0, part.binding(start))));
+      take(time, capped ? cause_of_cap(point, before) : static_cast<std::size_t>(std::max(0, part.binding(start))));
     };
     step(parts.first, corner.x_in, corner.x_mid, caps.mid);
     step(parts.second, corner.x_mid, corner.x_out, caps.out);
@@ -170,7 +170,7 @@ class SpeedFinder {
     Eigen::Index joint = 0;
     edge.way.cwiseAbs().maxCoeff(&joint);
     take((2 * peak - from - to) / a, static_cast<std::size_t>(joint));
-    if (peak >= cruise) take(at_cruise / cruise, cause_of_cap(point));
+    if (peak >= cruise) take(at_cruise / cruise, cause_of_cap(point, edge));
   }
 
   static constexpr std::size_t by_feed = 1000, by_rapid = 1001, by_velocity = 2000;
@@ -181,13 +181,9 @@ class SpeedFinder {
     return static_cast<std::size_t>(joint);
   }
 
-  std::size_t cause_of_cap(std::size_t point) const {
-    const EdgeWay edge = edge_to(point);
+  std::size_t cause_of_cap(std::size_t point, const EdgeWay& edge) const {
     Eigen::Index joint = 0;
-    const double rate = edge.way.cwiseAbs()
-                            .cwiseProduct(demands_.acceleration)
-                            .cwiseQuotient(demands_.limits.velocity)
-                            .maxCoeff(&joint);
+    const double rate = edge.way.cwiseAbs().cwiseProduct(acceleration_by_velocity_).maxCoeff(&joint);
     if (rate * static_cast<double>(corners_.law[point].cruise) > 0.999)
       return by_velocity + static_cast<std::size_t>(joint);
     return path_.edge_to(point).voxels > 0 ? by_feed : by_rapid;
@@ -211,6 +207,7 @@ class SpeedFinder {
   const PlanPath& path_;
   const CornerDemands& demands_;
   Corners& corners_;
+  const Configuration acceleration_by_velocity_ = demands_.acceleration.cwiseQuotient(demands_.limits.velocity);
   TimeAccount account_;
 };
 

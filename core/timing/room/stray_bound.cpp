@@ -94,7 +94,8 @@ void StrayBound::look_along(const PlanPath& path) {
   for (Others* others : {&beside_, &below_}) {
     others->near.assign(path.size() / points_a_stretch + 1, !others->all.empty());
     if (others->all.empty()) continue;
-    look_at(path, *others, 0, others->near.size());
+    for (std::size_t at = 0; at < others->near.size(); at += stretches_a_look)
+      look_at(path, *others, at, std::min(at + stretches_a_look, others->near.size()));
     // A corner counts where its neighbours are, too.
     std::vector<bool>& near = others->near;
     const std::vector<bool> found = near;

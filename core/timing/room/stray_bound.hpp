@@ -37,7 +37,7 @@ class StrayBound {
 
  private:
   static constexpr double far_m = 1e-3;
-  static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8;
+  static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
   void add_link_pairs(const Cell& cell);
   /// Bodies that the tool must stay off.
   struct Others {
