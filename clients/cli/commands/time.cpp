@@ -71,7 +71,8 @@ int run_time(const std::string& server, const TimeOptions& options) {
   const Cell cell = read_cell_of(path, options.motion);
   TimedPlan plan = time_plan(path, cell, to_demands(options.motion));
   Json report = time_report(path, plan);
-  const LawFile law{std::move(plan.law), mark_of(path)};
+  LawFile law{std::move(plan.law), {}};
+  if (options.check || !options.output.empty()) law.plan = mark_of(path);
   if (!options.output.empty()) {
     PartFile file(options.output);
     write_law(file.stream(), law.law, law.plan);

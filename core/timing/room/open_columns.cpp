@@ -46,13 +46,21 @@ std::size_t OpenColumns::column(Voxel voxel, std::size_t direction) const {
 void OpenColumns::remove(Voxel voxel) {
   if (!is_in(voxel, n_) || !stands(voxel)) return;
   standing_[bit(voxel) / 64] &= ~(std::uint64_t{1} << bit(voxel) % 64);
-  for (std::size_t direction = 0; direction < face_steps.size(); ++direction) {
-    std::int16_t& highest = highest_[direction][column(voxel, direction)];
-    if (highest != layer_of(voxel, direction, n_)) continue;
-    Voxel below = voxel;
-    while (is_in(below, n_) && !stands(below)) below = below - face_steps[direction];
-    highest = static_cast<std::int16_t>(is_in(below, n_) ? layer_of(below, direction, n_) : -1);
-  }
+  const auto n = static_cast<std::size_t>(n_), i = static_cast<std::size_t>(voxel.i),
+             j = static_cast<std::size_t>(voxel.j), k = static_cast<std::size_t>(voxel.k);
+  const std::array<std::size_t, 3> columns{j + n * k, i + n * k, i + n * j};
+  const std::array<int, 3> layers{voxel.i, voxel.j, voxel.k};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t direction = 2 * axis + side;
+      std::int16_t& highest = highest_[direction][columns[axis]];
+      if (highest == (side == 1 ? layers[axis] : n_ - 1 - layers[axis])) highest = next_below(voxel, direction);
+    }
+}
+
+std::int16_t OpenColumns::next_below(Voxel voxel, std::size_t direction) const {
+  while (is_in(voxel, n_) && !stands(voxel)) voxel = voxel - face_steps[direction];
+  return static_cast<std::int16_t>(is_in(voxel, n_) ? layer_of(voxel, direction, n_) : -1);
 }
 
 bool OpenColumns::is_open(Voxel voxel, std::size_t direction, bool may_stand) const {

@@ -26,6 +26,8 @@ class OpenColumns {
 
  private:
   bool stands(Voxel voxel) const;
+  /// The layer of the highest that stands, from this voxel on against the direction.
+  std::int16_t next_below(Voxel voxel, std::size_t direction) const;
   std::size_t bit(Voxel voxel) const {
     const auto n = static_cast<std::size_t>(n_);
     return static_cast<std::size_t>(voxel.i) +

@@ -90,7 +90,11 @@ ToolRoom ToolRoomFinder::go_to(std::size_t point, const PathEdge& edge, const Ed
     room = in_columns(voxels, ends);
     if (!room.known && voxels == 0) room = above_all(ends);
   }
-  for (int at = 0; at < voxels; ++at) columns_.remove(path_.voxel_of(point, at));
+  if (voxels > 0) {
+    Voxel voxel = path_.voxel_of(point, 0);
+    const Voxel step = voxels > 1 ? path_.voxel_of(point, 1) - voxel : Voxel{};
+    for (int at = 0; at < voxels; ++at, voxel = voxel + step) columns_.remove(voxel);
+  }
   return room;
 }
 
