@@ -92,7 +92,7 @@ class CornerFinder {
     const double bend = (second.way - first.way).cwiseQuotient(demands_.acceleration).cwiseAbs().maxCoeff();
     const CornerCost most = cost;
     double best = -1;
-    for (const double parabola : {0.35, 0.5, most_parabola_share}) {
+    for (const double parabola : {0.1, 0.2, 0.35, 0.5, most_parabola_share}) {
       const double half = std::min(most.wanted, 4 * parabola / cost.share),
                    speed = largest_speed((1 - parabola) / cost.share, half, rise);
       // The parabola's own acceleration is |w - u| v^2 / 2 half.
