@@ -1,4 +1,5 @@
 // sculpt time: how long a plan takes on its robot, and when the joints are where.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -67,6 +68,10 @@ void print_check(const Json& check) {
 }
 
 int run_time(const std::string& server, const TimeOptions& options) {
+  std::error_code ignored;
+  if (options.check && !std::filesystem::is_regular_file(options.motion.subject, ignored))
+    throw Failure(exit_usage, "usage",
+                  "--check reads the plan twice: fetch " + options.motion.subject + " first, and name the file");
   const PlanPath path = read_path(server, options.motion);
   const Cell cell = read_cell_of(path, options.motion);
   TimedPlan plan = time_plan(path, cell, to_demands(options.motion));

@@ -24,6 +24,9 @@ class Time(ClientTest):
             self.assertLess(place["feed_m_s"], 0.05)
             self.assertIn(place["joint"], by["velocity"])
         self.assertEqual((pathlib.Path(self.scratch) / "bust.law").stat().st_size, 8 + 8 + 12 + 24 + 8 * 8 + 16 * time["keyframes"] + 64)
+        check = json.loads(self.fine("time", "bust.sct", "--feed", 0.05, "--json", "--check"))["check"]
+        self.assertTrue(check["clean"])
+        self.assertLessEqual(check["jerk"], 1)
         faster = json.loads(self.fine("time", "bust.sct", "--robot", "panda-turntable", "--feed", 0.2, "--json"))["time"]
         self.assertLess(faster["total_s"], time["total_s"])
         self.assertRegex(self.fine("time", "bust.sct", "--feed", 0.05), r"^\d+:\d\d:\d\d h ")
@@ -31,6 +34,7 @@ class Time(ClientTest):
     def test_what_cannot_be_timed_is_refused(self):
         self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "gantry", "-o", "bust.ndjson")
         self.refused(2, "usage", "time", "bust.ndjson")
+        self.assertIn("fetch", self.refused(2, "usage", "time", "some-job", "--feed", 0.1, "--check"))
         self.assertIn("above 0", self.refused(4, "feed_invalid", "time", "bust.ndjson", "--feed", 0))
         self.assertIn("--robot", self.refused(4, "cell_mismatch", "time", "bust.ndjson", "--feed", 0.1, "--robot", "panda-turntable"))
         self.assertIn("keyframe", self.refused(4, "feed_not_kept", "time", "bust.ndjson", "--feed", 0.4, "--keep-feed", 0.99))
