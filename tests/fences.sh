@@ -28,7 +28,7 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
-core_folders=(base mesh material solid cell trajectory picture collision search motion sweep doctor place verify plan)
+core_folders=(base mesh material solid cell trajectory law picture collision search motion sweep doctor place timing program verify plan)
 for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${core_folders[*]:i+1}")
   forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
@@ -38,9 +38,12 @@ forbid "collision knows no trajectory" "$(include 'core/(trajectory|picture)/')"
 forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision)/')" -- core/search
 forbid "planners know keyframes, not how a file of them is read or written" \
   "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
+forbid "time laws need no planner" "$(include 'core/(picture|search|motion|sweep|doctor|place)/')" -- core/timing
+forbid "what reads programs back shares nothing with what writes them" "$(include 'core/(program/(write|axis|make|program_move)|timing|cell)')" -- core/program/read
+forbid "what writes programs knows no reader" "$(include 'core/program/read')" -- core/program/write
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
-forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_field')" "$(door 'cell/cell_file\.cpp')" -- core server clients
-forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|doctor|place|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
+forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/cell_(file|motion)\.[ch]pp')" -- core server clients
+forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|doctor|place|timing|program|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
 server_folders=(base files store fleet confine run queue results access net events api http ops)

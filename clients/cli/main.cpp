@@ -66,6 +66,9 @@ int main(int argc, char** argv) {
   cli::add_plan(app, invocation);
   cli::add_cell(app, invocation);
   cli::add_place(app, invocation);
+  cli::add_time(app, invocation);
+  cli::add_sample(app, invocation);
+  cli::add_program(app, invocation);
   cli::add_completion(app, invocation);
   app.footer(
       "Exit codes: 0 fine, 1 the job failed or the check found something, 2 usage, 3 server unreachable, 4 refused.\n"

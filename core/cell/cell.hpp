@@ -8,6 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "core/cell/chain.hpp"
+#include "core/cell/controller/axis_map.hpp"
+#include "core/cell/controller/joint_limits.hpp"
 #include "core/cell/tool.hpp"
 #include "core/material/voxel.hpp"
 
@@ -36,6 +38,8 @@ struct Cell {
   std::vector<double> rest;            ///< value of every robot joint at home
   std::vector<LinkPair> ignore_pairs;  ///< may touch, whatever is found out about them; sorted, none twice
   std::vector<LinkPair> check_pairs;   ///< must not touch, whatever is found out about them; sorted, none twice
+  std::vector<JointLimits> limits;     ///< of every robot joint
+  AxisMap programs;                    ///< empty where the cell names no controller's axes
 
   Grid grid(int n) const { return {n, stock_size_m / n, stock_origin_m}; }
   /// The cell must outlive the chain.

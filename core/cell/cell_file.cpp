@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/cell/cell.hpp"
 #include "core/cell/cell_field.hpp"
+#include "core/cell/cell_motion.hpp"
 #include "core/cell/mesh_reference.hpp"
 
 namespace sculpt {
@@ -38,7 +39,8 @@ json parse_json(const std::string& text) {
 
 Field top_level(const json& document) {
   Field top(document, "");
-  top.require_object({"name", "urdf", "packages", "stock", "tool", "home", "ignore_pairs", "check_pairs"});
+  top.require_object(
+      {"name", "urdf", "packages", "stock", "tool", "home", "ignore_pairs", "check_pairs", "limits", "programs"});
   return top;
 }
 
@@ -265,6 +267,8 @@ CellDraft draft_cell(const CellFiles& files) {
   cell.ignore_pairs = parse_pairs(cell.robot, top, "ignore_pairs");
   cell.check_pairs = parse_pairs(cell.robot, top, "check_pairs");
   refuse_contradictions(cell);
+  cell.limits = top.has("limits") ? parse_limits(cell.robot, top.at("limits")) : limits_of_urdf(cell.robot);
+  if (top.has("programs")) cell.programs = parse_programs(cell.robot, top.at("programs"));
   cell.chain();  // refuses a cell in which nothing moves the tool
   return draft;
 }

@@ -16,7 +16,7 @@ from harness import SCULPT, SOURCE, ClientTest, environment, shared_data
 
 import sculpt
 
-COMMANDS = "submit list status watch wait cancel report fetch link render verify voxelize plan cell place".split()
+COMMANDS = "submit list status watch wait cancel report fetch link render verify voxelize plan cell place time sample program".split()
 
 
 class CommandLine(ClientTest):

@@ -47,6 +47,9 @@ void add_plan(CLI::App& app, Invocation& invocation);
 void add_cell(CLI::App& app, Invocation& invocation);
 void add_cell_new(CLI::App& cell, Invocation& invocation);
 void add_place(CLI::App& app, Invocation& invocation);
+void add_time(CLI::App& app, Invocation& invocation);
+void add_sample(CLI::App& app, Invocation& invocation);
+void add_program(CLI::App& app, Invocation& invocation);
 void add_completion(CLI::App& app, Invocation& invocation);
 
 }  // namespace sculpt::cli

@@ -1,0 +1,90 @@
+// sculpt program: a plan in the language of a controller.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "clients/cli/commands/commands.hpp"
+#include "clients/cli/exit_code.hpp"
+#include "clients/cli/files.hpp"
+#include "clients/cli/motion_options.hpp"
+#include "core/program/make_program.hpp"
+
+namespace sculpt::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ProgramOptions {
+  MotionOptions motion;
+  std::string dialect, output;
+  std::size_t part_keyframes = 0;
+  bool has_parts = false, json = false;
+};
+
+int run_program(const std::string& server, const ProgramOptions& options) {
+  const PlanPath path = read_path(server, options.motion);
+  const Cell cell = read_cell_of(path, options.motion);
+  ProgramDemands demands;
+  demands.dialect = parse_dialect(options.dialect);
+  const fs::path folder = fs::path(options.output).lexically_normal();
+  demands.name = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
+  demands.motion = to_demands(options.motion);
+  if (options.has_parts) demands.part_keyframes = options.part_keyframes;
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw Failure(exit_usage, "file_unwritable",
+                  "cannot make the folder " + folder.string() + " (" + failed.message() + "): choose another -o");
+  const ProgramReport report = make_program(path, cell, demands, [&](const ProgramFile& file) {
+    PartFile out(folder / file.name);
+    out.stream() << file.text;
+    out.finish();
+  });
+  const Json json{{"dialect", options.dialect},      {"parts", report.parts},
+                  {"files", report.files},           {"moves", report.moves},
+                  {"bytes", report.bytes},           {"seconds", report.seconds},
+                  {"rounding_m", report.rounding_m}, {"seams_in_stock", report.seams_in_stock}};
+  if (options.json) {
+    std::cout << proto::write_json(json) << "\n";
+  } else {
+    std::cout << report.files << " files in " << folder.string() << ": " << report.parts << " parts, " << report.moves
+              << " moves, " << report.bytes << " bytes; " << static_cast<long long>(report.seconds) << " s of motion\n";
+    if (report.seams_in_stock > 0)
+      std::cout
+          << "note: " << report.seams_in_stock
+          << " parts begin with the tool in the stock: come to their start by jogging back along the plan, or run "
+             "from the first part on\n";
+  }
+  return exit_fine;
+}
+
+}  // namespace
+
+void add_program(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<ProgramOptions>();
+  CLI::App& command =
+      add_command(app, invocation, "program",
+                  "Write a plan in the language of a controller: each part is read back and held against "
+                  "the plan before it is handed out",
+                  [&invocation, options] { return run_program(invocation.server, *options); });
+  add_motion_options(command, options->motion);
+  command.add_option("--dialect", options->dialect, "Of KUKA, ABB, Universal Robots, FANUC, LinuxCNC, ROS 2")
+      ->required()
+      ->check(CLI::IsMember({"krl", "rapid", "urscript", "fanuc", "gcode", "ros2"}));
+  command
+      .add_option_function<std::size_t>(
+          "--part-keyframes",
+          [options](const std::size_t& count) {
+            options->part_keyframes = count;
+            options->has_parts = true;
+          },
+          "Keyframes in a part at most; without it what the controller takes")
+      ->type_name("M");
+  command.add_flag("--json", options->json, "Print the figures as one JSON document");
+  command.add_option("-o,--output", options->output, "A folder; its name is that of the program")
+      ->type_name("FOLDER")
+      ->required();
+}
+
+}  // namespace sculpt::cli

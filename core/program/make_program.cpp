@@ -1,0 +1,192 @@
+#include "core/program/make_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/program/read/part_reader.hpp"
+#include "core/program/write/ros2.hpp"
+#include "core/timing/edge.hpp"
+#include "core/timing/motion_limits.hpp"
+#include "core/timing/stop_times.hpp"
+
+namespace sculpt {
+namespace {
+
+// Nothing but digits strays in a program that stops at every keyframe: three quarters of the tool's margin may be used,
+// and 0.94 of the links', where a time law uses 0.6 and 0.75.
+constexpr double alone = 1.25;
+
+void check_name(const std::string& name) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const bool good = !name.empty() && name.size() <= 19 && is_letter(name[0]) && std::ranges::all_of(name, [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!good)
+    throw InputError("name_invalid", "'" + name +
+                                         "' is no name that every controller takes: give a file or folder of up to 19 "
+                                         "lower-case letters, digits and _, beginning with a letter");
+}
+
+void check_demands(const MotionDemands& motion) {
+  for (const double value : {motion.feed_m_s, motion.rapid_m_s})
+    if (!(value > 0) || !std::isfinite(value)) {
+      std::ostringstream text;
+      text << "a feed of " << value << " m/s cannot be moved at: give one above 0";
+      throw InputError("feed_invalid", text.str());
+    }
+}
+
+class ProgramMaker {
+ public:
+  ProgramMaker(const PlanPath& path, const Cell& cell, const Chain& chain, const ProgramDemands& demands,
+               const std::function<void(const ProgramFile&)>& take)
+      : path_(path),
+        demands_(demands),
+        take_(take),
+        chain_(chain),
+        rates_(chain),
+        limits_(limits_of(cell, chain)),
+        layout_(lay_out_axes(cell, chain, demands.dialect)),
+        stray_(cell, chain, path.header().grid, demands.motion.reserve_m) {
+    for (const AxisLayout::Axis& axis : layout_.axes) letters_.push_back(axis.name);
+    stray_.look_along(path);
+  }
+
+  ProgramReport run() {
+    const DialectFacts& facts = facts_of(demands_.dialect);
+    const std::size_t size = demands_.part_keyframes.value_or(facts.part_keyframes), moves = path_.size() - 1;
+    names_ = {demands_.name, 0, size == 0 ? 1 : std::max<std::size_t>(1, (moves + size - 1) / size)};
+    begin_part(0);
+    for_each_stop(path_, chain_, limits_, {demands_.motion.feed_m_s, demands_.motion.rapid_m_s},
+                  [&](std::size_t point, const StopTime& time) {
+                    if (size > 0 && point > 1 && (point - 1) % size == 0) {
+                      end_part();
+                      begin_part(point - 1);
+                    }
+                    writer_->add({layout_.to_axes(path_.configuration(point)), time.seconds, time.share});
+                    times_.push_back(time);
+                  });
+    end_part();
+    if (facts.has_main)
+      for (const ProgramFile& file : write_main(demands_.dialect, demands_.name, names_.parts)) hand_out(file);
+    report_.parts = names_.parts;
+    return report_;
+  }
+
+ private:
+  void begin_part(std::size_t point) {
+    first_ = point;
+    ++names_.part;
+    writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(path_.configuration(point)));
+    times_.clear();
+    const Vec3 cell_at = (chain_.tool_pose(path_.configuration(point)).ball_m - path_.header().grid.origin_m) /
+                         path_.header().grid.voxel_m;
+    report_.seams_in_stock +=
+        point > 0 && (cell_at.array() > 0).all() && (cell_at.array() < path_.header().grid.n).all();
+  }
+
+  void end_part() {
+    const std::vector<ProgramFile> files = writer_->finish();
+    check(read_part(demands_.dialect, files.front().text, letters_));
+    for (const ProgramFile& file : files) hand_out(file);
+  }
+
+  void hand_out(const ProgramFile& file) {
+    ++report_.files;
+    report_.bytes += file.text.size();
+    take_(file);
+  }
+
+  Configuration joints_of(const std::vector<double>& values, bool radians) const {
+    Configuration axes(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t at = 0; at < values.size(); ++at)
+      axes[static_cast<Eigen::Index>(at)] = radians                  ? values[at]
+                                            : layout_.axes[at].turns ? values[at] * std::numbers::pi / 180
+                                                                     : values[at] / 1000;
+    return layout_.to_joints(axes);
+  }
+
+  void check(const ReadPart& part) {
+    if (part.moves.size() != times_.size() || part.start.size() != layout_.axes.size())
+      throw InputError("program_damaged",
+                       "a part that was written holds other moves than the plan: this is a fault of "
+                       "this program, please report it");
+    check_place(first_, joints_of(part.start, part.radians));
+    for (std::size_t at = 0; at < part.moves.size(); ++at) {
+      const ReadMove& move = part.moves[at];
+      check_place(first_ + 1 + at, joints_of(move.values, part.radians));
+      const StopTime& time = times_[at];
+      const bool slow_enough = move.seconds > 0 ? move.seconds >= time.seconds * (1 - 1e-6) - 1e-9
+                                                : move.share > 0 && move.share <= time.share * (1 + 1e-9);
+      if (!slow_enough)
+        throw InputError("program_damaged",
+                         "the move to keyframe " + std::to_string(path_.edge_to(first_ + 1 + at).keyframe) +
+                             " was written faster than it may be: this is a fault of this program, please "
+                             "report it");
+      report_.seconds += move.seconds > 0 ? move.seconds : time.seconds * time.share / move.share;
+      ++report_.moves;
+    }
+  }
+
+  /// What the digits leave of the plan's joints: free if both ends of every edge are.
+  void check_place(std::size_t point, const Configuration& read) {
+    const Configuration off = read - path_.configuration(point), size = off.cwiseAbs();
+    tool_.put(rates_, path_.configuration(point));
+    const double turned = rates_.turn.dot(size), second = rates_.orders(2) * turned * rates_.travel.dot(size) / 2;
+    const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates_.stickout_m).norm()) + second;
+    report_.rounding_m = std::max(report_.rounding_m, tool_m);
+    const double tool = tool_m / stray_.tool_m(), links = stray_.links().dot(size),
+                 both = stray_.tool_and_links(point, false, size, tool_m), most = std::max({tool, links, both});
+    if (most <= alone) return;
+    std::ostringstream text;
+    text.precision(3);
+    text << "the digits that " << facts_of(demands_.dialect).name << " has put "
+         << (most == tool    ? "ball or shank"
+             : most == links ? "a link"
+                             : "the tool, to a link,")
+         << ' ' << most / alone << " times as far beside the plan as its certificates leave, at keyframe "
+         << path_.edge_to(point).keyframe << ": plan with a coarser resolution, or take a dialect with more digits";
+    throw InputError("rounding_too_coarse", text.str());
+  }
+
+  const PlanPath& path_;
+  const ProgramDemands& demands_;
+  const std::function<void(const ProgramFile&)>& take_;
+  const Chain& chain_;
+  const ToolRates rates_;
+  const MotionLimits limits_;
+  const AxisLayout layout_;
+  StrayBound stray_;
+  std::vector<std::string> letters_;
+  ProgramNames names_;
+  std::unique_ptr<PartWriter> writer_;
+  std::vector<StopTime> times_;
+  std::size_t first_ = 0;
+  ToolPlace tool_;
+  ProgramReport report_;
+};
+
+}  // namespace
+
+ProgramReport make_program(const PlanPath& path, const Cell& cell, const ProgramDemands& demands,
+                           const std::function<void(const ProgramFile&)>& take) {
+  check_name(demands.name);
+  check_demands(demands.motion);
+  if (demands.part_keyframes && *demands.part_keyframes == 0)
+    throw InputError("part_invalid", "a part of 0 keyframes does nothing: give --part-keyframes 1 or more");
+  const Chain chain = cell.chain();
+  check_cell(path, chain, cell);
+  if (path.size() < 2) throw InputError("part_invalid", "the plan moves nothing: there is no program to write");
+  if (demands.dialect == Dialect::ros2) {
+    if (demands.part_keyframes)
+      throw InputError("part_invalid",
+                       "a ROS trajectory goes on between keyframes and has no parts: leave out --part-keyframes");
+    return write_ros2(path, cell, demands, take);
+  }
+  return ProgramMaker(path, cell, chain, demands, take).run();
+}
+
+}  // namespace sculpt

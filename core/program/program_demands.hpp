@@ -1,0 +1,28 @@
+// What is asked of a program, and what came of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/program/dialect.hpp"
+#include "core/timing/motion_demands.hpp"
+
+namespace sculpt {
+
+struct ProgramDemands {
+  Dialect dialect = Dialect::krl;
+  std::string name;                           ///< of the program: letters, digits and _, beginning with a letter
+  std::optional<std::size_t> part_keyframes;  ///< without it what the dialect takes
+  MotionDemands motion;
+};
+
+struct ProgramReport {
+  std::size_t parts = 0, files = 0;
+  std::uint64_t moves = 0, bytes = 0;
+  double seconds = 0;                ///< of all moves, by the numbers that are written
+  double rounding_m = 0;             ///< that ball or shank's end are off at most, because of the digits of the dialect
+  std::uint64_t seams_in_stock = 0;  ///< parts that begin with the ball inside the stock's cube
+};
+
+}  // namespace sculpt

@@ -1,0 +1,287 @@
+#include "core/program/read/part_reader.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "core/base/error.hpp"
+
+namespace sculpt {
+namespace {
+
+/// One line of a program, taken off piece by piece.
+class Line {
+ public:
+  Line(std::string_view text, std::size_t number) : rest_(text), number_(number) {}
+
+  void blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
+  }
+  bool take(std::string_view word) {
+    blanks();
+    if (!rest_.starts_with(word)) return false;
+    rest_.remove_prefix(word.size());
+    return true;
+  }
+  void need(std::string_view word) {
+    if (!take(word)) refuse("'" + std::string(word) + "' is missing");
+  }
+  double number() {
+    blanks();
+    double value = 0;
+    const auto [end, failed] =
+        std::from_chars(rest_.data(), rest_.data() + rest_.size(), value, std::chars_format::fixed);
+    if (failed != std::errc() || !std::isfinite(value)) refuse("a number is missing");
+    const std::string_view written = rest_.substr(0, static_cast<std::size_t>(end - rest_.data()));
+    if (written.starts_with('-') && value == 0) refuse("-0 is written");
+    rest_.remove_prefix(written.size());
+    if (rest_.starts_with('e') || rest_.starts_with("E-") || rest_.starts_with("E+"))
+      refuse("a number has an exponent");
+    return value;
+  }
+  bool empty() {
+    blanks();
+    return rest_.empty();
+  }
+  std::string_view rest() const { return rest_; }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError("program_damaged",
+                     "line " + std::to_string(number_) + " of a program: " + what + ": write it again");
+  }
+
+ private:
+  std::string_view rest_;
+  std::size_t number_;
+};
+
+/// Calls `take` for each line, without its end.
+template <typename Take>
+void for_lines(std::string_view text, bool carriage_returns, Take&& take) {
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    if (end == std::string_view::npos) Line(line, number + 1).refuse("the last line has no end");
+    text.remove_prefix(end + 1);
+    const bool returned = line.ends_with('\r');
+    if (returned) line.remove_suffix(1);
+    Line at(line, ++number);
+    if (returned != carriage_returns) at.refuse("the line's end is not that of the dialect");
+    for (const char c : line)
+      if ((c < ' ' && c != '\t') || c > '~') at.refuse("a character is not ASCII");
+    take(at);
+  }
+}
+
+double as_float(double value) {
+  return static_cast<double>(static_cast<float>(value));
+}
+
+ReadPart read_krl(std::string_view text, std::size_t axes) {
+  ReadPart part;
+  double override_percent = 100, percent = 0;
+  bool ended = false;
+  for_lines(text, true, [&](Line& line) {
+    if (line.take("$OV_PRO=")) {
+      override_percent = line.number();
+    } else if (line.take("$VEL_AXIS[I]=")) {
+      percent = line.number();
+      if (percent != std::floor(percent) || percent < 1 || percent > 100) line.refuse("a speed is no whole percent");
+    } else if (line.take("$VEL_EXTAX[")) {
+      line.number();
+      line.need("]=");
+      if (line.number() != percent) line.refuse("an external axis has another speed");
+    } else if (line.take("IF ABS($AXIS_ACT.")) {
+      line.need(part.start.size() < 6 ? "A" : "E");
+      line.number();
+      line.need("-(");
+      part.start.push_back(as_float(line.number()));
+    } else if (line.take("PTP {")) {
+      ReadMove move;
+      for (std::size_t at = 0; at < axes; ++at) {
+        if (at > 0) line.need(",");
+        line.need((at < 6 ? "A" + std::to_string(at + 1) : "E" + std::to_string(at - 5)) + " ");
+        move.values.push_back(as_float(line.number()));
+      }
+      line.need("}");
+      if (!line.empty()) line.refuse("there is more behind a PTP: it would not stop there");
+      move.share = percent / 100 * override_percent / 100;
+      part.moves.push_back(std::move(move));
+    } else if (line.rest() == "END") {
+      ended = true;
+    }
+  });
+  if (!ended) throw InputError("program_damaged", "a program has no END: write it again");
+  return part;
+}
+
+ReadPart read_rapid(std::string_view text, std::size_t axes) {
+  ReadPart part;
+  bool ended = false;
+  for_lines(text, true, [&](Line& line) {
+    if (line.take("IF Abs(here.")) {
+      if (!line.take("robax.rax_")) line.need("extax.eax_");
+      const std::string_view rest = line.rest();
+      const std::size_t at = rest.find("-(");
+      if (at == std::string_view::npos) line.refuse("a check of the start is damaged");
+      line.need(rest.substr(0, at + 2));
+      part.start.push_back(as_float(line.number()));
+    } else if (line.take("MoveAbsJ [[")) {
+      ReadMove move;
+      for (std::size_t at = 0; at < 12; ++at) {
+        if (at == 6)
+          line.need("],[");
+        else if (at > 0)
+          line.need(",");
+        if (at < axes)
+          move.values.push_back(as_float(line.number()));
+        else
+          line.need("9E9");
+      }
+      line.need("]]\\NoEOffs,v1000\\T:=");
+      move.seconds = as_float(line.number());
+      line.need(",fine,tool0;");
+      if (!line.empty()) line.refuse("there is more behind a move");
+      part.moves.push_back(std::move(move));
+    } else if (line.rest() == "ENDMODULE") {
+      ended = true;
+    }
+  });
+  if (!ended) throw InputError("program_damaged", "a module has no ENDMODULE: write it again");
+  return part;
+}
+
+ReadPart read_urscript(std::string_view text) {
+  ReadPart part;
+  part.radians = true;
+  bool ended = false;
+  for_lines(text, false, [&](Line& line) {
+    const bool is_outer_end = line.rest() == "end";  // others are indented
+    if (line.take("if norm(here[")) {
+      line.number();
+      line.need("] - (");
+      part.start.push_back(line.number());
+    } else if (line.take("movej([")) {
+      ReadMove move;
+      for (int at = 0; at < 6; ++at) {
+        if (at > 0) line.need(",");
+        move.values.push_back(line.number());
+      }
+      line.need("], t=");
+      move.seconds = line.number();
+      line.need(")");
+      if (!line.empty()) line.refuse("there is more behind a move: it would be blended");
+      part.moves.push_back(std::move(move));
+    } else if (is_outer_end) {
+      ended = true;
+    }
+  });
+  if (!ended) throw InputError("program_damaged", "a script has no end: write it again");
+  return part;
+}
+
+ReadPart read_fanuc(std::string_view text, std::size_t axes) {
+  ReadPart part;
+  std::vector<std::pair<int, double>> moves;  // position, seconds
+  std::map<int, std::vector<double>> positions;
+  int position = 0, lines = 0;
+  bool ended = false;
+  for_lines(text, true, [&](Line& line) {
+    if (line.take("P[")) {
+      position = static_cast<int>(line.number());
+      line.need("]{");
+    } else if (position > 0 && line.take("};")) {
+      if (positions[position].size() != axes) line.refuse("a position has another number of axes");
+      position = 0;
+    } else if (position > 0 && !line.take("GP1:") && !line.take("UF")) {
+      while (!line.empty()) {
+        if (!line.take("J")) line.need("E");
+        line.number();
+        line.need("=");
+        positions[position].push_back(line.number());
+        if (!line.take("deg")) line.need("mm");
+        line.take(",");
+      }
+    } else if (position == 0 && !line.empty() && line.rest().front() >= '0' && line.rest().front() <= '9') {
+      if (static_cast<int>(line.number()) != ++lines) line.refuse("the lines are not numbered one after the other");
+      line.need(":");
+      if (line.take("J P[")) {
+        const int wanted = static_cast<int>(line.number());
+        line.need("]");
+        moves.emplace_back(wanted, line.number() / 1000);
+        line.need("msec FINE");
+        line.need(";");
+      } else if (line.take("R[90]=PR[90,")) {
+        line.number();
+        line.need("]-(");
+        part.start.push_back(line.number());
+      }
+    } else if (line.rest() == "/END") {
+      ended = true;
+    }
+  });
+  if (!ended) throw InputError("program_damaged", "a program has no /END: write it again");
+  for (const auto& [wanted, seconds] : moves) {
+    const auto found = positions.find(wanted);
+    if (found == positions.end())
+      throw InputError("program_damaged", "position " + std::to_string(wanted) + " is missing: write it again");
+    part.moves.push_back({found->second, seconds, 0});
+  }
+  return part;
+}
+
+ReadPart read_gcode(std::string_view text, const std::vector<std::string>& letters) {
+  ReadPart part;
+  bool ended = false, by_time = false;
+  for_lines(text, false, [&](Line& line) {
+    if (line.rest() == "G93") {
+      by_time = true;
+    } else if (line.rest() == "G94") {
+      by_time = false;
+    } else if (line.take("o1") && line.rest().find("if [ABS[#54") != std::string_view::npos) {
+      const std::size_t at = line.rest().find("- [");
+      if (at == std::string_view::npos) line.refuse("a check of the start is damaged");
+      Line value(line.rest().substr(at + 3), 0);
+      part.start.push_back(value.number());
+    } else if (line.take("G1 ")) {
+      if (!by_time) line.refuse("a move is not by time");
+      ReadMove move;
+      for (const std::string& letter : letters) {
+        line.need(letter);
+        move.values.push_back(line.number());
+      }
+      line.need("F");
+      const double moves_a_minute = line.number();
+      if (!(moves_a_minute > 0)) line.refuse("a feed is not above 0");
+      move.seconds = 60 / moves_a_minute;
+      if (!line.empty()) line.refuse("there is more behind a move");
+      part.moves.push_back(std::move(move));
+    } else if (line.rest() == "M2") {
+      ended = true;
+    }
+  });
+  if (!ended) throw InputError("program_damaged", "a program has no M2: write it again");
+  return part;
+}
+
+}  // namespace
+
+ReadPart read_part(Dialect dialect, std::string_view text, const std::vector<std::string>& letters) {
+  switch (dialect) {
+    case Dialect::krl:
+      return read_krl(text, letters.size());
+    case Dialect::rapid:
+      return read_rapid(text, letters.size());
+    case Dialect::urscript:
+      return read_urscript(text);
+    case Dialect::fanuc:
+      return read_fanuc(text, letters.size());
+    case Dialect::gcode:
+      return read_gcode(text, letters);
+    case Dialect::ros2:
+      break;
+  }
+  throw InputError("program_damaged", "ROS trajectories have no moves");
+}
+
+}  // namespace sculpt

@@ -1,0 +1,47 @@
+// The text of a program in each dialect.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/program/axis_layout.hpp"
+#include "core/program/program_move.hpp"
+
+namespace sculpt {
+
+struct ProgramFile {
+  std::string name, text;
+};
+
+/// What the texts of a program's parts share.
+struct ProgramNames {
+  std::string program;              ///< a word: letters, digits, _; begins with a letter
+  std::size_t part = 0, parts = 0;  ///< from 1 on
+  std::string part_name() const;
+};
+
+/// One part: begins at rest at `start`, which it checks before it moves, and ends at rest. Throws InputError
+/// `speed_too_coarse` where the dialect cannot say a speed so low.
+class PartWriter {
+ public:
+  virtual ~PartWriter() = default;
+  virtual void add(const ProgramMove& move) = 0;
+  /// The files of the part.
+  virtual std::vector<ProgramFile> finish() = 0;
+};
+
+std::unique_ptr<PartWriter> write_part(Dialect dialect, const AxisLayout& layout, const ProgramNames& names,
+                                       const Configuration& start);
+/// The program that calls the parts and remembers which is next, where the dialect has one.
+std::vector<ProgramFile> write_main(Dialect dialect, const std::string& program, std::size_t parts);
+
+/// Of each dialect; internal to write/.
+std::unique_ptr<PartWriter> krl_part(const AxisLayout& layout, const ProgramNames& names, const Configuration& start);
+std::unique_ptr<PartWriter> rapid_part(const AxisLayout& layout, const ProgramNames& names, const Configuration& start);
+std::unique_ptr<PartWriter> urscript_part(const AxisLayout& layout, const ProgramNames& names,
+                                          const Configuration& start);
+std::unique_ptr<PartWriter> fanuc_part(const AxisLayout& layout, const ProgramNames& names, const Configuration& start);
+std::unique_ptr<PartWriter> gcode_part(const AxisLayout& layout, const ProgramNames& names, const Configuration& start);
+
+}  // namespace sculpt

@@ -1,0 +1,276 @@
+#include "core/timing/corners.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/law/coarse.hpp"
+#include "core/timing/corner_cost.hpp"
+#include "core/timing/edge.hpp"
+#include "core/timing/room/tool_room.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double least_line = 0.02;       // of an edge: what parabolas leave of it
+constexpr double most_x_by_length = 100;  // so that numbers of 32 bits tell accelerations well enough
+constexpr std::size_t most_near = 64;     // corners that a window may reach, on one side
+constexpr double least_speed = 1e-9;
+
+/// A point, the edge that leads to it, and what is known of its corner before its neighbours are.
+struct Place {
+  PathEdge edge;
+  ToolRoom room;
+  CornerCost cost;
+  bool rest = false;
+};
+
+class CornerFinder {
+ public:
+  CornerFinder(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
+               const CornerDemands& demands)
+      : path_(path),
+        stray_(stray),
+        demands_(demands),
+        rates_(chain),
+        rooms_(path, cell, chain, stray.reserve_m()),
+        window_(demands.window_s),
+        places_(ring) {}
+
+  Corners run() {
+    corners_.law.resize(path_.size());
+    corners_.caps.resize(path_.size());
+    if (path_.size() == 1) return std::move(corners_);
+    tool_[2].put(rates_, path_.configuration(0));
+    std::size_t done = 0;
+    place(0).rest = true;
+    for (std::size_t point = 1; point < path_.size(); ++point) {
+      go_to(point);
+      if (point > 1) look_at_corner(point - 1);
+      while (done + most_near + 1 < point) finish(done++, point);
+    }
+    place(path_.size() - 1).rest = true;
+    while (done < path_.size()) finish(done++, path_.size());
+    return std::move(corners_);
+  }
+
+ private:
+  static constexpr std::size_t ring = 256;
+
+  Place& place(std::size_t point) { return places_[point % ring]; }
+
+  void go_to(std::size_t point) {
+    Place& to = place(point) = {};
+    const PlanPath::Edge& cut = path_.edge_to(point);
+    tool_[0] = tool_[2];
+    to.edge = make_edge(rates_, {demands_.acceleration, demands_.limits.velocity}, path_.configuration(point - 1),
+                        path_.configuration(point), tool_);
+    to.edge.cut = cut.voxels > 0;
+    to.edge.feed_m_s = to.edge.cut ? demands_.feeds.feed_m_s : demands_.feeds.rapid_m_s;
+    to.edge.cap = 1 / std::max(to.edge.joint_rate, to.edge.ball / to.edge.feed_m_s);
+    to.room = rooms_.go_to(point, to.edge, tool_);
+    to.rest = cut.rest;
+  }
+
+  /// The tool is at the point at the beginning of the last edge.
+  void look_at_corner(std::size_t point) {
+    Place& here = place(point);
+    const Place& next = place(point + 1);
+    here.cost = find_cost(rates_, stray_, point, tool_[0], {{here.edge, here.room}, {next.edge, next.room}}, window_);
+    if (here.cost.straight) return;
+    const double rise = std::max(here.edge.line_acceleration, next.edge.line_acceleration);
+    if (is_worth(here.cost.wanted, divide(here.cost, here.edge, next.edge, rise),
+                 std::min(here.edge.cap, next.edge.cap), rise))
+      return;
+    here.rest = true;
+    here.cost = {};
+  }
+
+  /// Divides what may be strayed so that the corner can be gone through fastest; gives that speed.
+  double divide(CornerCost& cost, const PathEdge& first, const PathEdge& second, double rise) const {
+    const double bend = (second.way - first.way).cwiseQuotient(demands_.acceleration).cwiseAbs().maxCoeff();
+    const CornerCost most = cost;
+    double best = -1;
+    for (const double parabola : {0.1, 0.2, 0.35, 0.5, most_parabola_share}) {
+      const double half = std::min(most.wanted, 4 * parabola / cost.share),
+                   speed = largest_speed((1 - parabola) / cost.share, half, rise);
+      // The parabola's own acceleration is |w - u| v^2 / 2 half.
+      const double least = std::min(speed, std::sqrt(2 * half / bend));
+      if (least <= best) continue;
+      best = least;
+      cost.parabola = parabola;
+      cost.wanted = half;
+    }
+    return best;
+  }
+
+  /// At a corner, for the moving average to stray by no more than `left` of w - u.
+  double largest_speed(double left, double half, double acceleration) const {
+    const double t = window_;
+    if (t == 0) return std::numeric_limits<double>::infinity();
+    return std::max(8 * (left - acceleration * t * t / 48) / t, std::sqrt(48 * half * left) / t - acceleration * t);
+  }
+
+  /// To go through the parabola so fast takes less than to come to rest for a window, from a speed of `usual`.
+  bool is_worth(double half, double speed, double usual, double acceleration) const {
+    return speed > least_speed && 2 * half / speed < 2 * half / usual + window_ + usual / acceleration;
+  }
+
+  /// What a window that holds a corner may hold besides.
+  struct Neighbourhood {
+    double room_m = std::numeric_limits<double>::infinity();  // the least that the tool may stray at any of them
+    double left = 1;                                          // of what may be strayed, less the parabolas' shares
+    double acceleration = 0, turn_speed = 0, travel_speed = 0;
+    bool crowded = false;
+    std::array<const CornerCost*, 2 * most_near + 1> corners;
+    std::size_t count = 0;
+
+    void add(const CornerCost& cost) {
+      corners[count++] = &cost;
+      room_m = std::min(room_m, cost.room_m);
+      left = std::min(left, 1 - cost.parabola);
+    }
+    /// Of a displacement at one of them, where the tool turns by up to `turned` meanwhile.
+    double share(const CornerCost& cost, double turned) const {
+      return std::max(cost.share, cost.tool_m / room_m) + turned * cost.share_by_turn * cost.room_m / room_m;
+    }
+    double share_of_all(double turned) const {
+      double sum = 0;
+      for (std::size_t at = 0; at < count; ++at) sum += share(*corners[at], turned);
+      return sum;
+    }
+  };
+
+  /// r' at the corner: its parabola keeps to the feed of both edges.
+  double corner_speed(std::size_t point, std::size_t known) {
+    if (point == 0 || point + 1 >= known || place(point).rest) return 0;
+    const PathEdge &first = place(point).edge, &second = place(point + 1).edge;
+    const double feed = std::min(first.feed_m_s, second.feed_m_s);
+    const auto speed = [&](const PathEdge& edge) { return 1 / std::max(edge.joint_rate, edge.ball / feed); };
+    return std::max(speed(first), speed(second));
+  }
+
+  /// Corners one behind the other from `point`, in steps of `step`, until a window is over in any case.
+  void look_around(Neighbourhood& around, std::size_t point, int step, std::size_t known) {
+    const double half = place(point).cost.wanted;
+    double gone = 0;                                   // time since the end of the corner's parabola, at least
+    double fastest_here = corner_speed(point, known);  // r' rises by no more than the lines' accelerations
+    for (std::size_t count = 1;; ++count) {
+      const std::size_t edge_at = step > 0 ? point + 1 : point;
+      if (edge_at == 0 || edge_at >= known) return;
+      const PathEdge& edge = place(edge_at).edge;
+      const double speed = fastest(edge_at, known);
+      fastest_here = std::min(std::max(edge.cap, fastest_here), fastest_here + edge.line_acceleration * window_);
+      around.acceleration = std::max(around.acceleration, edge.line_acceleration);
+      around.turn_speed = std::max(around.turn_speed, edge.turn * fastest_here);
+      around.travel_speed = std::max(around.travel_speed, edge.travel * fastest_here);
+      point = step > 0 ? point + 1 : point - 1;
+      const Place& there = place(point);
+      const double own = count == 1 ? std::min(half, edge.length) : 0, far = std::min(there.cost.wanted, edge.length);
+      const bool reached = gone + (edge.length - own - far) / speed < window_;
+      if (reached && !there.rest && !there.cost.straight) around.add(there.cost);
+      gone += (edge.length - own) / speed;
+      if (gone > window_) return;
+      if (count == most_near) {
+        around.crowded = true;
+        return;
+      }
+    }
+  }
+
+  double fastest(std::size_t edge_at, std::size_t known) {
+    double speed = place(edge_at).edge.cap;
+    if (edge_at > 1) speed = std::max(speed, place(edge_at - 1).edge.cap);
+    if (edge_at + 1 < known) speed = std::max(speed, place(edge_at + 1).edge.cap);
+    return speed;
+  }
+
+  /// All places before `known` are.
+  void finish(std::size_t point, std::size_t known) {
+    Place& here = place(point);
+    LawCorner& corner = corners_.law[point];
+    CornerCaps& caps = corners_.caps[point];
+    const bool inside = point > 0 && point + 1 < path_.size();
+    Neighbourhood around;
+    if (inside && !here.rest && !here.cost.straight) around.add(here.cost);
+    if (point > 0) look_around(around, point, -1, known);
+    if (point + 1 < path_.size()) look_around(around, point, 1, known);
+    const double slower = window_ * around.turn_speed * around.travel_speed / 4;  // m/s: J changes within a window
+    if (point > 0) set_cruise(corner, here.edge, std::max(slower, slower_before_));
+    slower_before_ = slower;
+    if (!inside || here.rest) return;
+    caps.straight = here.cost.straight;
+    if (caps.straight) {
+      caps.cap = static_cast<float>(std::min(here.edge.cap, place(point + 1).edge.cap));
+      return;
+    }
+    cut_off(point, around, slower);
+  }
+
+  static void set_cruise(LawCorner& corner, const PathEdge& edge, double slower) {
+    const double feed = std::max(edge.feed_m_s - (edge.cut ? slower : 0), edge.feed_m_s / 2);
+    corner.cruise = static_cast<float>(rounded_down(1 / std::max(edge.joint_rate, edge.ball / feed)));
+  }
+
+  void cut_off(std::size_t point, const Neighbourhood& around, double slower) {
+    const Place& here = place(point);
+    const PathEdge &first = here.edge, &second = place(point + 1).edge;
+    const double turned = window_ * around.turn_speed;
+    const auto share = [](const PathEdge& edge, double others) {
+      return (1 - least_line) * std::max(edge.length / 2, edge.length - others);
+    };
+    const double others_before = place(point - 1).cost.wanted, others_after = place(point + 1).cost.wanted;
+    const double most = 4 * here.cost.parabola / (here.cost.share + turned * here.cost.share_by_turn);
+    const double half =
+        rounded_down(std::min({most, share(first, others_before), share(second, others_after), here.cost.wanted}));
+    if (around.crowded || !(half > 0)) return;
+    const double left = around.left / around.share_of_all(turned);
+    double speed = std::min(std::max(first.cap, second.cap), largest_speed(left, half, around.acceleration));
+    speed = std::min(speed, std::sqrt(most_x_by_length * std::min(first.length, second.length)));
+    if (!is_worth(half, speed, std::min(first.cap, second.cap), around.acceleration)) return;
+    corners_.law[point].half = static_cast<float>(half);
+    corners_.caps[point] = caps_at_ends(here, second, half, slower);
+    corners_.caps[point].cap = static_cast<float>(speed);
+  }
+
+  /// On the parabola the ball is at most as fast as on either edge, and as J differs there.
+  CornerCaps caps_at_ends(const Place& here, const PathEdge& second, double half, double slower) const {
+    const PathEdge& first = here.edge;
+    const double orders = rates_.orders(2);
+    const double beside = orders * here.cost.turn * half / 4,
+                 along = orders * std::max(first.turn, second.turn) * half / 8;
+    const double more = along * std::max(first.travel, second.travel);
+    double feed = std::min(first.feed_m_s, second.feed_m_s);
+    if (first.cut != second.cut) {
+      // What is faster beyond the parabola is in the same window.
+      const PathEdge& faster = first.cut ? second : first;
+      slower += faster.line_acceleration * faster.ball * window_ / 4;
+    }
+    if (first.cut || second.cut) feed = std::max(feed - slower, feed / 2);
+    const auto speed = [&](const PathEdge& edge) {
+      return 1 / std::max(edge.joint_rate, (edge.ball + beside * edge.travel + more) / feed);
+    };
+    return {static_cast<float>(speed(first)), static_cast<float>(speed(second))};
+  }
+
+  const PlanPath& path_;
+  const StrayBound& stray_;
+  const CornerDemands& demands_;
+  const ToolRates rates_;
+  ToolRoomFinder rooms_;
+  const double window_;
+  std::vector<Place> places_;
+  Corners corners_;
+  EdgePlaces tool_;  // of the last edge
+  double slower_before_ = 0;
+};
+
+}  // namespace
+
+Corners find_corners(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
+                     const CornerDemands& demands) {
+  return CornerFinder(path, cell, chain, stray, demands).run();
+}
+
+}  // namespace sculpt

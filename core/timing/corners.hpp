@@ -1,0 +1,51 @@
+// Points of a plan -> how their corners may be cut off, and how fast each piece may be gone through.
+//
+// At a point the edges' directions by r are u and w. The parabola of half length d strays from the edges by
+// d |w - u| / 4 at most, and the moving average over the window T by f |w - u|, where with a speed r' of at most v at
+// the corner and an acceleration r'' of at most A
+//     f = min(v T / 8 + A T^2 / 48, (v + A T)^2 T^2 / (48 d)).
+// (The mean of a path whose q' jumps by w - u is off it by (w - u) times the mean of how far it is beyond the corner,
+// less how far the mean is: at most half the mean distance from the middle; and over a parabola by the variance / 4 d.)
+// What a displacement c of the joints is to the ball: |J c| at the point, and no more than
+// (turning on the way there) * (sum of R_j |c_j|) beside it, as everywhere that J is used away from the point.
+#pragma once
+
+#include <vector>
+
+#include "core/law/time_law.hpp"
+#include "core/timing/motion_limits.hpp"
+#include "core/timing/plan_path.hpp"
+#include "core/timing/room/stray_bound.hpp"
+
+namespace sculpt {
+
+/// What a corner's speeds may be at most, by r, with the accelerations that it was made for.
+struct CornerCaps {
+  float before = 0, after = 0;  ///< where the parabola begins and ends: between, 1/speed is linear
+  float cap = 0;                ///< all along it, for another reason; 0: rest
+  bool straight = false;        ///< the edges go on as one: no parabola is needed
+};
+
+/// One a point of the path, with that of home.
+struct Corners {
+  std::vector<LawCorner> law;
+  std::vector<CornerCaps> caps;
+};
+
+struct Feeds {
+  double feed_m_s = 0, rapid_m_s = 0;
+};
+
+/// What all corners are made with.
+struct CornerDemands {
+  const MotionLimits& limits;
+  const Configuration& acceleration;  ///< of the law
+  double window_s;
+  Feeds feeds;
+};
+
+/// All but x. At home and at the last point the motion is at rest. `stray` has looked along the path.
+Corners find_corners(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
+                     const CornerDemands& demands);
+
+}  // namespace sculpt

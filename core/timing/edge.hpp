@@ -1,0 +1,60 @@
+// The way from one point of a plan to the next, by r. Internal to core/timing.
+#pragma once
+
+#include <array>
+
+#include "core/cell/chain.hpp"
+
+namespace sculpt {
+
+/// Bounds of what the tool does per unit of each joint.
+struct ToolRates {
+  explicit ToolRates(const Chain& chain);
+
+  const Chain& chain;
+  Configuration travel;  ///< m, of any point of the tool
+  Configuration turn;    ///< rad
+  double stickout_m;
+
+  /// What a joint step's second derivative may be more than turning * travel: where something shifts.
+  double orders(int order) const { return chain.shifts() ? order : 1; }
+};
+
+/// The tool where it is and how it moves by each joint.
+struct ToolPlace {
+  void put(const ToolRates& rates, const Configuration& q);
+
+  ToolPose pose;
+  JointColumns<6> jacobian;
+  Vec3 ball(const Configuration& step) const { return jacobian.topRows<3>() * step; }
+  /// The shank's upper end.
+  Vec3 top(const Configuration& step, double stickout_m) const {
+    return ball(step) + Vec3(jacobian.bottomRows<3>() * step).cross(stickout_m * pose.axis);
+  }
+};
+
+struct PathEdge {
+  Configuration way;            ///< q' by r
+  double length = 0;            ///< e
+  double ball = 0;              ///< the ball's largest speed (m by r)
+  double turn = 0, travel = 0;  ///< bounds, of the tool, by r
+  double joint_rate = 0;        ///< 1 / (largest r' by the joints' velocities)
+  double line_acceleration = 0;
+  double cap = 0;  ///< largest r', feed or rapid included
+  double feed_m_s = 0;
+  bool cut = false;
+};
+
+/// Where the tool is at the beginning, in the middle and at the end of an edge.
+using EdgePlaces = std::array<ToolPlace, 3>;
+
+/// What the joints may do, as edges are measured by.
+struct JointRates {
+  const Configuration &acceleration, &velocity;
+};
+
+/// From `start` to `end`, which differ; places[0] is at `start`, the others are set.
+PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Configuration& start,
+                   const Configuration& end, EdgePlaces& places);
+
+}  // namespace sculpt

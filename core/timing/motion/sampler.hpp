@@ -1,0 +1,43 @@
+// Plan and law -> where the joints are at a time, moving average included: what a controller is to be given.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/timing/motion/motion_pieces.hpp"
+
+namespace sculpt {
+
+struct MotionSample {
+  Configuration q, velocity;
+};
+
+/// Fastest for times that rise. Not shared between threads.
+class MotionSampler {
+ public:
+  /// Path and law must outlive it. Reads the law once from end to end.
+  MotionSampler(const PlanPath& path, const TimeLaw& law);
+
+  /// From standing at home to standing at the last point.
+  double duration_s() const { return duration_s_; }
+  /// Before 0 and after the end it stands.
+  MotionSample at(double time_s);
+  /// When the motion is nearest to a point: the middle of its parabola or rest, half a window later.
+  /// Of the points one after the other; 0 of home.
+  std::vector<double> times_of_points() const;
+  /// The point that the unfiltered motion was on its way to half a window ago.
+  std::size_t point_at(double time_s);
+
+ private:
+  void reach(double from_s, double to_s);
+
+  const PlanPath& path_;
+  const TimeLaw& law_;
+  MotionPieces pieces_;
+  std::vector<MotionPieces::Mark> marks_;  // every few points
+  std::deque<MotionPiece> held_;           // what windows of late were in, without a gap
+  bool ended_ = false;
+  double duration_s_ = 0;
+};
+
+}  // namespace sculpt

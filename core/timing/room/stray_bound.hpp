@@ -1,0 +1,65 @@
+// How far from the certified path a motion may stray: what the planners' margins leave, and what joints make of it.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "core/cell/cell.hpp"
+#include "core/collision/shape/body.hpp"
+#include "core/timing/plan_path.hpp"
+
+namespace sculpt {
+
+/// Every planner certifies its edges with these to spare (core/collision/margins): 0.2 mm between links, and from links
+/// to material, or 0.6 of the gap that two links have at home; 0.005 voxel about ball and shank. A configuration that
+/// is off a certified one by d_j in joint j is therefore free if, for all pairs of bodies, sum R_j |d_j| is below what
+/// the certificate leaves, where R_j bounds how fast the two move against each other (motion_bound), and if ball and
+/// shank are off by less than theirs. Three quarters of the links' margin may be used, three fifths of the tool's: what
+/// is left is for the replay to prove.
+class StrayBound {
+ public:
+  /// `reserve_m`: of all margins, for what rounds the numbers later. The cell must outlive this. Throws InputError
+  /// `reserve_invalid` where nothing is left.
+  StrayBound(const Cell& cell, const Chain& chain, const Grid& grid, double reserve_m);
+
+  double reserve_m() const { return reserve_m_; }
+  /// Ball and shank's end may stray that far from where the path has them (m), on every certified edge.
+  double tool_m() const { return tool_m_; }
+  /// Links stay where they may be if the sum of links()[j] * |d_j| is at most 1.
+  const Configuration& links() const { return links_; }
+  /// The same at a point of the path of the tool and the links that can move against the stock: share of what these two
+  /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom. `tool_m`:
+  /// how far ball and shank are displaced in the stock's frame, where that is known.
+  double tool_and_links(std::size_t point, bool above, const Configuration& size,
+                        double tool_m = std::numeric_limits<double>::infinity()) const;
+  /// Finds out where on the path the tool is far from all links that can move against the stock. To be called once.
+  void look_along(const PlanPath& path);
+
+ private:
+  static constexpr double far_m = 1e-3;
+  static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
+  void add_link_pairs(const Cell& cell);
+  /// Bodies that the tool must stay off.
+  struct Others {
+    struct One {
+      std::size_t body;
+      Configuration speed, own;  ///< seen from the tool, and from the stock
+    };
+    std::vector<One> all;
+    Configuration most;      ///< of their speeds
+    std::vector<bool> near;  ///< by stretch of the path: the tool may be near one of them
+  };
+  bool stays_below(const Body& body, const Configuration& q) const;
+  void look_at(const PlanPath& path, Others& others, std::size_t first, std::size_t end) const;
+  bool is_far(const Others& others, const Configuration& low, const Configuration& high) const;
+  double share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const;
+
+  const Cell& cell_;
+  const Chain& chain_;
+  std::vector<Body> bodies_;
+  double bottom_m_, reserve_m_, tool_m_;
+  Configuration links_;
+  Others beside_, below_;  ///< the latter are always below the stock's bottom
+};
+
+}  // namespace sculpt

@@ -1,0 +1,130 @@
+#include "core/timing/slow_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/timing/edge.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t most_places = 10;
+constexpr double kept = 1 - 1e-3;  // of the feed: what is above that is as fast as was asked for
+
+std::string text(double value) {
+  std::ostringstream out;
+  out.precision(4);
+  out << value;
+  return out.str();
+}
+
+class SlowPlaces {
+ public:
+  SlowPlaces(const PlanPath& path, const Chain& chain, const Configuration& velocity, const TimeLaw& law,
+             const MotionDemands& demands)
+      : path_(path),
+        rates_(chain),
+        law_(law),
+        demands_(demands),
+        velocity_(velocity),
+        acceleration_(Eigen::Map<const Configuration>(law.acceleration.data(),
+                                                      static_cast<Eigen::Index>(law.acceleration.size()))) {}
+
+  std::vector<SlowPlace> run() {
+    for (std::size_t point = 1; point < path_.size(); ++point)
+      if (path_.edge_to(point).voxels > 0) look_at(point);
+    std::vector<SlowPlace> places;
+    for (const Found& found : found_) places.push_back(describe(found));
+    return places;
+  }
+
+ private:
+  struct Found {
+    std::size_t point;
+    double feed_m_s;
+  };
+
+  const LawCorner& corner(std::size_t point) const { return law_.corners[path_.edge_to(point).keyframe - 1]; }
+
+  /// Does the edge to `point` go on along the same line of the grid as the one before it?
+  bool goes_on(std::size_t point) const {
+    if (point == 0 || point + 1 >= path_.size()) return false;
+    const PlanPath::Edge &edge = path_.edge_to(point), &next = path_.edge_to(point + 1);
+    return edge.voxels > 0 && next.voxels > 0 && edge.way != 0 && edge.way == next.way;
+  }
+
+  /// The ball's slowest speed on the edge, without the voxels at the ends of a line of cuts.
+  void look_at(std::size_t point) {
+    const PlanPath::Edge& edge = path_.edge_to(point);
+    const bool begins = !goes_on(point - 1), ends = !goes_on(point);
+    const double voxel = 1.0 / edge.voxels;
+    if (begins + ends >= edge.voxels) return;
+    const Configuration step = path_.configuration(point) - path_.configuration(point - 1);
+    const double length = step.cwiseQuotient(acceleration_).norm(),
+                 rise = 1 / (step / length).cwiseQuotient(acceleration_).cwiseAbs().maxCoeff();
+    const Configuration way = step / length;
+    const double cruise = static_cast<double>(corner(point).cruise);
+    const float x_before = point > 1 ? corner(point - 1).x_mid : 0, x_after = corner(point).x_mid;
+    const bool by_joints = cruise * way.cwiseAbs().cwiseQuotient(velocity_).maxCoeff() > kept;
+    if (!by_joints && std::sqrt(static_cast<double>(std::min(x_before, x_after))) >= kept * cruise) return;
+    double slowest = demands_.feed_m_s;
+    ToolPlace tool;
+    const auto at_end = [&](std::size_t end, float x, double share, bool is_line_end) {
+      tool.put(rates_, path_.configuration(end));
+      // One voxel from where the line of cuts ends the motion may have risen again.
+      const double there = static_cast<double>(x) + (is_line_end ? 2 * rise * share * length : 0);
+      slowest = std::min(slowest, std::sqrt(std::min(there, cruise * cruise)) * tool.ball(way).norm());
+    };
+    at_end(point - 1, x_before, voxel, begins);
+    at_end(point, x_after, voxel, ends);
+    if (slowest >= kept * demands_.feed_m_s) return;
+    if (demands_.keep_feed && slowest < *demands_.keep_feed * demands_.feed_m_s) refuse({point, slowest});
+    if (found_.size() == most_places && slowest >= found_.back().feed_m_s) return;
+    found_.insert(std::ranges::upper_bound(found_, slowest, {}, &Found::feed_m_s), {point, slowest});
+    if (found_.size() > most_places) found_.pop_back();
+  }
+
+  SlowPlace describe(const Found& found) const {
+    const PlanPath::Edge& edge = path_.edge_to(found.point);
+    Eigen::Index joint = 0;
+    Configuration turn = path_.configuration(found.point) - path_.configuration(found.point - 1);
+    turn = turn.cwiseQuotient(acceleration_).normalized();
+    if (found.point + 1 < path_.size()) {
+      const Configuration next = path_.configuration(found.point + 1) - path_.configuration(found.point);
+      turn -= next.cwiseQuotient(acceleration_).normalized();
+    }
+    turn.cwiseAbs().maxCoeff(&joint);
+    return {edge.keyframe,
+            {edge.last[0], edge.last[1], edge.last[2]},
+            path_.header().joints[static_cast<std::size_t>(joint)],
+            found.feed_m_s};
+  }
+
+  [[noreturn]] void refuse(const Found& found) const {
+    const SlowPlace place = describe(found);
+    throw InputError("feed_not_kept", "at keyframe " + std::to_string(place.keyframe) + ", voxel (" +
+                                          std::to_string(place.voxel.i) + ", " + std::to_string(place.voxel.j) + ", " +
+                                          std::to_string(place.voxel.k) + "), joint '" + place.joint + "' lets only " +
+                                          text(place.feed_m_s) + " m/s be kept of the " + text(demands_.feed_m_s) +
+                                          " asked for: ask for --feed " + text(place.feed_m_s / *demands_.keep_feed) +
+                                          " at most, or for a smaller --keep-feed than " + text(*demands_.keep_feed));
+  }
+
+  const PlanPath& path_;
+  const ToolRates rates_;
+  const TimeLaw& law_;
+  const MotionDemands& demands_;
+  const Configuration velocity_, acceleration_;
+  std::vector<Found> found_;
+};
+
+}  // namespace
+
+std::vector<SlowPlace> find_slow_places(const PlanPath& path, const Chain& chain, const Configuration& velocity,
+                                        const TimeLaw& law, const MotionDemands& demands) {
+  return SlowPlaces(path, chain, velocity, law, demands).run();
+}
+
+}  // namespace sculpt

@@ -1,0 +1,120 @@
+#include "core/timing/timed_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/timing/corners.hpp"
+#include "core/timing/room/stray_bound.hpp"
+#include "core/timing/slow_places.hpp"
+#include "core/timing/speeds.hpp"
+
+namespace sculpt {
+namespace {
+
+// For numbers of 32 bits and double arithmetic.
+constexpr double share_of_acceleration = 1 - 5e-4, share_of_speed = 1 - 1e-6;
+constexpr double shortest_ladder_s = 0.008;  // a window no longer than that is taken as it is
+
+void require_positive(double value, const char* what) {
+  if (value > 0 && std::isfinite(value)) return;
+  std::ostringstream text;
+  text << "a " << what << " of " << value << " m/s cannot be moved at: give one above 0";
+  throw InputError("feed_invalid", text.str());
+}
+
+struct Attempt {
+  Configuration acceleration;
+  double window_s;
+  Corners corners;
+  TimeAccount time;
+};
+
+class Timer {
+ public:
+  Timer(const PlanPath& path, const Cell& cell, const Chain& chain, const MotionLimits& limits, const StrayBound& stray,
+        const MotionDemands& demands)
+      : path_(path), cell_(cell), chain_(chain), limits_(limits), stray_(stray), demands_(demands) {}
+
+  /// The mean over a window T of a motion with |q''| <= a has |q'''| <= 2 a / T.
+  Attempt with_window(double window_s) const {
+    Attempt attempt{
+        share_of_acceleration * limits_.acceleration.cwiseMin(limits_.jerk * (window_s / 2)), window_s, {}, {}};
+    MotionLimits slower = limits_;
+    slower.velocity *= share_of_speed;
+    const CornerDemands wanted{slower,
+                               attempt.acceleration,
+                               window_s,
+                               {share_of_speed * demands_.feed_m_s, share_of_speed * demands_.rapid_m_s}};
+    attempt.corners = find_corners(path_, cell_, chain_, stray_, wanted);
+    attempt.time = find_speeds(path_, wanted, attempt.corners);
+    return attempt;
+  }
+
+  /// A long window strays far and so slows down corners, a short one asks for less acceleration.
+  Attempt best() const {
+    double window_s = 2 * limits_.acceleration.cwiseQuotient(limits_.jerk).maxCoeff();
+    Attempt best = with_window(window_s);
+    while (window_s > shortest_ladder_s) {
+      window_s /= std::sqrt(2.0);
+      Attempt next = with_window(window_s);
+      if (next.time.total >= best.time.total) break;
+      best = std::move(next);
+    }
+    return best;
+  }
+
+ private:
+  const PlanPath& path_;
+  const Cell& cell_;
+  const Chain& chain_;
+  const MotionLimits& limits_;
+  const StrayBound& stray_;
+  const MotionDemands& demands_;
+};
+
+TimeLaw law_of(const PlanPath& path, Attempt&& attempt, const MotionDemands& demands) {
+  TimeLaw law;
+  law.acceleration.assign(attempt.acceleration.begin(), attempt.acceleration.end());
+  law.window_s = attempt.window_s;
+  law.feed_m_s = demands.feed_m_s;
+  law.rapid_m_s = demands.rapid_m_s;
+  attempt.corners.caps = {};
+  law.corners = std::move(attempt.corners.law);
+  law.corners.resize(path.keyframes() + 1);
+  for (std::size_t point = path.size(); point-- > 1;) {  // from points to keyframes, in place
+    const LawCorner corner = law.corners[point];
+    law.corners[point] = {};
+    law.corners[path.edge_to(point).keyframe] = corner;
+  }
+  law.corners.erase(law.corners.begin());
+  return law;
+}
+
+}  // namespace
+
+void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell) {
+  const Grid grid = cell.grid(path.header().grid.n);
+  if (path.header().joints != chain.names() || std::abs(path.header().grid.voxel_m - grid.voxel_m) > 1e-12 ||
+      (path.header().grid.origin_m - grid.origin_m).norm() > 1e-12)
+    throw InputError("cell_mismatch", "the plan was made for cell '" + path.header().cell +
+                                          "' with other joints or another stock: name that cell with --robot");
+}
+
+TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands) {
+  require_positive(demands.feed_m_s, "feed");
+  require_positive(demands.rapid_m_s, "rapid rate");
+  const Chain chain = cell.chain();
+  check_cell(path, chain, cell);
+  const MotionLimits limits = limits_of(cell, chain);
+  StrayBound stray(cell, chain, path.header().grid, demands.reserve_m);
+  stray.look_along(path);
+  Attempt attempt = Timer(path, cell, chain, limits, stray, demands).best();
+  TimedPlan plan{{}, std::move(attempt.time), {}};
+  plan.law = law_of(path, std::move(attempt), demands);
+  plan.worst = find_slow_places(path, chain, limits.velocity, plan.law, demands);
+  return plan;
+}
+
+}  // namespace sculpt
