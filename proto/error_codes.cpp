@@ -64,6 +64,7 @@ constexpr std::array catalogue{
     ErrorCode{"threads_invalid", 5020, false},
     ErrorCode{"no_transit", 5021, false},
     ErrorCode{"file_unwritable", 5022, false},
+    ErrorCode{"tools_invalid", 5023, false},
     ErrorCode{"verify_failed", 5090, false},
     ErrorCode{"out_of_memory", 5091, false},
     ErrorCode{"run_time_exceeded", 5092, false},

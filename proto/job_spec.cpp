@@ -86,6 +86,37 @@ Json to_json(const ContinueSpec& spec) {
   return json;
 }
 
+constexpr std::size_t max_tools = 16, max_library_bytes = 1 << 16;
+
+MillSpec read_mill(Fields fields) {
+  MillSpec spec;
+  const Json& tools = fields.value("tools");
+  if (!tools.is_array() || tools.empty() || tools.size() > max_tools)
+    fields.refuse("tools", "must be a list of 1 to 16 names of tools");
+  for (const Json& tool : tools) {
+    if (!tool.is_string() || tool.get_ref<const std::string&>().empty() ||
+        tool.get_ref<const std::string&>().size() > max_name_bytes)
+      fields.refuse("tools", "must be a list of names");
+    spec.tools.push_back(tool.get<std::string>());
+  }
+  spec.library = fields.value("library");
+  if (!spec.library.is_object() || write_json(spec.library).size() > max_library_bytes)
+    fields.refuse("library", "must be a tool library, as its file has it, of at most 64 KiB");
+  if (fields.has("tolerance_m")) spec.tolerance_m = fields.number("tolerance_m", -huge, huge);
+  if (fields.has("scallop_m")) spec.scallop_m = fields.number("scallop_m", -huge, huge);
+  if (fields.has("allowance_m")) spec.allowance_m = fields.number("allowance_m", -huge, huge);
+  fields.done();
+  return spec;
+}
+
+Json to_json(const MillSpec& spec) {
+  Json json{{"tools", spec.tools}, {"library", spec.library}};
+  if (spec.tolerance_m != MillSpec{}.tolerance_m) json["tolerance_m"] = spec.tolerance_m;
+  if (spec.scallop_m) json["scallop_m"] = *spec.scallop_m;
+  if (spec.allowance_m) json["allowance_m"] = *spec.allowance_m;
+  return json;
+}
+
 // The other job has said where the target is and what is around it.
 void refuse_beside_continue(Fields& fields) {
   for (const char* field : {"placement", "stock"})
@@ -114,6 +145,7 @@ JobSpec read_job_spec(Fields fields) {
   if (fields.has("seed")) spec.seed = fields.count("seed");
   if (fields.has("threads")) spec.threads = static_cast<int>(fields.integer("threads", 1, max_threads));
   if (fields.has("allow_freed")) spec.allow_freed = fields.flag("allow_freed");
+  if (fields.has("mill")) spec.mill = read_mill(fields.object("mill"));
   if (fields.has("placement")) spec.placement = read_placement(fields.object("placement"));
   if (fields.has("stock")) read_stock(fields.object("stock"), spec);
   if (fields.has("continue")) {
@@ -133,6 +165,7 @@ Json to_json(const JobSpec& spec) {
   if (spec.seed != 0) json["seed"] = spec.seed;
   if (spec.threads) json["threads"] = *spec.threads;
   if (spec.allow_freed) json["allow_freed"] = true;
+  if (spec.mill) json["mill"] = to_json(*spec.mill);
   if (Json placement = to_json(spec.placement); !placement.empty()) json["placement"] = std::move(placement);
   if (spec.stock_box) {
     json["stock"] = Json{{"box", {{"min_m", spec.stock_box->min_m}, {"max_m", spec.stock_box->max_m}}}};

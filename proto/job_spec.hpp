@@ -40,6 +40,14 @@ struct ClampingSpec {
   std::array<double, 3> rotation_rad{};
 };
 
+/// Milling tools, in the order that they are used in; meaning as in core/plan/job.hpp.
+struct MillSpec {
+  std::vector<std::string> tools;
+  Json library;  ///< the tool library itself
+  double tolerance_m = 1e-4;
+  std::optional<double> scallop_m, allowance_m;
+};
+
 struct JobSpec {
   BlobRef mesh;
   std::string robot;        ///< name of a cell on the server; empty if `cell_bundle` is set
@@ -49,6 +57,7 @@ struct JobSpec {
   std::uint64_t seed = 0;
   std::optional<int> threads;
   bool allow_freed = false;
+  std::optional<MillSpec> mill;
   PlacementSpec placement;
   std::optional<BoxSpec> stock_box;
   std::optional<BlobRef> stock_mesh;

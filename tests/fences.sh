@@ -28,7 +28,7 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
-core_folders=(base mesh material solid cell trajectory law picture collision search motion sweep doctor place timing program verify plan)
+core_folders=(base mesh material solid cell trajectory law picture collision search motion sweep mill doctor place timing program verify plan)
 for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${core_folders[*]:i+1}")
   forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
@@ -37,13 +37,13 @@ forbid "voxels know no mesh" "$(include 'core/mesh/')" -- core/material
 forbid "collision knows no trajectory" "$(include 'core/(trajectory|picture)/')" -- core/collision
 forbid "search knows no arm" "$(include 'core/(cell|trajectory|collision)/')" -- core/search
 forbid "planners know keyframes, not how a file of them is read or written" \
-  "$(include 'core/trajectory/(binary/|export|form|header|number_text|plain_line|reader|text_source|trajectory_|writer)')" -- core/motion core/sweep
-forbid "time laws need no planner" "$(include 'core/(picture|search|motion|sweep|doctor|place)/')" -- core/timing
+  "$(include 'core/trajectory/(binary/|text/|export|form|header|reader|trajectory_|writer)')" -- core/motion core/sweep
+forbid "time laws need no planner" "$(include 'core/(picture|search|motion|sweep|mill|doctor|place)/')" -- core/timing
 forbid "what reads programs back shares nothing with what writes them" "$(include 'core/(program/(write|axis|make|program_move)|timing|cell)')" -- core/program/read
 forbid "what writes programs knows no reader" "$(include 'core/program/read')" -- core/program/write
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
-forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/cell_(file|motion)\.[ch]pp')" -- core server clients
-forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|doctor|place|timing|program|plan)/|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
+forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/(cell_(file|motion)|milling/tool_library)\.[ch]pp')" -- core server clients
+forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/swept_voxels|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
 server_folders=(base files store fleet confine run queue results access net events api http ops)
@@ -64,7 +64,7 @@ forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/fi
 forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/cell_(file\.cpp|field\.hpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|trajectory/[a-z_/]+\.cpp|plan/(checkpoint|report)\.cpp)')" -- core
+  "$(door '(cell/(cell_file\.cpp|cell_field\.hpp|milling/tool_library\.cpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|trajectory/([a-z_/]+\.cpp|text/line_fields\.hpp)|plan/(checkpoint|report)\.cpp)')" -- core
 forbid "libpq only in fleet/postgres.cpp" "$(include 'libpq')" '^server/fleet/postgres\.cpp$' -- core server proto clients
 forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients
 

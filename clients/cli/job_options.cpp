@@ -99,6 +99,28 @@ void add_job_options(CLI::App& command, JobOptions& options) {
       ->capture_default_str();
   command.add_flag("--allow-freed", options.allow_freed,
                    "Let pieces come loose while a translating robot carves; arms never do");
+  const char* group = "Milling tools";
+  MillOptions& mill = options.mill;
+  command
+      .add_option("--tools", mill.tools, "Carve with these tools of the library, in this order; search is then 'mill'")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->group(group);
+  command
+      .add_option("--tool-library", mill.library, "Where they are: a name under config/tools, or the path of a file")
+      ->type_name("LIBRARY")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--tolerance", mill.tolerance_m, "What may stand above the surface where these tools come to it")
+      ->type_name("METRES")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--scallop", mill.scallop_m, "Of that, between rows; default half of it")
+      ->type_name("METRES")
+      ->group(group);
+  command.add_option("--allowance", mill.allowance_m, "Of that, left on purpose; default three tenths of it")
+      ->type_name("METRES")
+      ->group(group);
   add_placement_options(command, options.placement);
 }
 
@@ -141,12 +163,20 @@ void check_resolution(int n) {
                      "resolution " + std::to_string(n) + " cannot be used: give a power of two from 8 to 1024");
 }
 
+std::optional<MillOrder> read_mill_order(const MillOptions& options) {
+  if (options.tools.empty()) return std::nullopt;
+  return MillOrder{read_tool_library(options.library, shipped_tool_folders()), options.tools, options.tolerance_m,
+                   options.scallop_m, options.allowance_m};
+}
+
 Job read_job(const JobOptions& options) {
   Job job;
   job.mesh = read_mesh_file(options.mesh, "mesh");
   job.stock = read_stock(options.placement);
   job.cell = read_cell(options.robot);
   job.resolution = options.resolution;
+  job.mill = read_mill_order(options.mill);
+  if (job.mill) job.search = Search::mill;
   if (!options.search.empty()) job.search = parse_search(options.search);
   job.seed = options.seed;
   job.allow_freed = options.allow_freed;

@@ -22,25 +22,36 @@ struct PlacementOptions {
   std::uint64_t memory_cap_bytes = 2ull << 30;
 };
 
+/// For milling tools.
+struct MillOptions {
+  std::vector<std::string> tools;
+  std::string library = "carving";
+  double tolerance_m = MillOrder{}.tolerance_m;
+  std::optional<double> scallop_m, allowance_m;
+};
+
 struct JobOptions {
   std::string mesh, robot;
   int resolution = 0;
   std::string search;  ///< empty: the default of whoever plans
   std::uint64_t seed = 0;
   bool allow_freed = false;
+  MillOptions mill;
   PlacementOptions placement;
 };
 
 void add_placement_options(CLI::App& command, PlacementOptions& options);
 /// For what is planned in this process: a server has its own cap.
 void add_memory_cap(CLI::App& command, std::uint64_t& bytes);
-/// MESH, --resolution, --robot, --search, --seed, --allow-freed and the placement.
+/// MESH, --resolution, --robot, --search, --seed, --allow-freed, milling tools and the placement.
 void add_job_options(CLI::App& command, JobOptions& options);
 
 Placement to_placement(const PlacementOptions& options);
 
 /// A file's bytes with its kind. Throws Failure (usage) where it cannot be read.
 MeshFile read_mesh_file(const std::string& path, const std::string& what);
+/// Reads the tool library; nothing where no tools are named.
+std::optional<MillOrder> read_mill_order(const MillOptions& options);
 /// Reads the stock file, if one is named.
 Stock read_stock(const PlacementOptions& options);
 

@@ -34,6 +34,7 @@ struct Cell {
   int tool_link = -1;
   double stock_size_m = 0;             ///< edge of the grid's cube
   Vec3 stock_origin_m = Vec3::Zero();  ///< corner of voxel (0,0,0) in the stock link's frame
+  bool has_post = false;  ///< the last shape of the stock link is what the cell file has the stock stand on
   ToolSpec tool;
   std::vector<double> rest;            ///< value of every robot joint at home
   std::vector<LinkPair> ignore_pairs;  ///< may touch, whatever is found out about them; sorted, none twice
@@ -61,6 +62,9 @@ struct CellDraft {
 
 /// As parse_cell, but for what is wrong with home.
 CellDraft draft_cell(const CellFiles& files);
+
+/// With nothing in the spindle: the holder of the cell's own thin tool is taken off the tool link.
+Cell without_holder(Cell cell);
 
 /// Gives joints that mimic another one the values that follow from it; one value a joint of the robot.
 void follow_leaders(const Robot& robot, std::vector<double>& values);

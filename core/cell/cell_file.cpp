@@ -121,6 +121,16 @@ ToolSpec parse_tool(const Field& field) {
   return tool;
 }
 
+/// What the stock stands on: a square post under its middle.
+Shape post_shape(const Field& field, const Cell& cell) {
+  field.require_object({"height_m", "width_m"});
+  const double height_m = read_extent(field.at("height_m")), width_m = read_extent(field.at("width_m"));
+  Shape post;
+  post.sides_m = {width_m, width_m, height_m};
+  post.pose.translation() = cell.stock_origin_m + Vec3(cell.stock_size_m, cell.stock_size_m, -height_m) / 2;
+  return post;
+}
+
 /// Every joint of the robot: 0 as far as its limits allow.
 std::vector<double> rest_of(const Robot& robot) {
   std::vector<double> rest;
@@ -206,21 +216,6 @@ const std::string& file_named(const CellFiles& files, const std::string& name) {
 
 }  // namespace
 
-void follow_leaders(const Robot& robot, std::vector<double>& values) {
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    if (joint.mimic >= 0)
-      values[j] = joint.mimic_multiplier * values[static_cast<std::size_t>(joint.mimic)] + joint.mimic_offset;
-  }
-}
-
-Configuration Cell::home(const Chain& chain) const {
-  Configuration q(chain.dof());
-  for (int c = 0; c < chain.dof(); ++c)
-    q[c] = rest[static_cast<std::size_t>(chain.joints()[static_cast<std::size_t>(c)])];
-  return q;
-}
-
 CellFiles read_cell_files(const fs::path& path) {
   CellFiles files;
   files.name = path.stem().string();
@@ -253,7 +248,7 @@ CellDraft draft_cell(const CellFiles& files) {
     for (const auto& [package, folder] : top.at("packages").members()) folder.text();
   }
   const Field stock = top.at("stock"), tool = top.at("tool");
-  stock.require_object({"link", "size_m", "origin_m"});
+  stock.require_object({"link", "size_m", "origin_m", "post"});
   cell.stock_size_m = stock.at("size_m").number_from(1e-6);
   cell.stock_origin_m = stock.at("origin_m").vector();
   cell.tool = parse_tool(tool);
@@ -263,6 +258,11 @@ CellDraft draft_cell(const CellFiles& files) {
   cell.tool_link = find_link(cell.robot, tool.at("link"));
   for (Shape& shape : holder_shapes(cell.tool))  // to whoever looks at links the holder is part of one
     cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes.push_back(std::move(shape));
+  if (stock.has("post")) {
+    const Shape post = post_shape(stock.at("post"), cell);
+    cell.robot.links[static_cast<std::size_t>(cell.stock_link)].shapes.push_back(post);
+    cell.has_post = true;
+  }
   cell.rest = parse_home(cell.robot, top, draft.home_faults);
   cell.ignore_pairs = parse_pairs(cell.robot, top, "ignore_pairs");
   cell.check_pairs = parse_pairs(cell.robot, top, "check_pairs");

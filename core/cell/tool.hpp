@@ -29,6 +29,11 @@ struct ToolSpec {
   bool in_voxels = true;
   double stickout_m = 0;
   std::vector<HolderSection> holder = {};
+  /// Of a milling tool that is guided by height maps: what it consists of, in the tool link's frame. The stock, and
+  /// what stands still beside it, are then held against it (and all that is fixed to the tool link) by those maps.
+  std::vector<Shape> body = {};
+
+  bool is_guided_by_maps() const { return !body.empty(); }
 };
 
 /// Throws InputError `tool_too_large` when ball or shank would not fit through one voxel (radius >= 0.49 voxel), or the

@@ -52,7 +52,8 @@ void SceneBodies::add_pairs(const Cell& cell) {
   const int count = static_cast<int>(places.size());
   for (int a = 0; a < count; ++a) {
     const Place& first = places[static_cast<std::size_t>(a)];
-    if (!first.tool && first.group != stock_group)
+    const bool by_maps = cell.tool.is_guided_by_maps() && first.group == tool_group;
+    if (!first.tool && first.group != stock_group && !by_maps)
       pairs.push_back({a, -1, link_margin_m, {make_mover(a, cell.stock_link)}, grid_speed_from(first.link)});
     for (int b = a + 1; b < count; ++b) {
       const Place& second = places[static_cast<std::size_t>(b)];
@@ -67,7 +68,7 @@ void SceneBodies::add_pairs(const Cell& cell) {
       }
     }
   }
-  for (int a = 0; a < count; ++a)
+  for (int a = 0; a < count && !cell.tool.is_guided_by_maps(); ++a)
     if (const Place& place = places[static_cast<std::size_t>(a)]; !place.tool && place.group == stock_group)
       fixed.push_back(&bodies[static_cast<std::size_t>(a)]);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "core/cell/ik.hpp"
 #include "core/material/binvox.hpp"
@@ -130,6 +131,13 @@ Solid JobShapes::make_target(const Grid& grid, const Watch& watch) {
   return find_solid(place_mesh(mesh, job_.placement, grid), grid, watch);
 }
 
+Mesh JobShapes::place_part(const Grid& grid, const Watch& watch) {
+  if (job_.mesh.extension == "binvox")
+    throw InputError("mesh_unreadable",
+                     "'" + job_.mesh.name + "' holds voxels, and milling tools need the surface: give the mesh itself");
+  return place_mesh(read(job_.mesh, target_, watch), job_.placement, grid);
+}
+
 VoxelGrid JobShapes::place(const Grid& grid, const Watch& watch) {
   VoxelSet stock = make_stock(grid, watch);
   Solid target = make_target(grid, watch);
@@ -188,13 +196,66 @@ void check_sizes(const JobSizes& sizes, std::uint64_t memory_cap_bytes) {
                                        "resolution, or raise the memory cap");
 }
 
+namespace {
+
+std::string mm(double metres) {
+  std::ostringstream text;
+  text << 1000 * metres << " mm";
+  return text.str();
+}
+
+/// What a milling job asks for, against its tools and the cell's block.
+void check_wishes(const MillOrder& order, const std::vector<MillTool>& tools, const Cell& cell) {
+  const auto refuse = [](const std::string& sentence) { throw InputError("tools_invalid", sentence); };
+  const double tolerance = order.tolerance_m, scallop = order.scallop_m.value_or(tolerance / 2),
+               allowance = order.allowance_m.value_or(0.3 * tolerance);
+  if (!(tolerance > 0))
+    refuse("a tolerance of " + mm(tolerance) + " cannot be met: give metres above 0, for example 0.0001");
+  if (!(scallop > 0) || !(allowance >= 0) || scallop + allowance > tolerance)
+    refuse("scallop " + mm(scallop) + " and allowance " + mm(allowance) + " do not fit into the tolerance of " +
+           mm(tolerance) + ": both together must be less");
+  for (const MillTool& tool : tools) {
+    if (tolerance > tool.cutter.radius_m)
+      refuse("a tolerance of " + mm(tolerance) + " is more than the radius of '" + tool.name + "', " +
+             mm(tool.cutter.radius_m) + ": give metres, for example 0.0001");
+    if (2 * tool.cutter.radius_m > cell.stock_size_m)
+      refuse("tool '" + tool.name + "' is " + mm(2 * tool.cutter.radius_m) + " wide, the block " +
+             mm(cell.stock_size_m) + " only: take a smaller tool");
+  }
+}
+
+std::vector<MillTool> check_mill(const Job& job, const Cell& cell) {
+  if (!job.mill)
+    throw InputError("tools_invalid", "search 'mill' needs tools: give --tools, for example --tools D20,D6");
+  if (cell.chain().translating())
+    throw InputError("search_unknown", "cell '" + cell.name +
+                                           "' only translates, and search 'mill' turns the tool about the stock: "
+                                           "take a cell with turning joints");
+  if (!job.clampings.empty())
+    throw InputError("search_unknown",
+                     "a job with tools cannot go on with what another one left yet: plan the mesh in one clamping");
+  std::vector<MillTool> tools = choose_tools(job.mill->library, job.mill->tools);
+  check_wishes(*job.mill, tools, cell);
+  return tools;
+}
+
+}  // namespace
+
 CheckedJob check_job(const Job& job, const Watch& watch) {
   check_sizes(sizes_of(job), job.memory_cap_bytes);
   if (job.threads < 1)
     throw InputError("threads_invalid", "threads " + std::to_string(job.threads) + " must be 1 or more");
   Cell cell = parse_cell(job.cell);
   const Grid grid = cell.grid(job.resolution);
-  make_tool(cell.tool, grid.voxel_m, grid.n);
+  std::vector<MillTool> tools;
+  if (job.search == Search::mill) {
+    tools = check_mill(job, cell);
+  } else {
+    if (job.mill)
+      throw InputError("tools_invalid", std::string("tools are for search 'mill', not for '") + name(job.search) +
+                                            "': leave one of the two out");
+    make_tool(cell.tool, grid.voxel_m, grid.n);
+  }
   if (job.search == Search::voxel && !cell.chain().translating())
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");
@@ -203,7 +264,7 @@ CheckedJob check_job(const Job& job, const Watch& watch) {
                                (job.stock.mesh && job.stock.mesh->extension == "binvox");
   JobShapes shapes(job);
   shapes.voxelize(given_as_voxels || job.resolution <= coarse_resolution ? grid : cell.grid(coarse_resolution), watch);
-  return {std::move(cell), grid, std::move(shapes)};
+  return {std::move(cell), grid, std::move(shapes), std::move(tools)};
 }
 
 }  // namespace sculpt

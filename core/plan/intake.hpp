@@ -45,7 +45,10 @@ class JobShapes {
   /// kept. Those of a job of several clampings are of the last one. Throws InputError for files that are no shape, or
   /// none in this grid, and for clampings that do not fit; Cancelled.
   const VoxelGrid& voxelize(const Grid& grid, const Watch& watch);
-  /// The same for the last time: what was read is given up.
+  /// The target's surface as a mesh, placed (m, stock frame). Throws as `voxelize`, and InputError `mesh_unreadable`
+  /// for one that is given as voxels.
+  Mesh place_part(const Grid& grid, const Watch& watch);
+  /// The same as `voxelize` for the last time: what was read is given up.
   VoxelGrid take_voxels(const Grid& grid, const Watch& watch) &&;
 
  private:
@@ -64,6 +67,7 @@ struct CheckedJob {
   Cell cell;
   Grid grid;
   JobShapes shapes;
+  std::vector<MillTool> tools = {};  ///< of a job that names some
 };
 
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,

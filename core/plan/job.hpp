@@ -9,6 +9,7 @@
 
 #include "core/base/frame.hpp"
 #include "core/cell/cell.hpp"
+#include "core/cell/milling/tool_library.hpp"
 #include "core/search/search.hpp"
 #include "core/solid/placement.hpp"
 
@@ -37,11 +38,20 @@ struct Clamping {
                                      ///< placement, by quarter turns; then they are set down on the floor
 };
 
+/// Milling tools, in the order that they are used in, and what the surface is to be like (m).
+struct MillOrder {
+  ToolLibraryFile library;
+  std::vector<std::string> tools;
+  double tolerance_m = 1e-4;  ///< what may stand above the surface where the tools come to it
+  std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default half and three tenths
+};
+
 struct Job {
   MeshFile mesh;
   CellFiles cell;
   int resolution = 0;  ///< power of two, 8 to 1024
   Search search = Search::sweep;
+  std::optional<MillOrder> mill = {};  ///< there if, and only if, `search` is mill
   std::uint64_t seed = 0;
   int threads = 1;           ///< the plan is the same at any number
   bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do

@@ -44,6 +44,14 @@ std::string job_key(const Job& job) {
     add(key, clamping.left);
     key.add(clamping.rotation_rad);
   }
+  key.add(static_cast<std::uint64_t>(job.mill.has_value()));
+  if (const auto& mill = job.mill) {
+    key.add(mill->library.json);
+    for (const std::string& tool : mill->tools) key.add(tool);
+    key.add(mill->tolerance_m);
+    key.add(mill->scallop_m.value_or(0));
+    key.add(mill->allowance_m.value_or(0));
+  }
   return key.hex();
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/helpers.hpp"
 #include "core/base/run_context.hpp"
+#include "core/base/sha256.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/material/octree.hpp"
 #include "core/motion/explain_residue.hpp"
@@ -14,11 +15,14 @@
 #include "core/plan/checkpoint_folder.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/job_key.hpp"
+#include "core/plan/mill_plan.hpp"
 #include "core/plan/replay_beside.hpp"
 #include "core/plan/report_figures.hpp"
 #include "core/plan/run_log.hpp"
 #include "core/sweep/follow.hpp"
 #include "core/trajectory/quantum.hpp"
+#include "core/trajectory/reader.hpp"
+#include "core/verify/mill/verify_milled.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt {
@@ -147,7 +151,6 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   const RunContext run{job.seed, helpers, watch};
   JobResult result;
   Report& report = result.report;
-  name_job(report, job);
   const auto [cell, octree] = read_inputs(job, watch, result);
 
   const Stopwatch planning;
@@ -189,7 +192,15 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
     count_replay(report, replay.wait({told.stop, told.tell, watch.doubts}, [] {}));
   }
   report.seconds.total = total.seconds();
-  report.peak_memory_bytes = peak_memory_bytes();
+  return result;
+}
+
+JobResult run(const Job& job, const OutputPlace& place, const Watch& watch, CheckpointFolder kept) {
+  // A milled plan is made in less time than it takes to lose much: it starts over.
+  JobResult result =
+      job.search == Search::mill ? plan_milled(job, place, watch) : plan(job, place, watch, std::move(kept));
+  name_job(result.report, job);
+  result.report.peak_memory_bytes = peak_memory_bytes();
   return result;
 }
 
@@ -201,14 +212,26 @@ VoxelSet find_left(const JobResult& result) {
   return left;
 }
 
+Verdict replay_plan(std::istream& in, const Job& job, const Watch& watch, const ReplaySettings& settings) {
+  const bool is_milled = TrajectoryReader(in).header().mill.has_value();
+  in.clear();
+  in.seekg(0);
+  Cell cell = parse_cell(job.cell);
+  const Grid grid = cell.grid(job.resolution);
+  JobShapes shapes(job);
+  if (!is_milled) return verify_trajectory(in, cell, std::move(shapes).take_voxels(grid, watch), watch, settings);
+  const MilledPart part{shapes.place_part(grid, watch), sha256_hex(job.mesh.bytes)};
+  return verify_milled(in, without_holder(std::move(cell)), std::move(shapes).take_voxels(grid, watch), part, watch);
+}
+
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {
-  return plan(job, {trajectory, form}, watch, {});
+  return run(job, {trajectory, form}, watch, {});
 }
 
 JobResult resume_job(const Job& job, const std::filesystem::path& trajectory, const CheckpointPlace& place,
                      const Watch& watch) {
-  return plan(job, {trajectory, TrajectoryForm::text, place.timeline}, watch,
-              {place.folder, trajectory, job_key(job), place.interval});
+  return run(job, {trajectory, TrajectoryForm::text, place.timeline}, watch,
+             {place.folder, trajectory, job_key(job), place.interval});
 }
 
 }  // namespace sculpt

@@ -3,26 +3,14 @@
 
 #include <chrono>
 #include <filesystem>
-#include <vector>
 
 #include "core/base/watch.hpp"
-#include "core/material/voxel_grid.hpp"
-#include "core/motion/residue.hpp"
 #include "core/plan/job.hpp"
-#include "core/plan/report.hpp"
+#include "core/plan/job_result.hpp"
 #include "core/trajectory/form.hpp"
+#include "core/verify/verify.hpp"
 
 namespace sculpt {
-
-struct JobResult {
-  Report report;
-  VoxelGrid voxels;
-  Grid grid;
-  std::vector<Residue> residue;
-};
-
-/// What stands when the plan has been carried out: the target, and what was left.
-VoxelSet find_left(const JobResult& result);
 
 /// Plans, writing to `trajectory` what is final beside the planning, on a thread of its own (lines are flushed at least
 /// once per block or layer), then verifies the written file. Before anything is planned `watch` is told how much of the
@@ -30,6 +18,10 @@ VoxelSet find_left(const JobResult& result);
 /// Any thread; several jobs may run at once.
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch,
                   TrajectoryForm form = TrajectoryForm::text);
+
+/// Replays a plan of the job, of either format, from its beginning (`in` can be read twice). Throws InputError
+/// `trajectory_invalid` and those of files that are no shape; Cancelled.
+Verdict replay_plan(std::istream& in, const Job& job, const Watch& watch, const ReplaySettings& settings);
 
 /// Where a run keeps checkpoints and its timeline, and how old the last one is when the next is due, after the unit
 /// then in work. At a stop it keeps what units had finished, whatever the time.

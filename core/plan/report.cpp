@@ -68,6 +68,14 @@ std::string report_json(const Report& report) {
               {"exempt_pairs", exempt}}}};
   if (const auto& sweep = report.sweep)
     json["sweep"] = {{"cut", sweep->cut}, {"left", sweep->left}, {"uncovered", sweep->uncovered}};
+  for (const ToolFigures& tool : report.tools)
+    json["tools"].push_back({{"name", tool.name},
+                             {"removed_m3", tool.removed_m3},
+                             {"cut_m", tool.cut_m},
+                             {"travel_m", tool.travel_m},
+                             {"keyframes", tool.keyframes},
+                             {"runs", tool.runs},
+                             {"engagement", {{"mean", tool.engagement.mean}, {"max", tool.engagement.largest}}}});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

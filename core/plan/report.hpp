@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mill/tool_figures.hpp"
 #include "core/motion/residue.hpp"
 #include "core/sweep/sweep.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
@@ -34,6 +35,7 @@ struct Report {
     double cut_m = 0, travel_m = 0, joint_travel_rad = 0;
   } path;
   std::optional<SweepFigures> sweep;  ///< where the job was planned so
+  std::vector<ToolFigures> tools;     ///< of a job that names some
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.
   struct {

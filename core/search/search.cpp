@@ -14,14 +14,17 @@ const char* name(Search search) {
       return "octree";
     case Search::voxel:
       return "voxel";
+    case Search::mill:
+      return "mill";
   }
   return "unknown";
 }
 
 Search parse_search(std::string_view text) {
-  for (const Search search : {Search::sweep, Search::octree, Search::voxel})
+  for (const Search search : {Search::sweep, Search::octree, Search::voxel, Search::mill})
     if (text == name(search)) return search;
-  throw InputError("search_unknown", "search '" + std::string(text) + "' is not known: use octree, sweep or voxel");
+  throw InputError("search_unknown",
+                   "search '" + std::string(text) + "' is not known: use mill, octree, sweep or voxel");
 }
 
 }  // namespace sculpt

@@ -5,10 +5,11 @@
 
 namespace sculpt {
 
-/// Of arms `sweep` or `octree`; translating robots carve by `octree`, also where `sweep` is asked for, or by `voxel`.
-enum class Search { sweep, octree, voxel };
+/// Of arms `sweep` or `octree`; translating robots carve by `octree`, also where `sweep` is asked for, or by `voxel`;
+/// `mill` with milling tools.
+enum class Search { sweep, octree, voxel, mill };
 
-/// "sweep", "octree", "voxel".
+/// "sweep", "octree", "voxel", "mill".
 const char* name(Search search);
 
 /// Throws InputError `search_unknown`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/error.hpp"
 #include "core/trajectory/reader.hpp"
 
 namespace sculpt {
@@ -25,6 +26,9 @@ PlanPath::Edge edge_of(const Keyframe& keyframe, std::uint64_t number, Voxel bef
 PlanPath::PlanPath(std::istream& in) {
   TrajectoryReader reader(in);
   header_ = reader.header();
+  if (header_.mill)
+    throw InputError("trajectory_invalid",
+                     "the plan is for milling tools (format 2), of which no time law is made yet: take one of a thin tool");
   dof_ = header_.joints.size();
   add(header_.home, {});
   Configuration at = header_.home;

@@ -3,7 +3,8 @@
 namespace sculpt {
 
 int run_length(const Keyframe& keyframe) {
-  return keyframe.cut ? l1(keyframe.first, keyframe.last) + 1 : 0;
+  if (!keyframe.cut) return 0;
+  return keyframe.mill ? static_cast<int>(keyframe.mill->removed) : l1(keyframe.first, keyframe.last) + 1;
 }
 
 }  // namespace sculpt

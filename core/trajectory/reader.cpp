@@ -4,7 +4,7 @@
 
 #include "core/trajectory/binary/binary_frame.hpp"
 #include "core/trajectory/binary/binary_source.hpp"
-#include "core/trajectory/text_source.hpp"
+#include "core/trajectory/text/text_source.hpp"
 
 namespace sculpt {
 

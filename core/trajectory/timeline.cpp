@@ -6,7 +6,7 @@
 #include "core/trajectory/binary/segment.hpp"
 #include "core/trajectory/binary/token_reader.hpp"
 #include "core/trajectory/binary/varint.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {
@@ -58,7 +58,9 @@ void TimelineWriter::add(const Keyframe& keyframe) {
     last_ = {};
     in_segment_ = 0;
   }
-  append_token(unsent_, keyframe, last_);
+  Keyframe told = keyframe;
+  if (told.mill) told.cut = false;  // what a milling tool sweeps is no run of voxels
+  append_token(unsent_, told, last_);
   ++in_segment_;
 }
 

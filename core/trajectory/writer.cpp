@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "core/base/sha256.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 
 struct TrajectoryWriter::Impl {
-  explicit Impl(std::ostream& stream) : out(stream), unhashed(1 << 16), top(unhashed.data()) {}
+  Impl(std::ostream& stream, const TrajectoryHeader& of)
+      : out(stream), header(of), line_bytes(max_keyframe_line_bytes(header)), unhashed(1 << 16), top(unhashed.data()) {}
 
   // Room for one more line in `unhashed`.
   char* make_room(std::size_t size) {
@@ -37,6 +38,8 @@ struct TrajectoryWriter::Impl {
   std::size_t used() const { return static_cast<std::size_t>(top - unhashed.data()); }
 
   std::ostream& out;
+  TrajectoryHeader header;
+  std::size_t line_bytes;  ///< the longest
   std::vector<char> unhashed;
   char* top;
   Sha256 hash;
@@ -45,7 +48,7 @@ struct TrajectoryWriter::Impl {
 };
 
 TrajectoryWriter::TrajectoryWriter(std::ostream& out, const TrajectoryHeader& header)
-    : impl_(std::make_unique<Impl>(out)) {
+    : impl_(std::make_unique<Impl>(out, header)) {
   const std::string line = header_line(header) + '\n';
   impl_->send(std::copy(line.begin(), line.end(), impl_->make_room(line.size())));
 }
@@ -53,8 +56,8 @@ TrajectoryWriter::TrajectoryWriter(std::ostream& out, const TrajectoryHeader& he
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::add(const Keyframe& keyframe) {
-  char* const line = impl_->make_room(max_keyframe_line_bytes(static_cast<std::size_t>(keyframe.q.size())));
-  impl_->send(write_keyframe_line(line, keyframe));
+  char* const line = impl_->make_room(impl_->line_bytes);
+  impl_->send(write_keyframe_line(line, keyframe, impl_->header));
   ++impl_->end.keyframes;
   impl_->end.removed += static_cast<std::uint64_t>(run_length(keyframe));
 }

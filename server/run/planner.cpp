@@ -29,11 +29,9 @@ PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
 }
 
 Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
-  const Cell cell = parse_cell(job.cell);
-  const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
   std::ifstream in(trajectory, std::ios::binary);
   if (!in) throw InputError("trajectory_invalid", "the stored trajectory of the job cannot be read");
-  Verdict verdict = verify_trajectory(in, cell, voxels, watch, {job.threads});
+  Verdict verdict = replay_plan(in, job, watch, {job.threads});
   return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings),
           std::move(verdict.exempt_pairs)};
 }

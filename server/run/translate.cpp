@@ -80,6 +80,14 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
   job.mesh = read_mesh(spec.mesh, blobs, mesh_pointer);
   job.cell = load_cell(cell_bundle, blobs, cell_pointer);
   job.resolution = static_cast<int>(spec.resolution);
+  if (const auto& mill = spec.mill) {
+    job.mill = MillOrder{{"of the job", proto::write_json(mill->library)},
+                         mill->tools,
+                         mill->tolerance_m,
+                         mill->scallop_m,
+                         mill->allowance_m};
+    job.search = Search::mill;
+  }
   if (spec.search) job.search = parse_search(*spec.search);
   job.seed = spec.seed;
   job.threads = spec.threads.value_or(defaults.threads);

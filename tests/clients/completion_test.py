@@ -29,11 +29,11 @@ class Completion(ClientTest):
     def test_bash_completes_what_options_and_commands_take(self):
         for command in ("plan", "submit"):
             self.assertEqual(self.complete(command, "a.stl", "--robot", "pan"), {"panda-turntable", "panda-turntable-6mm"})
-            self.assertEqual(self.complete(command, "--search", ""), {"sweep", "octree", "voxel"})
+            self.assertEqual(self.complete(command, "--search", ""), {"sweep", "octree", "voxel", "mill"})
         self.assertEqual(self.complete("fetch", "JOB", "--format", ""), {"ndjson", "binary", "csv", "tokens", "gzip"})
         self.assertEqual(self.complete("fetch", "--artifact", "r"), {"residue", "report"})
         self.assertEqual(self.complete("queue", ""), {"pause", "resume"})
-        self.assertEqual(self.complete("cell", ""), {"new", "gantry", "panda-turntable", "panda-turntable-6mm", "six-axis-turntable", "ur10e-plinth"})
+        self.assertEqual(self.complete("cell", ""), {"new", "gantry", "panda-turntable", "panda-turntable-6mm", "six-axis-turntable", "studio", "ur10e-plinth"})
         self.assertEqual(self.complete("cell", "new", "a.urdf", "--stock-"), {"--stock-at", "--stock-link", "--stock-size"})
         self.assertEqual(self.complete("cell", "new", "a.urdf", "--table", ""), {"turntable", "fixed"})
         self.assertEqual(self.complete("queue", "p"), {"pause"})

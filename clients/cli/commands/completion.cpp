@@ -33,7 +33,7 @@ std::string first_line(const std::string& text) {
 /// CLI11 writes what an option is checked for behind its type: TEXT:{ndjson,binary,csv}.
 std::string values_of(const CLI::Option& option) {
   if (option.check_lname("robot") || option.get_type_name() == "CELL") return cells;
-  if (option.check_lname("search")) return "sweep octree voxel";
+  if (option.check_lname("search")) return "sweep octree voxel mill";
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{'), end = type.find('}');
   if (begin == std::string::npos || end == std::string::npos) return "";

@@ -57,6 +57,12 @@ Json make_spec(client::Client& client, const JobOptions& options, const Inputs& 
   if (!options.search.empty()) spec["search"] = options.search;
   spec["seed"] = options.seed;
   if (options.allow_freed) spec["allow_freed"] = true;
+  if (const auto mill = read_mill_order(options.mill)) {
+    spec["mill"] = {{"tools", mill->tools}, {"library", proto::parse_json(mill->library.json)}};
+    spec["mill"]["tolerance_m"] = mill->tolerance_m;
+    if (mill->scallop_m) spec["mill"]["scallop_m"] = *mill->scallop_m;
+    if (mill->allowance_m) spec["mill"]["allowance_m"] = *mill->allowance_m;
+  }
   return spec;
 }
 

@@ -20,7 +20,7 @@
 #include "clients/cli/progress_line.hpp"
 #include "clients/cpp/client.hpp"
 #include "core/base/extension.hpp"
-#include "core/plan/intake.hpp"
+#include "core/plan/plan.hpp"
 #include "core/trajectory/reader.hpp"
 
 namespace sculpt::cli {
@@ -94,7 +94,7 @@ int verify_file(const VerifyOptions& options) {
   job.stock = read_stock(options.placement);
   job.placement = to_placement(options.placement);
   job.memory_cap_bytes = options.placement.memory_cap_bytes;
-  const Cell cell = parse_cell(read_cell(options.robot));
+  job.cell = read_cell(options.robot);
   job.resolution = options.resolution.value_or(TrajectoryReader(*trajectory).header().grid.n);
   trajectory->clear();
   trajectory->seekg(0);
@@ -104,8 +104,7 @@ int verify_file(const VerifyOptions& options) {
   ProgressLine progress(STDERR_FILENO, PlainLines::each_second);
   const Watch watch{stop.get_token(), [&](const Progress& at) { progress.tell(name(at.stage), at.done, at.total); }};
   check_resolution(job.resolution);
-  const VoxelGrid voxels = make_voxels(job, cell.grid(job.resolution), watch);
-  const Verdict verdict = verify_trajectory(*trajectory, cell, voxels, watch, {options.threads, options.thorough});
+  const Verdict verdict = replay_plan(*trajectory, job, watch, {options.threads, options.thorough});
   progress.clear();
   return print_verdict(options, to_json(options, verdict));
 }

@@ -50,9 +50,9 @@ double extent_of(const ShapeTree& tree) {
   return extent;
 }
 
-std::vector<Body::Part> make_parts(const Link& link) {
+std::vector<Body::Part> make_parts(const std::vector<Shape>& shapes) {
   std::vector<Body::Part> parts;
-  for (std::size_t at = 0; at < link.shapes.size(); ++at) parts.push_back(make_part(make_tree(link.shapes[at]), at));
+  for (std::size_t at = 0; at < shapes.size(); ++at) parts.push_back(make_part(make_tree(shapes[at]), at));
   return parts;
 }
 
@@ -79,9 +79,10 @@ Body::Body(int of_link, bool of_tool, std::vector<Part> of_parts)
 std::vector<Body> make_bodies(const Cell& cell, const Tool& tool) {
   std::vector<Body> bodies;
   for (int link = 0; link < static_cast<int>(cell.robot.links.size()); ++link)
-    if (auto parts = make_parts(cell.robot.links[static_cast<std::size_t>(link)]); !parts.empty())
+    if (auto parts = make_parts(cell.robot.links[static_cast<std::size_t>(link)].shapes); !parts.empty())
       bodies.emplace_back(link, false, std::move(parts));
-  bodies.emplace_back(cell.tool_link, true, make_parts(tool));
+  bodies.emplace_back(cell.tool_link, true,
+                      cell.tool.is_guided_by_maps() ? make_parts(cell.tool.body) : make_parts(tool));
   return bodies;
 }
 

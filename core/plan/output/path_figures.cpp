@@ -25,7 +25,7 @@ PathFigures::PathFigures(const Chain& chain, const Grid& grid, const Configurati
 void PathFigures::add(const Keyframe& keyframe) {
   ++keyframes;
   // A cut ends in the middle of a voxel, to within the tolerance of the plan.
-  const Vec3 ball = keyframe.cut ? grid_.centre(keyframe.last) : chain_.tool_pose(keyframe.q).ball_m;
+  const Vec3 ball = keyframe.cut && !keyframe.mill ? grid_.centre(keyframe.last) : chain_.tool_pose(keyframe.q).ball_m;
   const double length = (ball - ball_).norm();
   (keyframe.cut ? cut_m : travel_m) += length;
   if (length > 0) {
@@ -34,7 +34,10 @@ void PathFigures::add(const Keyframe& keyframe) {
     heading_ = heading;
   }
   joint_travel_rad += turning_.dot((keyframe.q - q_).cwiseAbs());
-  if (keyframe.cut) {
+  if (keyframe.cut && keyframe.mill) {
+    removed += static_cast<std::uint64_t>(run_length(keyframe));
+    if (!cutting_) ++rows;
+  } else if (keyframe.cut) {
     const int count = run_length(keyframe);
     removed += static_cast<std::uint64_t>(count);
     Voxel along = keyframe.first - last_;

@@ -16,6 +16,7 @@ struct ToolView {
   Voxel corner;               ///< voxel of cell (0, 0, 0)
   std::array<Voxel, 3> step;  ///< one cell along a, b, c
   Voxel lean{0, 0, 1};        ///< the tool's axis in cells: 0 or 1 each, along c always 1
+  Vec3 held = Vec3::Zero();   ///< the tool's axis (unit vector, stock frame) where it is none of these
 
   Voxel along(Voxel cells) const { return step[0] * cells.i + step[1] * cells.j + step[2] * cells.k; }
   Voxel voxel(Voxel cell) const { return corner + along(cell); }
@@ -28,6 +29,7 @@ struct ToolView {
     return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
   }
   Vec3 axis() const {
+    if (!held.isZero()) return held;
     const Voxel way = along(lean);
     return Vec3(way.i, way.j, way.k).normalized();
   }

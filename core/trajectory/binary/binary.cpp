@@ -9,7 +9,7 @@
 #include "core/base/sha256.hpp"
 #include "core/trajectory/binary/binary_frame.hpp"
 #include "core/trajectory/binary/segment.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {
@@ -71,7 +71,7 @@ BinaryWriter::BinaryWriter(std::ostream& out, const TrajectoryHeader& header)
 BinaryWriter::~BinaryWriter() = default;
 
 void BinaryWriter::add(const Keyframe& keyframe) {
-  if (keyframe.cut && !is_run(keyframe, impl_->grid))
+  if (keyframe.cut && !keyframe.mill && !is_run(keyframe, impl_->grid))
     check_run(keyframe, impl_->grid, "keyframe " + std::to_string(impl_->keyframes + impl_->pending.keyframes()));
   impl_->pending.add(keyframe);
   impl_->pending_removed += static_cast<std::uint64_t>(run_length(keyframe));
@@ -123,7 +123,7 @@ std::vector<Keyframe> BinaryFile::read(std::size_t segment) const {
   in_.seekg(static_cast<std::streamoff>(wanted.offset));
   BinaryIn in(in_, wanted.offset);
   if (in.bytes(1)[0] != static_cast<char>(BinaryTag::segment)) in.refuse("no segment begins here");
-  const SegmentBytes bytes = read_segment(in, header_.joints.size());
+  const SegmentBytes bytes = read_segment(in, columns_of(header_));
   if (bytes.keyframes != next_keyframe - wanted.first_keyframe || bytes.first_removed != wanted.first_removed)
     in.refuse("the segment is not the one of the index");
   std::vector<Keyframe> keyframes = decode_segment(bytes.body, bytes.keyframes, header_, in.where());

@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/trajectory/binary/segment.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {
@@ -42,7 +42,7 @@ void BinaryIn::refuse(const std::string& what) const {
 std::string preamble_bytes(const TrajectoryHeader& header) {
   const std::string line = header_line(header);
   std::string text(binary_magic);
-  append_word(text, binary_version);
+  append_word(text, header.mill ? mill_binary_version : binary_version);
   append_word(text, static_cast<std::uint32_t>(line.size()));
   text += line;
   append_word(text, crc32_of(text));
@@ -53,8 +53,10 @@ TrajectoryHeader read_preamble(BinaryIn& in, std::string& raw) {
   raw = in.bytes(binary_magic.size());
   if (raw != binary_magic) in.refuse("not an .sct file");
   raw += in.bytes(8);
-  if (const auto version = word_at<std::uint32_t>(raw, 8); version != binary_version)
-    in.refuse("version " + std::to_string(version) + " is not known, only " + std::to_string(binary_version));
+  const auto version = word_at<std::uint32_t>(raw, 8);
+  if (version != binary_version && version != mill_binary_version)
+    in.refuse("version " + std::to_string(version) + " is not known, only " + std::to_string(binary_version) + " and " +
+              std::to_string(mill_binary_version));
   const auto size = word_at<std::uint32_t>(raw, 12);
   if (size > max_header_bytes) in.refuse("the header is longer than " + std::to_string(max_header_bytes) + " bytes");
   const std::string where = in.where(), line = in.bytes(size);
@@ -62,7 +64,10 @@ TrajectoryHeader read_preamble(BinaryIn& in, std::string& raw) {
   const std::string crc = in.bytes(4);
   if (word_at<std::uint32_t>(crc, 0) != crc32_of(raw)) in.refuse("the header's checksum is wrong");
   raw += crc;
-  return parse_header_line(line, where);
+  TrajectoryHeader header = parse_header_line(line, where);
+  if (header.mill.has_value() != (version == mill_binary_version))
+    in.refuse("version " + std::to_string(version) + " does not go with the format of the header");
+  return header;
 }
 
 std::string SegmentBytes::head() const {
@@ -76,14 +81,14 @@ std::string SegmentBytes::head() const {
   return text;
 }
 
-SegmentBytes read_segment(BinaryIn& in, std::size_t joints) {
+SegmentBytes read_segment(BinaryIn& in, std::size_t columns) {
   const std::string head = in.bytes(segment_head_bytes - 1);
   SegmentBytes segment{word_at<std::uint32_t>(head, 0), word_at<std::uint64_t>(head, 4), {}};
   if (segment.keyframes < 1 || segment.keyframes > max_segment_keyframes)
     in.refuse("a segment of " + std::to_string(segment.keyframes) + " keyframes, not 1 to " +
               std::to_string(max_segment_keyframes));
   const auto size = word_at<std::uint32_t>(head, 12);
-  if (size > max_segment_bytes(segment.keyframes, joints))
+  if (size > max_segment_bytes(segment.keyframes, columns))
     in.refuse("a segment of " + std::to_string(segment.keyframes) + " keyframes cannot take " + std::to_string(size) +
               " bytes");
   segment.body = in.bytes(size);

@@ -13,7 +13,7 @@
 namespace sculpt {
 
 inline constexpr std::string_view binary_magic = "SCULPTRJ";
-inline constexpr std::uint32_t binary_version = 2;
+inline constexpr std::uint32_t binary_version = 2, mill_binary_version = 3;  ///< of format 1, of format 2
 inline constexpr std::size_t sha256_hex_bytes = 64;
 
 enum class BinaryTag : std::uint8_t { segment = 1, index = 2 };
@@ -67,7 +67,7 @@ struct SegmentBytes {
 };
 inline constexpr std::size_t segment_head_bytes = 1 + 4 + 8 + 4 + 4;
 /// Reads from after the tag on; checks the sizes and the checksum.
-SegmentBytes read_segment(BinaryIn& in, std::size_t joints);
+SegmentBytes read_segment(BinaryIn& in, std::size_t columns);
 
 /// Everything from the index's tag to its checksum; `offset` = where it begins in the file.
 std::string index_bytes(const std::vector<FileSegment>& segments, std::uint64_t keyframes, std::uint64_t removed,

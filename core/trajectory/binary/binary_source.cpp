@@ -35,7 +35,7 @@ class BinarySource : public TrajectorySource {
       return;
     }
     if (tag != BinaryTag::segment) in_.refuse("neither a segment nor the index begins here");
-    const SegmentBytes bytes = read_segment(in_, header_.joints.size());
+    const SegmentBytes bytes = read_segment(in_, columns_of(header_));
     if (bytes.first_removed != removed_)
       in_.refuse("the segment begins at removed voxel " + std::to_string(bytes.first_removed) + ", there were " +
                  std::to_string(removed_));

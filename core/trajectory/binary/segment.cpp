@@ -8,9 +8,9 @@
 #include "core/base/error.hpp"
 #include "core/trajectory/binary/token_reader.hpp"
 #include "core/trajectory/binary/varint.hpp"
-#include "core/trajectory/number_text.hpp"
 #include "core/trajectory/quantum.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/number_text.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {
@@ -94,7 +94,9 @@ std::int64_t quanta_of(double value) {
                                              "trajectory as .ndjson, or round it and verify it again");
 }
 
-void read_column(TokenReader& bytes, std::vector<Keyframe>& keyframes, Eigen::Index joint) {
+/// Calls `set` with each keyframe and its value in quanta.
+template <typename Set>
+void read_column(TokenReader& bytes, std::vector<Keyframe>& keyframes, const Set& set) {
   const int order = bytes.byte();
   if (order > max_order) bytes.refuse("a joint's order of differences is " + std::to_string(order));
   std::array<std::uint64_t, max_order> before{};  // unsigned: sums may wrap, what counts is checked
@@ -110,35 +112,44 @@ void read_column(TokenReader& bytes, std::vector<Keyframe>& keyframes, Eigen::In
     for (int level = order; level-- > 0;) value = before[static_cast<std::size_t>(level)] += value;
     const auto quanta = static_cast<std::int64_t>(value);
     if (quanta > max_quanta || quanta < -max_quanta) bytes.refuse("a joint value is out of range");
-    keyframe.q[joint] = from_quanta(quanta);
+    set(keyframe, quanta);
   }
   if (zeros > 0) bytes.refuse("a run of zeros is longer than the segment");
 }
 
 }  // namespace
 
-std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints) {
+std::size_t columns_of(const TrajectoryHeader& header) {
+  return header.joints.size() + (header.mill ? tip_columns : 0);
+}
+
+std::size_t max_segment_bytes(std::size_t keyframes, std::size_t columns) {
   constexpr std::size_t max_token_bytes = 3 + 3 * 2, max_residual_bytes = 10;
-  return keyframes * (max_token_bytes + max_residual_bytes * joints) + 2 * joints;
+  return keyframes * (max_token_bytes + max_residual_bytes * columns) + 2 * columns;
 }
 
 void SegmentEncoder::add(const Keyframe& keyframe) {
-  append_token(tokens_, keyframe, last_);
-  quanta_.reserve(max_segment_keyframes * static_cast<std::size_t>(keyframe.q.size()));
+  if (keyframe.mill)
+    append_mill_token(tokens_, keyframe, last_place_);
+  else
+    append_token(tokens_, keyframe, last_);
+  quanta_.reserve(max_segment_keyframes * (static_cast<std::size_t>(keyframe.q.size()) + tip_columns));
   for (const double value : keyframe.q) quanta_.push_back(quanta_of(value));
+  if (keyframe.mill) quanta_.insert(quanta_.end(), last_place_.tip.begin(), last_place_.tip.end());
   ++keyframes_;
 }
 
 std::string SegmentEncoder::take() {
   std::string body = std::exchange(tokens_, {});
-  const std::size_t joints = keyframes_ == 0 ? 0 : quanta_.size() / keyframes_;
+  const std::size_t columns = keyframes_ == 0 ? 0 : quanta_.size() / keyframes_;
   std::vector<std::int64_t> column(keyframes_);
-  for (std::size_t joint = 0; joint < joints; ++joint) {
-    for (std::size_t at = 0; at < keyframes_; ++at) column[at] = quanta_[at * joints + joint];
+  for (std::size_t number = 0; number < columns; ++number) {
+    for (std::size_t at = 0; at < keyframes_; ++at) column[at] = quanta_[at * columns + number];
     append_column(body, column);
   }
   quanta_.clear();
   last_ = {};
+  last_place_ = {};
   keyframes_ = 0;
   return body;
 }
@@ -149,8 +160,22 @@ std::vector<Keyframe> decode_segment(std::string_view body, std::size_t count, c
   std::vector<Keyframe> keyframes(count);
   for (Keyframe& keyframe : keyframes) keyframe.q.resize(joints);
   TokenReader bytes(body, header, where);
-  for (Keyframe& keyframe : keyframes) bytes.read_token(keyframe);
-  for (Eigen::Index joint = 0; joint < joints; ++joint) read_column(bytes, keyframes, joint);
+  LastPlace last;
+  for (Keyframe& keyframe : keyframes) {
+    if (header.mill)
+      read_mill_token(bytes, keyframe, header, last);
+    else
+      bytes.read_token(keyframe);
+  }
+  for (Eigen::Index joint = 0; joint < joints; ++joint)
+    read_column(bytes, keyframes,
+                [joint](Keyframe& keyframe, std::int64_t quanta) { keyframe.q[joint] = from_quanta(quanta); });
+  for (std::size_t axis = 0; header.mill && axis < tip_columns; ++axis)
+    read_column(bytes, keyframes, [&](Keyframe& keyframe, std::int64_t quanta) {
+      if (!keyframe.mill->is_placed()) return;
+      if (std::abs(from_quanta(quanta)) > max_tip_m) bytes.refuse("a tip is out of range");
+      keyframe.mill->tip[axis] = quanta;
+    });
   if (!bytes.at_end()) bytes.refuse("there is more than its keyframes need");
   return keyframes;
 }

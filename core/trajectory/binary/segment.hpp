@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/trajectory/binary/cut_token.hpp"
+#include "core/trajectory/binary/mill_token.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/keyframe.hpp"
 
@@ -14,8 +15,12 @@ namespace sculpt {
 
 inline constexpr std::size_t max_segment_keyframes = 4096;
 
+/// Where a milling tool is to be: columns behind those of the joints.
+inline constexpr std::size_t tip_columns = 3;
+/// Of numbers, in each body.
+std::size_t columns_of(const TrajectoryHeader& header);
 /// Upper bound of a body's bytes: no reader takes more memory than that for what a file promises.
-std::size_t max_segment_bytes(std::size_t keyframes, std::size_t joints);
+std::size_t max_segment_bytes(std::size_t keyframes, std::size_t columns);
 
 /// Not shared between threads.
 class SegmentEncoder {
@@ -30,7 +35,8 @@ class SegmentEncoder {
  private:
   std::string tokens_;
   LastCut last_;
-  std::vector<std::int64_t> quanta_;  ///< all joints of one keyframe after the other's
+  LastPlace last_place_;
+  std::vector<std::int64_t> quanta_;  ///< all columns of one keyframe after the other's
   std::size_t keyframes_ = 0;
 };
 

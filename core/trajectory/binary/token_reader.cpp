@@ -2,7 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/trajectory/binary/varint.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 

@@ -163,7 +163,8 @@ class Differences {
     const std::string of = "link '" + link.name + "'";
     const auto at = text_.links.find(link.name);
     if (at == text_.links.end()) return sentences_.push_back(of + " of the loaded cell is not in the URDF");
-    const std::size_t added = index == cell_.tool_link ? holder_shapes(cell_.tool).size() : 0;
+    const std::size_t added = (index == cell_.tool_link ? holder_shapes(cell_.tool).size() : 0) +
+                              (index == cell_.stock_link && cell_.has_post ? 1 : 0);
     if (at->second.size() + added != link.shapes.size())
       return sentences_.push_back(of + ": the URDF says " + std::to_string(at->second.size()) +
                                   " collision shapes, the loaded cell has " +

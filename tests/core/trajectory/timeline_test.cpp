@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "core/trajectory/binary/segment.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 #include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {

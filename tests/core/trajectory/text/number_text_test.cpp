@@ -1,4 +1,4 @@
-#include "core/trajectory/number_text.hpp"
+#include "core/trajectory/text/number_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "core/trajectory/text_source.hpp"
+#include "core/trajectory/text/text_source.hpp"
 
 #include <istream>
 
 #include "core/base/error.hpp"
 #include "core/base/sha256.hpp"
-#include "core/trajectory/plain_line.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/plain_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {

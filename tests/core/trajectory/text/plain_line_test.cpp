@@ -1,17 +1,18 @@
-#include "core/trajectory/plain_line.hpp"
+#include "core/trajectory/text/plain_line.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 #include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
 namespace {
 
 std::string line_of(const Keyframe& keyframe) {
-  std::vector<char> out(max_keyframe_line_bytes(static_cast<std::size_t>(keyframe.q.size())));
-  return {out.data(), write_keyframe_line(out.data(), keyframe) - 1};
+  const TrajectoryHeader header = sample_header();
+  std::vector<char> out(max_keyframe_line_bytes(header));
+  return {out.data(), write_keyframe_line(out.data(), keyframe, header) - 1};
 }
 
 std::optional<Keyframe> parsed(const std::string& text, const TrajectoryHeader& header) {

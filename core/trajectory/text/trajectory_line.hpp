@@ -15,12 +15,11 @@ namespace sculpt {
 /// Without the newline. Numbers as `write_number` writes them.
 std::string header_line(const TrajectoryHeader& header);
 std::string end_line(const TrajectoryEnd& end);
-void append_number(std::string& text, double value);
 
 /// Writes a keyframe's line with its newline and returns the end; needs room for `max_keyframe_line_bytes`. Throws
 /// std::invalid_argument for a value that is not finite.
-char* write_keyframe_line(char* out, const Keyframe& keyframe);
-std::size_t max_keyframe_line_bytes(std::size_t joints);
+char* write_keyframe_line(char* out, const Keyframe& keyframe, const TrajectoryHeader& header);
+std::size_t max_keyframe_line_bytes(const TrajectoryHeader& header);
 
 /// What one line after the header holds.
 struct TrajectoryLine {

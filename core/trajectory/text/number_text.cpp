@@ -1,4 +1,4 @@
-#include "core/trajectory/number_text.hpp"
+#include "core/trajectory/text/number_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +75,11 @@ char* write_number(char* out, double value) {
   out = write_pair(out, last - tens * 100);
   while (out[-1] == '0') --out;
   return out;
+}
+
+void append_number(std::string& text, double value) {
+  std::array<char, max_number_bytes> digits;
+  text.append(digits.data(), write_number(digits.data(), value));
 }
 
 }  // namespace sculpt

@@ -1,7 +1,7 @@
-#include "core/trajectory/plain_line.hpp"
+#include "core/trajectory/text/plain_line.hpp"
 
 #include "core/trajectory/quantum.hpp"
-#include "core/trajectory/trajectory_line.hpp"
+#include "core/trajectory/text/trajectory_line.hpp"
 
 namespace sculpt {
 namespace {
@@ -42,6 +42,8 @@ class Scanner {
     return true;
   }
 
+  bool read_count(std::int64_t most, std::int64_t& value) { return read_whole(10, value) && value <= most; }
+
   bool read_voxel(Voxel& voxel) {
     std::int64_t i = 0, j = 0, k = 0;
     if (!skip("[") || !read_whole(4, i) || !skip(",") || !read_whole(4, j) || !skip(",") || !read_whole(4, k) ||
@@ -77,6 +79,32 @@ class Scanner {
 
 }  // namespace
 
+namespace {
+
+/// What follows the joints of a line of format 2.
+bool read_mill_step(Scanner& scanner, const TrajectoryHeader& header, Keyframe& keyframe) {
+  MillStep& step = keyframe.mill.emplace();
+  if (!keyframe.cut && scanner.skip("]}")) return true;
+  std::int64_t direction = 0, removed = 0;
+  if (!scanner.skip(R"(],"direction":)") ||
+      !scanner.read_count(static_cast<std::int64_t>(header.mill->directions.size()) - 1, direction) ||
+      !scanner.skip(R"(,"tip":[)"))
+    return false;
+  step.direction = static_cast<int>(direction);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double value = 0;
+    if ((axis > 0 && !scanner.skip(",")) || !scanner.read_value(value) || std::abs(value) > max_tip_m) return false;
+    step.tip[axis] = *to_quanta(value);
+  }
+  if (!keyframe.cut) return scanner.skip("]}");
+  const std::int64_t n = header.grid.n;
+  if (!scanner.skip(R"(],"removed":)") || !scanner.read_count(n * n * n, removed) || !scanner.skip("}")) return false;
+  step.removed = static_cast<std::uint32_t>(removed);
+  return true;
+}
+
+}  // namespace
+
 std::optional<Keyframe> read_plain_line(std::string_view text, const TrajectoryHeader& header) {
   Scanner scanner(text);
   Keyframe keyframe;
@@ -85,6 +113,10 @@ std::optional<Keyframe> read_plain_line(std::string_view text, const TrajectoryH
   keyframe.q.resize(static_cast<Eigen::Index>(header.joints.size()));
   for (Eigen::Index joint = 0; joint < keyframe.q.size(); ++joint)
     if ((joint > 0 && !scanner.skip(",")) || !scanner.read_value(keyframe.q[joint])) return {};
+  if (header.mill) {
+    if (!read_mill_step(scanner, header, keyframe) || !scanner.at_end()) return {};
+    return keyframe;
+  }
   if (keyframe.cut) {
     if (!scanner.skip(R"(],"voxels":[)") || !scanner.read_voxel(keyframe.first) || !scanner.skip(",") ||
         !scanner.read_voxel(keyframe.last))

@@ -1,0 +1,53 @@
+// A cell with one milling tool in its spindle, and how its robot holds it in each direction.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/collision/scene.hpp"
+#include "core/mill/map/assembly.hpp"
+#include "core/mill/map/tool_frame.hpp"
+#include "core/sweep/field/posture_field.hpp"
+
+namespace sculpt {
+
+/// A cube of coarse cells around the stock, as wide as the tip may go: what fields of postures are laid over. `room_m`:
+/// around the stock, at least.
+Grid grid_around(const Grid& stock, double room_m);
+/// The cells of `around` that hold any of the whole stock's cube.
+VoxelSet cells_of(const Grid& stock, const Grid& around);
+/// The same of those of its voxels that stand.
+VoxelSet cells_of(const VoxelSet& standing, const Grid& stock, const Grid& around);
+
+/// Scenes for one tool. Reads are safe from several threads once fields were found.
+class HeldTool {
+ public:
+  /// `cell` must outlive the object. `around`: of the stock.
+  HeldTool(const Cell& cell, const MillTool& tool, const Grid& stock, const Grid& around);
+
+  const Assembly& assembly() const { return assembly_; }
+  const Grid& around() const { return around_; }
+  /// Links, and what is fixed to the tool link with the tool, against everything: for ways outside the stock.
+  const Scene& carrying() const { return carrying_scene_; }
+  const Chain& chain() const { return carrying_scene_.chain(); }
+
+  /// The field of a direction; nothing where the robot cannot hold the tool so. Found when first asked for; one call at
+  /// a time. Throws Cancelled.
+  const PostureField* field(const Direction& direction, const Configuration& home, const RunContext& run);
+  /// The same, with links held against what stands only. Replaces the field. Throws Cancelled.
+  const PostureField* open_field(const Direction& direction, const VoxelSet& standing, const RunContext& run);
+
+  /// A place of the stock frame in cells of the field's view.
+  static Vec3 cell_of(const PostureField& field, const Grid& around, const Vec3& point);
+
+ private:
+  Assembly assembly_;
+  Grid around_;
+  Cell carried_, guided_;
+  Scene carrying_scene_, guided_scene_;
+  std::map<Direction, std::unique_ptr<PostureField>> fields_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,132 @@
+#include "core/mill/drive/mill_arm.hpp"
+
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "core/cell/link_tree.hpp"
+#include "core/motion/transit.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int search_steps = 400;
+constexpr double search_range = 0.7;
+
+/// Those that move the stock and not the tool: on the way from the stock to the tool they come before the first link
+/// that stands still.
+std::vector<int> stock_coordinates(const Chain& chain) {
+  std::vector<int> coordinates;
+  for (int c = 0; c < chain.dof(); ++c)
+    if (carries(chain.robot(), chain.joints()[static_cast<std::size_t>(c)], chain.stock_link()))
+      coordinates.push_back(c);
+  return coordinates;
+}
+
+}  // namespace
+
+/// Straight; or back to a place on the way home, where the stock is turned, and forward from there; or a search.
+std::vector<Configuration> MillArm::find_way(const Configuration& to) const {
+  const Scene& scene = held_->carrying();
+  const auto is_free = [&](const Configuration& from, const Configuration& there) {
+    return from == there || scene.certify(from, there) == Contact::none;
+  };
+  if (is_free(q_, to)) return {q_, to};
+  const std::vector<int> turning = stock_coordinates(scene.chain());
+  for (std::size_t place = 0; place < way_home_.size(); ++place) {
+    Configuration before = way_home_[place], after = before;
+    for (const int coordinate : turning) {
+      before[coordinate] = q_[coordinate];
+      after[coordinate] = to[coordinate];
+    }
+    if (is_free(q_, before) && is_free(before, after) && is_free(after, to)) return {q_, before, after, to};
+    // Else all the way back as it came, and forward from there.
+    if (place + 1 == way_home_.size() && is_free(way_home_[place], after) && is_free(after, to)) {
+      std::vector<Configuration> way{q_};
+      way.insert(way.end(), way_home_.begin(), way_home_.end());
+      way.insert(way.end(), {after, to});
+      return way;
+    }
+  }
+  Transit found =
+      plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
+  if (run_.watch.stop.stop_requested()) throw Cancelled{};
+  return std::move(found.path);
+}
+
+void MillArm::move(const std::vector<Configuration>& way) {
+  std::vector<Keyframe> keyframes;
+  for (const Configuration& q : way) {
+    if (q == q_) continue;
+    keyframes.push_back({q, false, {}, {}, MillStep{}});
+    q_ = q;
+  }
+  if (!keyframes.empty()) emit_(std::move(keyframes));
+}
+
+/// Over to another place outside the stock, from where the tip is.
+void MillArm::leave_for(const Configuration& to) {
+  if (q_ == to) return;
+  ++transits_;
+  std::vector<Configuration> way = find_way(to);
+  if (way.empty())
+    throw InputError("no_transit",
+                     "the arm finds no way out of a direction of the tool: keep what stands beside the stock lower");
+  move(way);
+  way_home_.clear();
+  if (to != home_) way_home_.assign(way.rbegin() + 1, way.rend());
+  tip_.reset();
+  field_ = nullptr;
+  direction_ = -1;
+}
+
+void MillArm::take_tool(int number, const HeldTool& held) {
+  if (held_ != nullptr) {
+    leave_for(change_);
+    emit_({Keyframe{q_, false, {}, {}, MillStep{{}, -1, number, 0}}});
+  }
+  held_ = &held;
+}
+
+bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
+  const Vec3 cell = HeldTool::cell_of(field, held_->around(), tip);
+  if (!field.usable(cell)) return false;
+  // The very configuration that following begins with.
+  const FollowedMill there = follow(*held_, field, direction, tip, {{tip, false, 1e-3}});
+  if (there.keyframes.empty()) return false;
+  Keyframe last = there.keyframes.back();
+  ++transits_;
+  std::vector<Configuration> way = find_way(last.q);
+  if (way.empty()) return false;
+  std::vector<Configuration> back(way.rbegin() + 1, way.rend());
+  back.insert(back.end(), way_home_.begin(), way_home_.end());
+  way_home_ = std::move(back);
+  way.pop_back();
+  move(way);
+  emit_({last});
+  q_ = last.q;
+  field_ = &field;
+  direction_ = direction;
+  tip_ = tip;
+  return true;
+}
+
+FollowedMill MillArm::try_strokes(const std::vector<MillStroke>& strokes) const {
+  return follow(*held_, *field_, direction_, *tip_, strokes);
+}
+
+void MillArm::commit(FollowedMill followed) {
+  if (followed.keyframes.empty()) return;
+  const Keyframe& last = followed.keyframes.back();
+  q_ = last.q;
+  tip_ = Vec3(static_cast<double>(last.mill->tip[0]), static_cast<double>(last.mill->tip[1]),
+              static_cast<double>(last.mill->tip[2])) /
+         1e7;
+  emit_(std::move(followed.keyframes));
+}
+
+void MillArm::go_home() {
+  leave_for(home_);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,57 @@
+// The arm of a plan with milling tools: from tool to tool, from direction to direction, and along strokes in between.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/mill/drive/mill_follow.hpp"
+
+namespace sculpt {
+
+/// Begins at home with a tool in its spindle; every edge that it emits is certified. Not shared between threads.
+class MillArm {
+ public:
+  using Emit = std::function<void(std::vector<Keyframe>)>;
+
+  /// `home`, `change`: where tools are changed, at rest. `emit` and `run` must outlive the object.
+  MillArm(const Configuration& home, const Configuration& change, const Emit& emit, const RunContext& run)
+      : home_(home), change_(change), emit_(emit), run_(run), q_(home) {}
+
+  /// Takes the tool of this number: from its direction to where tools are changed, and rests there. The first one is in
+  /// the spindle at the start. Throws InputError `no_transit` where no way leads there.
+  void take_tool(int number, const HeldTool& held);
+
+  /// Holds the tool in this direction, its tip at `tip`, which must be in the field, outside the stock. False, and
+  /// nothing done, if there is no way.
+  bool hold(const PostureField& field, int direction, const Vec3& tip);
+  /// Follows strokes from where the tip is; gives how many were followed to their end.
+  FollowedMill try_strokes(const std::vector<MillStroke>& strokes) const;
+  /// Goes there.
+  void commit(FollowedMill followed);
+
+  /// Where the tip is; nothing where the tool is not held in a direction.
+  std::optional<Vec3> tip() const { return tip_; }
+  const PostureField* field() const { return field_; }
+  /// From outside the stock, back the way it came or another one. Throws InputError `no_transit`.
+  void go_home();
+
+ private:
+  std::vector<Configuration> find_way(const Configuration& to) const;
+  void move(const std::vector<Configuration>& way);
+  void leave_for(const Configuration& to);
+
+  Configuration home_, change_;
+  const Emit& emit_;
+  const RunContext& run_;
+  Configuration q_;
+  const HeldTool* held_ = nullptr;
+  const PostureField* field_ = nullptr;
+  int direction_ = -1;
+  std::optional<Vec3> tip_;
+  std::vector<Configuration> way_home_;  ///< from where the direction was entered; empty at home
+  std::uint64_t transits_ = 0;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,50 @@
+// What a tool can come to along one direction: its maps over the part, over what stands beside it, and over the stock.
+#pragma once
+
+#include "core/material/voxel_set.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/mill/map/offset_map.hpp"
+
+namespace sculpt {
+
+/// By how much a tool keeps off (m).
+struct SiteMargins {
+  double cutter_m = 0;  ///< the cutter off the part: what is left for later, and what it may stray
+  double body_m = 0;    ///< what is above the cutter, off everything
+};
+
+/// Heights are along the frame's axis, in metres, and bounds for whole cells. Immutable but for `see`.
+class Site {
+ public:
+  /// `part`, `fixtures`: stock frame. `lattice` reaches beyond both by the assembly's radius.
+  Site(const ToolFrame& frame, const Lattice& lattice, const Assembly& assembly, const Mesh& part, const Mesh& fixtures,
+       const SiteMargins& margins);
+
+  const ToolFrame& frame() const { return frame_; }
+  const Lattice& lattice() const { return limit_.lattice; }
+  /// The tip may not be lower, for part and fixtures.
+  const HeightMap& limit() const { return limit_; }
+
+  /// What stands from now on; less than before.
+  void see(const VoxelSet& standing, const Grid& grid);
+  /// The top of what stands.
+  const HeightMap& stands() const { return stands_; }
+  /// The tip may not be lower, for what the body would touch of it.
+  const HeightMap& body_limit() const { return body_limit_; }
+
+  /// The lowest height at which the whole tool goes over from one place to the other (tool frame) and touches nothing,
+  /// `clearance_m` above all that the cutter could.
+  double clear_height(const Vec3& from, const Vec3& to, double clearance_m) const;
+
+  /// Of each cell how low the cutter comes to it, once no stock is in the body's way.
+  const HeightMap& lowest_cut() const { return lowest_cut_; }
+
+ private:
+  ToolFrame frame_;
+  Cutter cutter_;
+  std::vector<Ring> rings_;
+  SiteMargins margins_;
+  HeightMap limit_, lowest_cut_, stands_, body_limit_;
+};
+
+}  // namespace sculpt

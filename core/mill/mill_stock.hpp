@@ -1,0 +1,42 @@
+// What stands while a plan with milling tools is carried out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/material/voxel_grid.hpp"
+#include "core/mill/map/tool_frame.hpp"
+#include "core/trajectory/milling/swept_voxels.hpp"
+
+namespace sculpt {
+
+/// The sweeps of one tool held in one direction.
+struct MillSweeps {
+  /// `stray_m`: how far the cutter may be from where it should be. `voxel_m`: of the grid.
+  MillSweeps(const Cutter& cutter, const Direction& direction, double stray_m, double voxel_m);
+
+  SweptCutter of_centres;  ///< a voxel counts as removed once its centre was swept
+  SweptCutter of_cubes;    ///< and holds nothing any more once all of its cube was swept by one motion
+};
+
+/// Two sets of voxels: those that are not removed, and those in which something may stand. Not shared between threads.
+class MillStock {
+ public:
+  MillStock(const VoxelSet& stock, const Grid& grid) : grid_(grid), centres_(grid), left_(stock), standing_(stock) {}
+
+  /// The cutter goes straight from one tip to the other. Gives the number of voxels that it removes.
+  std::uint32_t cut(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
+
+  const Grid& grid() const { return grid_; }
+  /// Not removed yet.
+  const VoxelSet& left() const { return left_; }
+  /// Where something may stand: all that is not in a cube of these is air.
+  const VoxelSet& standing() const { return standing_; }
+
+ private:
+  Grid grid_;
+  VoxelCentres centres_;
+  VoxelSet left_, standing_;
+};
+
+}  // namespace sculpt

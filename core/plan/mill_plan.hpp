@@ -1,0 +1,13 @@
+// A job with milling tools, from mesh bytes to verified trajectory.
+#pragma once
+
+#include "core/plan/job.hpp"
+#include "core/plan/job_result.hpp"
+#include "core/plan/output/output.hpp"
+
+namespace sculpt {
+
+/// As run_job, of a job whose search is `mill`.
+JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& watch);
+
+}  // namespace sculpt

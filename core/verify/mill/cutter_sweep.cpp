@@ -1,0 +1,109 @@
+#include "core/verify/mill/cutter_sweep.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+__extension__ typedef __int128 Int128;
+
+constexpr double per_metre = 1e7;
+
+std::int64_t product(const Quanta3& a, const Quanta3& b) {
+  std::int64_t sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) sum += a[axis] * b[axis];
+  return sum;
+}
+
+/// Squared distance of `p` from the segment from 0 to `way`, at most radius: all products given.
+bool near_segment(Int128 p_p, Int128 p_way, Int128 way_way, Int128 radius2) {
+  if (p_way <= 0) return p_p <= radius2;
+  if (p_way >= way_way) return p_p - 2 * p_way + way_way <= radius2;
+  return p_p * way_way - p_way * p_way <= radius2 * way_way;
+}
+
+}  // namespace
+
+CutterSweep::CutterSweep(const Cutter& cutter, const std::array<int, 3>& direction, double less_m)
+    : direction_{direction[0], direction[1], direction[2]}, base_{}, length2_(product(direction_, direction_)) {
+  const double length = std::sqrt(static_cast<double>(length2_)), corner = cutter.corner_radius_m;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    base_[axis] = std::llround(corner * per_metre * static_cast<double>(direction_[axis]) / length);
+  const auto shrunk = [&](double radius) {
+    return static_cast<std::int64_t>(std::floor((radius - less_m) * per_metre)) - 1;
+  };
+  const auto scaled = [&](double height) { return std::llround(height * per_metre * length); };
+  const double top = cutter.flute_m - corner - less_m;
+  top_ = scaled(top);
+  height_ = std::llround(std::max(0.0, top) * per_metre);
+  const auto add_rod = [&](double radius, double bottom) {
+    if (shrunk(radius) > 0 && bottom < top) rods_.push_back({shrunk(radius), scaled(bottom)});
+  };
+  if (cutter.kind == CutterKind::ball) {
+    ball_ = std::max<std::int64_t>(0, shrunk(cutter.radius_m));
+    add_rod(cutter.radius_m, 0);
+  } else {
+    add_rod(cutter.radius_m, less_m);
+    for (int ring = 0; ring < 4 && corner > 0; ++ring)
+      add_rod(cutter.radius_m - corner + corner * ring / 4, less_m - corner * std::sqrt(1 - ring * ring / 16.0));
+  }
+  reach_ = ball_;
+  for (const Rod& rod : rods_) reach_ = std::max(reach_, rod.radius);
+}
+
+bool CutterSweep::holds(const Quanta3& p, const Quanta3& way) const {
+  const Int128 up = product(p, direction_), rise = product(way, direction_), up_at_end = up - rise;
+  if (up > top_ || up_at_end > top_) return false;
+  const Int128 p_p = product(p, p), p_way = product(p, way), way_way = product(way, way);
+  if (ball_ > 0 && near_segment(p_p, p_way, way_way, static_cast<Int128>(ball_) * ball_)) return true;
+  // Across the axis, all squares times that of its length.
+  const Int128 s = length2_, a = s * p_p - up * up, b = s * p_way - up * rise, c = s * way_way - rise * rise;
+  return std::ranges::any_of(rods_, [&](const Rod& rod) {
+    return up >= rod.bottom && up_at_end >= rod.bottom && near_segment(a, b, c, s * rod.radius * rod.radius);
+  });
+}
+
+std::uint64_t CutterSweep::take(VoxelSet& set, const Grid& grid, const Quanta3& from, const Quanta3& to,
+                                std::vector<Voxel>* taken) const {
+  const std::int64_t n = grid.n, size = std::llround(grid.n * grid.voxel_m * per_metre);
+  const double length = std::sqrt(static_cast<double>(length2_));
+  Quanta3 start{}, way{}, origin{};
+  std::array<std::int64_t, 3> first{}, last{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    start[axis] = from[axis] + base_[axis];
+    way[axis] = to[axis] - from[axis];
+    origin[axis] = std::llround(grid.origin_m[static_cast<int>(axis)] * per_metre);
+    const auto up =
+        static_cast<std::int64_t>(static_cast<double>(height_) * static_cast<double>(direction_[axis]) / length);
+    const std::int64_t low = std::min<std::int64_t>(0, way[axis]) + std::min<std::int64_t>(0, up) - reach_ - 2,
+                       high = std::max<std::int64_t>(0, way[axis]) + std::max<std::int64_t>(0, up) + reach_ + 2;
+    first[axis] = std::clamp<std::int64_t>((start[axis] + low - origin[axis]) * n / size - 1, 0, n - 1);
+    last[axis] = std::clamp<std::int64_t>((start[axis] + high - origin[axis]) * n / size + 1, 0, n - 1);
+  }
+  const auto centre = [&](std::size_t axis, std::int64_t i) {
+    return origin[axis] + ((2 * i + 1) * size + n) / (2 * n);
+  };
+  std::uint64_t count = 0;
+  auto& words = set.words();
+  for (std::int64_t k = first[2]; k <= last[2]; ++k)
+    for (std::int64_t j = first[1]; j <= last[1]; ++j) {
+      const std::int64_t row = n * (j + n * k), begin = row + first[0], end = row + last[0];
+      Quanta3 p{0, centre(1, j) - start[1], centre(2, k) - start[2]};
+      for (std::int64_t word = begin >> 6; word <= end >> 6; ++word)
+        for (std::uint64_t bits = words[static_cast<std::size_t>(word)]; bits != 0; bits &= bits - 1) {
+          const std::int64_t at = 64 * word + std::countr_zero(bits);
+          if (at < begin || at > end) continue;
+          p[0] = centre(0, at - row) - start[0];
+          if (!holds(p, way)) continue;
+          words[static_cast<std::size_t>(word)] &= ~(std::uint64_t{1} << (at & 63));
+          ++count;
+          if (taken != nullptr)
+            taken->push_back({static_cast<int>(at - row), static_cast<int>(j), static_cast<int>(k)});
+        }
+    }
+  return count;
+}
+
+}  // namespace sculpt

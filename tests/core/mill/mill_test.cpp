@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/plan/plan.hpp"
+#include "core/trajectory/reader.hpp"
+#include "core/trajectory/writer.hpp"
+
+namespace sculpt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.str();
+}
+
+Job make_job(const std::string& mesh, int n, const std::vector<std::string>& tools) {
+  Job job;
+  job.mesh = {read(SOURCE_DIR "/config/samples/" + mesh + ".stl"), "stl", mesh + ".stl"};
+  job.cell = read_cell_files(SOURCE_DIR "/config/cells/studio.json");
+  // A block of 80 mm: there is less to be done.
+  auto cell = nlohmann::json::parse(job.cell.cell_json);
+  cell["stock"]["size_m"] = 0.08;
+  cell["stock"]["origin_m"] = {-0.04, -0.04, 0.3};
+  job.cell.cell_json = cell.dump();
+  job.resolution = n;
+  job.search = Search::mill;
+  job.mill = MillOrder{read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), tools};
+  return job;
+}
+
+fs::path scratch(const std::string& name) {
+  return fs::temp_directory_path() / ("sculpt-mill-" + std::to_string(getpid()) + "-" + name);
+}
+
+/// Planned once for all tests that only look at it.
+struct Planned {
+  Job job;
+  JobResult result;
+  std::string text;
+};
+const Planned& planned() {
+  static const Planned planned = [] {
+    Planned made{make_job("bust", 32, {"D12", "D6"}), {}, {}};
+    const fs::path file = scratch("planned.ndjson");
+    made.job.threads = 2;
+    made.result = run_job(made.job, file, {});
+    made.text = read(file);
+    fs::remove(file);
+    return made;
+  }();
+  return planned;
+}
+
+Verdict replay(const std::string& text, const Job& job) {
+  std::istringstream in(text);
+  return replay_plan(in, job, {}, {});
+}
+
+TEST(Mill, RoughsABustAndIsClean) {
+  const Report& report = planned().result.report;
+  for (const std::string& finding : report.findings) std::cout << finding << "\n";
+  EXPECT_TRUE(report.verify.clean);
+  EXPECT_EQ(report.voxels.removed + report.voxels.residue, report.voxels.remove);
+  EXPECT_GT(report.voxels.removed, report.voxels.remove * 9 / 10);
+  ASSERT_EQ(report.tools.size(), 2U);
+  EXPECT_GT(report.tools[0].removed_m3, report.tools[1].removed_m3);
+  EXPECT_GT(report.tools[0].engagement.mean, 0.1);
+}
+
+TEST(Mill, GivesTheSameBytesAtAnyNumberOfThreads) {
+  Job job = planned().job;
+  job.threads = 1;
+  const fs::path file = scratch("again.ndjson");
+  run_job(job, file, {});
+  EXPECT_EQ(read(file), planned().text);
+  fs::remove(file);
+}
+
+/// A plan with one thing changed, its hash made anew.
+std::string changed(const std::string& text, const std::function<void(TrajectoryHeader&)>& header,
+                    const std::function<bool(std::size_t, Keyframe&)>& keep) {
+  std::istringstream in(text);
+  TrajectoryReader reader(in);
+  TrajectoryHeader of = reader.header();
+  header(of);
+  std::ostringstream out;
+  TrajectoryWriter writer(out, of);
+  for (std::size_t at = 0; auto keyframe = reader.next(); ++at)
+    if (keep(at, *keyframe)) writer.add(*keyframe);
+  writer.finish();
+  return out.str();
+}
+
+std::size_t find_keyframe(const std::function<bool(const Keyframe&)>& is_it, std::size_t from = 0) {
+  std::istringstream in(planned().text);
+  TrajectoryReader reader(in);
+  for (std::size_t at = 0; auto keyframe = reader.next(); ++at)
+    if (at >= from && is_it(*keyframe)) return at;
+  return 0;
+}
+
+TEST(MillReplay, FindsFaults) {
+  const std::string& text = planned().text;
+  const auto same_header = [](TrajectoryHeader&) {};
+  const auto all = [](std::size_t, Keyframe&) { return true; };
+  ASSERT_TRUE(replay(changed(text, same_header, all), planned().job).clean);
+  const std::size_t cut = find_keyframe([](const Keyframe& k) { return k.cut && k.mill->removed > 3; }, 500);
+  const std::size_t change = find_keyframe([](const Keyframe& k) { return k.mill->is_change(); });
+  ASSERT_GT(cut, 0U);
+  ASSERT_GT(change, 0U);
+  const auto expect_found = [&](const std::string& what, const std::string& broken) {
+    const Verdict verdict = replay(broken, planned().job);
+    EXPECT_FALSE(verdict.clean) << what;
+    if (!verdict.findings.empty())
+      std::cout << what << ": line " << verdict.findings[0].line << ": " << verdict.findings[0].sentence << "\n";
+  };
+  expect_found("a count off by one", changed(text, same_header, [&](std::size_t at, Keyframe& k) {
+                 if (at == cut) ++k.mill->removed;
+                 return true;
+               }));
+  expect_found("a tool change dropped",
+               changed(text, same_header, [&](std::size_t at, Keyframe&) { return at != change; }));
+  expect_found("a radius 0.05 mm larger", changed(
+                                              text,
+                                              [](TrajectoryHeader& header) {
+                                                Cutter& cutter = header.mill->tools[0].cutter;
+                                                cutter.radius_m += 5e-5;
+                                                cutter.corner_radius_m += 5e-5;
+                                              },
+                                              all));
+  expect_found("a bigger tool in place of another",
+               changed(
+                   text, [](TrajectoryHeader& header) { header.mill->tools[1] = header.mill->tools[0]; }, all));
+  expect_found("a keyframe 0.05 mm beside", changed(text, same_header, [&](std::size_t at, Keyframe& k) {
+                 if (at == cut) k.mill->tip[2] -= 500;
+                 return true;
+               }));
+  expect_found("a joint a thousandth of a degree off", changed(text, same_header, [&](std::size_t at, Keyframe& k) {
+                 if (at == cut) k.q[1] += 1.75e-5;
+                 return true;
+               }));
+  expect_found("a cut left out", changed(text, same_header, [&](std::size_t at, Keyframe&) { return at != cut; }));
+  expect_found("a holder as wide as the stock", changed(
+                                                    text,
+                                                    [](TrajectoryHeader& header) {
+                                                      for (HolderSection& section : header.mill->tools[0].body)
+                                                        section.radius_m = section.end_radius_m = 0.06;
+                                                    },
+                                                    all));
+  expect_found("half the depth allowed",
+               changed(
+                   text, [](TrajectoryHeader& header) { header.mill->tools[0].max_depth_m /= 4; }, all));
+}
+
+TEST(MillReplay, AGougeIsFound) {
+  // The same plan, of the same part turned a little.
+  Job other = planned().job;
+  other.placement.rotation_rad = Vec3(0, 0, 0.05);
+  const Verdict verdict = replay(planned().text, other);
+  EXPECT_FALSE(verdict.clean);
+}
+
+TEST(Mill, RefusesWhatCannotBe) {
+  const auto refusal = [](Job job) -> std::string {
+    try {
+      run_job(job, scratch("refused.ndjson"), {});
+    } catch (const InputError& error) {
+      return error.code() + ": " + error.what();
+    }
+    return {};
+  };
+  Job job = make_job("bust", 16, {"D12"});
+  job.mill->tolerance_m = 0;
+  EXPECT_NE(refusal(job).find("above 0"), std::string::npos);
+  job.mill->tolerance_m = 0.02;
+  EXPECT_NE(refusal(job).find("more than the radius"), std::string::npos);
+  job.mill->tolerance_m = 1e-4;
+  job.mill->scallop_m = 2e-4;
+  EXPECT_NE(refusal(job).find("do not fit into the tolerance"), std::string::npos);
+  job.mill->scallop_m.reset();
+  job.mill->tools = {"D12", "D12"};
+  EXPECT_NE(refusal(job).find("named twice"), std::string::npos);
+  job.mill.reset();
+  EXPECT_NE(refusal(job).find("needs tools"), std::string::npos);
+  job = make_job("bust", 16, {"D12"});
+  job.search = Search::sweep;
+  EXPECT_NE(refusal(job).find("leave one of the two out"), std::string::npos);
+  job = make_job("bust", 16, {"D12"});
+  job.cell = read_cell_files(SOURCE_DIR "/config/cells/gantry.json");
+  EXPECT_NE(refusal(job).find("only translates"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sculpt
