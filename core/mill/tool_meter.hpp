@@ -1,6 +1,8 @@
 // Keyframes -> the figures of a tool.
 #pragma once
 
+#include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "core/cell/milling/mill_tool.hpp"
@@ -19,8 +21,11 @@ class ToolMeter {
     (keyframe.cut ? figures_.cut_m : figures_.travel_m) += length_m;
     if (!keyframe.cut) {
       cutting_ = false;
+      chips_.clear();
+      chips_voxels_ = chips_m_ = 0;
       return;
     }
+    weigh(keyframe.mill->removed, length_m);
     if (!std::exchange(cutting_, true)) ++figures_.runs;
     figures_.removed += keyframe.mill->removed;
   }
@@ -33,10 +38,28 @@ class ToolMeter {
   }
 
  private:
+  /// Over a diameter of path, as the replay does: in a shorter one a layer of voxels more or less would decide.
+  void weigh(std::uint32_t voxels, double length_m) {
+    chips_.emplace_back(voxels, length_m);
+    chips_voxels_ += voxels;
+    chips_m_ += length_m;
+    while (chips_.size() > 1 && chips_m_ - chips_.front().second >= 2 * tool_.cutter.radius_m) {
+      chips_voxels_ -= chips_.front().first;
+      chips_m_ -= chips_.front().second;
+      chips_.pop_front();
+    }
+    if (chips_m_ < 2 * tool_.cutter.radius_m) return;
+    const double chip_m2 = chips_voxels_ * voxel_m3_ / chips_m_;
+    figures_.engagement.largest =
+        std::max(figures_.engagement.largest, chip_m2 / (tool_.max_depth_m * tool_.max_width_m));
+  }
+
   const MillTool& tool_;
   double voxel_m3_;
   ToolFigures figures_;
   bool cutting_ = false;
+  std::deque<std::pair<std::uint32_t, double>> chips_;  ///< voxels and lengths of the last cuts
+  double chips_voxels_ = 0, chips_m_ = 0;
 };
 
 }  // namespace sculpt

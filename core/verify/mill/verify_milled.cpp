@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/trajectory/reader.hpp"
+#include "core/verify/material/held_voxels.hpp"
 #include "core/verify/mill/chip_scale.hpp"
 #include "core/verify/mill/cutter_sweep.hpp"
 #include "core/verify/mill/surface_grid.hpp"
@@ -59,6 +60,7 @@ class MilledReplay {
       if (!piece.empty()) replay(std::move(piece));
       if ((at_ - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
     }
+    count_loose();
     verdict_.left = left_;
     verdict_.collisions = found_.collisions;
     verdict_.voxels_checked = removed_;
@@ -73,6 +75,14 @@ class MilledReplay {
   const TrajectoryHeader& header() const { return reader_.header(); }
   const MillHeader& mill() const { return *header().mill; }
   void find(std::string sentence) { found_.find(line_, std::move(sentence)); }
+
+  /// Of what is left at the end, what nothing holds any more, but for parts of the target that nothing could.
+  void count_loose() {
+    const HeldVoxels held(left_);
+    VoxelSet loose = left_;
+    loose -= find_never_held(voxels_);
+    for_each_voxel(loose, [&](Voxel v) { verdict_.freed += !held.holds(v); });
+  }
 
   bool header_fits() {
     for (const std::string& difference : urdf_differences(cell_)) find(difference);

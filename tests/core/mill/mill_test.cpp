@@ -73,6 +73,10 @@ TEST(Mill, RoughsABustAndIsClean) {
   EXPECT_GT(report.voxels.removed, report.voxels.remove * 9 / 10);
   ASSERT_EQ(report.tools.size(), 2U);
   EXPECT_GT(report.tools[0].removed_m3, report.tools[1].removed_m3);
+  for (const ToolFigures& tool : report.tools) {
+    EXPECT_GT(tool.engagement.mean, 0);
+    EXPECT_GT(tool.engagement.largest, tool.engagement.mean);
+  }
   EXPECT_GT(report.tools[0].engagement.mean, 0.1);
 }
 
