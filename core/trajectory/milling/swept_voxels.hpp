@@ -57,6 +57,7 @@ class SweptCutter {
                     const Visit& visit) const {
     const Sweep sweep(*this, from, to);
     const Box box = sweep.box(centres);
+    if (box.first[0] > box.last[0]) return;  // beside the grid
     for (int k = box.first[2]; k <= box.last[2]; ++k)
       for (int j = box.first[1]; j <= box.last[1]; ++j) {
         if (!any_in_row(any, box.first[0], box.last[0], j, k)) continue;

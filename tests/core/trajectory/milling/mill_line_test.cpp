@@ -90,15 +90,16 @@ TEST(MillLine, RefusesWhatIsNotOfTheHeader) {
   std::string q = "[0";
   for (std::size_t at = 1; at < joints; ++at) q += ",0";
   q += "]";
-  for (const std::string& line : std::initializer_list<std::string>
-       {R"({"type":"cut","q":)" + q + "}", R"({"type":"cut","q":)" + q + R"(,"direction":2,"tip":[0,0,0],"removed":1})",
-        R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,0]})",
-        R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,11],"removed":1})",
-        R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,1e-8],"removed":1})",
-        R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,0],"removed":-1})",
-        R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0],"removed":1})",
-        R"({"type":"tool","tool":"D21","q":)" + q + "}",
-        R"({"type":"cut","q":)" + q + R"(,"voxels":[[0,0,0],[0,0,0]]})"}) {
+  for (const std::string& line : std::initializer_list<std::string>{
+           R"({"type":"cut","q":)" + q + "}",
+           R"({"type":"cut","q":)" + q + R"(,"direction":2,"tip":[0,0,0],"removed":1})",
+           R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,0]})",
+           R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,11],"removed":1})",
+           R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,1e-8],"removed":1})",
+           R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0,0],"removed":-1})",
+           R"({"type":"cut","q":)" + q + R"(,"direction":0,"tip":[0,0],"removed":1})",
+           R"({"type":"tool","tool":"D21","q":)" + q + "}",
+           R"({"type":"cut","q":)" + q + R"(,"voxels":[[0,0,0],[0,0,0]]})"}) {
     std::istringstream in(header + line + "\n");
     EXPECT_THROW(
         {

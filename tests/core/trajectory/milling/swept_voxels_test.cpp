@@ -103,6 +103,22 @@ TEST(SweptVoxels, RowsHoldExactlyThePointsThatAreSwept) {
   }
 }
 
+TEST(SweptVoxels, BesideTheGridThereAreNone) {
+  const Grid grid{8, 0.001, Vec3::Zero()};
+  const VoxelCentres centres(grid);
+  const VoxelSet all(grid.n, true);
+  const SweptCutter swept({CutterKind::ball, 0.002, 0.002, 0.01}, {0, 0, 1}, 0);
+  for (const std::size_t axis : {0, 1, 2})
+    for (const std::int64_t place : {-900'000, 60'000 + 80'000, 900'000}) {
+      QuantaPoint from{40'000, 40'000, 40'000};
+      from[axis] = axis == 2 && place < 0 ? -200'000 : place;
+      QuantaPoint to = from;
+      to[(axis + 1) % 3] += axis == 1 ? 0 : 10'000;
+      swept.for_each_run(centres, from, to, all,
+                         [&](const SweptCutter::Run&) { ADD_FAILURE() << axis << " " << place; });
+    }
+}
+
 TEST(SweptVoxels, AMarginMakesLessOfThem) {
   Random random(5);
   const Cutter cutter = random_cutter(random);
