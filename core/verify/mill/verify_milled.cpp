@@ -113,7 +113,6 @@ class MilledReplay {
   }
 
   void take_tool(int number) {
-    tool_ = number;
     scene_ = std::make_unique<ToolScene>(cell_, mill().tools[static_cast<std::size_t>(number)], joints_, material_);
     sweeps_.clear();
     chips_.end();
@@ -198,11 +197,13 @@ class MilledReplay {
     if (step.is_placed()) check_place(step, to);
     const bool straight = step.is_placed() && tip_ && tip_->direction == step.direction;
     if (keyframe.cut && !straight) find("a cut does not begin where a tip was given in the same direction");
-    if (keyframe.cut && straight) cut(step, motion, from, to);
+    // What holds the cutter is held against the material as before the cut: it may not follow where the cutter is yet
+    // to come.
     LinkReplay& bodies = keyframe.cut ? *scene_->links : *scene_->whole;
     bodies.replay(index, motion, [&](const std::string& what, double t) {
       find(what + " at " + text(100 * t) + " % of the motion to this keyframe");
     });
+    if (keyframe.cut && straight) cut(step, motion, from, to);
     if (!keyframe.cut) chips_.end();
     tip_.reset();
     if (step.is_placed()) tip_ = step;
@@ -261,7 +262,6 @@ class MilledReplay {
   std::vector<int> joints_;
   std::unique_ptr<ToolScene> scene_;
   std::map<int, std::unique_ptr<Sweeps>> sweeps_;
-  int tool_ = 0;
   Configuration at_;
   std::optional<MillStep> tip_;  ///< of the keyframe before
   std::vector<Voxel> gone_;
