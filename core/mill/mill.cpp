@@ -150,7 +150,7 @@ class Mill {
     if (!hub || !arm_.hold(*field, static_cast<int>(number), frame.point(*hub))) return;
     trail_.clear();
     const MillSweeps sweeps(tool().cutter, direction, cut_stray_m, job_.grid.voxel_m);
-    Surface surface = surface_of(*site);
+    StockTop surface = surface_of(*site);
     double bottom = top;
     for (int corner = 0; corner < 8; ++corner)
       bottom = std::min(bottom, frame
@@ -168,7 +168,7 @@ class Mill {
     return heights_of(stock_.left(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
   }
   /// Would the tool, if it came everywhere down to this height, take off enough for a pass?
-  bool is_worth_it(const Site& site, const Surface& surface, double height) const {
+  bool is_worth_it(const Site& site, const StockTop& surface, double height) const {
     double volume = 0;
     const double cusp = cusp_share * tool().max_depth_m, cell = std::pow(site.lattice().step, 2);
     const std::vector<float>&tops = surface.map().heights, &lowest = site.lowest_cut().heights;
@@ -178,7 +178,7 @@ class Mill {
     }
     return volume >= least_pass_m3(tool());
   }
-  Surface surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, cut_stray_m}; }
+  StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, cut_stray_m}; }
 
   /// Up from where the tip is and over to the hub; where that is not possible, from a place where the tip was before.
   void draw_back(const Site& site, const Vec3& hub, const MillSweeps& sweeps) {
@@ -197,7 +197,7 @@ class Mill {
     }
   }
 
-  void rough_level_along(Site& site, Surface& surface, double height, const Vec3& hub, const IsReachable& reachable,
+  void rough_level_along(Site& site, StockTop& surface, double height, const Vec3& hub, const IsReachable& reachable,
                          const MillSweeps& sweeps) {
     surface.lower_to(tops_to_cut(site));
     if (!is_worth_it(site, surface, height)) return;

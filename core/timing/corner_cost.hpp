@@ -3,7 +3,7 @@
 
 #include "core/timing/edge.hpp"
 #include "core/timing/room/stray_bound.hpp"
-#include "core/timing/room/tool_room.hpp"
+#include "core/timing/room/edge_room.hpp"
 
 namespace sculpt {
 
@@ -25,7 +25,7 @@ struct CornerCost {
 /// One of the two edges at a corner.
 struct CornerEdge {
   const PathEdge& edge;
-  const ToolRoom& room;
+  const EdgeRoom& room;
 };
 
 /// `here`: the tool at the point. `window_s`: of the moving average.

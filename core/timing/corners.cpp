@@ -8,7 +8,7 @@
 #include "core/law/coarse.hpp"
 #include "core/timing/corner_cost.hpp"
 #include "core/timing/edge.hpp"
-#include "core/timing/room/tool_room.hpp"
+#include "core/timing/room/edge_room.hpp"
 
 namespace sculpt {
 namespace {
@@ -21,7 +21,7 @@ constexpr double least_speed = 1e-9;
 /// A point, the edge that leads to it, and what is known of its corner before its neighbours are.
 struct Place {
   PathEdge edge;
-  ToolRoom room;
+  EdgeRoom room;
   CornerCost cost;
   bool rest = false;
 };
@@ -258,7 +258,7 @@ class CornerFinder {
   const StrayBound& stray_;
   const CornerDemands& demands_;
   const ToolRates rates_;
-  ToolRoomFinder rooms_;
+  EdgeRoomFinder rooms_;
   const double window_;
   std::vector<Place> places_;
   Corners corners_;

@@ -24,7 +24,7 @@ constexpr double wrong_side = 0.6;
 
 }  // namespace
 
-Clearing::Clearing(const ClearingTask& task, Surface& surface)
+Clearing::Clearing(const ClearingTask& task, StockTop& surface)
     : task_(task),
       surface_(surface),
       lattice_(surface.lattice()),

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/mill/rough/surface.hpp"
+#include "core/mill/rough/stock_top.hpp"
 
 namespace sculpt {
 
@@ -40,7 +40,7 @@ using LevelPass = std::vector<Point2>;
 class Clearing {
  public:
   /// `surface` and what `task` refers to must outlive the object.
-  Clearing(const ClearingTask& task, Surface& surface);
+  Clearing(const ClearingTask& task, StockTop& surface);
 
   /// About what is to come off here (m^3).
   double volume_to_clear() const;
@@ -75,7 +75,7 @@ class Clearing {
   void follow(LevelPass& pass);
 
   ClearingTask task_;
-  Surface& surface_;
+  StockTop& surface_;
   const Lattice& lattice_;
   double step_m_, cap_m3_m_;  ///< edges; volume by length
   double beside_m_;           ///< how far the tip keeps from what stands

@@ -30,7 +30,7 @@ void hop(const Site& site, const Vec3& from, const Vec3& to, double least_height
   if (to.z() < clear) add(to, true);
 }
 
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, Surface& surface,
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, StockTop& surface,
                                     const Vec3& at) {
   std::vector<MillStroke> strokes;
   const double height = level.height;

@@ -31,7 +31,7 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
 /// The strokes of one level, from `at`, where the tip is (tool frame, in the air or anywhere at rest); nothing if the
 /// level has nothing that the tool can take off. `surface` loses what they cut.
 /// They go over from pass to pass at no less than `least_height`.
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, Surface& surface,
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, StockTop& surface,
                                     const Vec3& at);
 
 /// Up, over and down to `to` as far as that is clear of everything, then on as if something could be there. Over at no

@@ -16,7 +16,7 @@ MillTool ball_tool(double diameter_m) {
 }
 
 /// A block of 0.1 m, its top at 0, in the middle of a lattice that is 0.03 m wider on all sides.
-Surface make_block(const MillTool& tool, double step_m) {
+StockTop make_block(const MillTool& tool, double step_m) {
   const int cells = static_cast<int>(0.16 / step_m);
   HeightMap stands(Lattice{-0.08, -0.08, step_m, cells, cells});
   for (int b = 0; b < cells; ++b)
@@ -31,7 +31,7 @@ struct Cleared {
 };
 
 /// All that can be come to at a level; each edge is measured by itself on a surface of its own.
-Cleared clear_level(const MillTool& tool, Surface& surface, Surface& measured, double height,
+Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured, double height,
                     const std::vector<char>& free) {
   Cleared cleared;
   Clearing clearing({tool, height, 0.35, free}, surface);
@@ -67,7 +67,7 @@ Cleared clear_level(const MillTool& tool, Surface& surface, Surface& measured, d
 
 TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
   const MillTool tool = ball_tool(0.02);
-  Surface surface = make_block(tool, 0.0008), measured = surface;
+  StockTop surface = make_block(tool, 0.0008), measured = surface;
   const std::vector<char> free(surface.lattice().size(), 1);
   double volume = 0, path = 0;
   for (int level = 1; level <= 4; ++level) {
@@ -85,7 +85,7 @@ TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
 
 TEST(Clearing, GoesAroundWhatIsNotFree) {
   const MillTool tool = ball_tool(0.012);
-  Surface surface = make_block(tool, 0.0006), measured = surface;
+  StockTop surface = make_block(tool, 0.0006), measured = surface;
   std::vector<char> free(surface.lattice().size(), 1);
   const auto is_island = [](double u, double v) { return std::hypot(u - 0.01, v) < 0.02; };
   for (int b = 0; b < surface.lattice().height; ++b)

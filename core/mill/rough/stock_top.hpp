@@ -10,10 +10,10 @@ namespace sculpt {
 
 /// Heights of the stock's top, lowered as it is cut; what is below a top counts as solid. Where a cell is cut in part
 /// it counts as not cut, so that no height is too low. Not shared between threads.
-class Surface {
+class StockTop {
  public:
   /// `stands`: the heights at the start. `less_m`: the cutter may be off by so much, and cuts less.
-  Surface(HeightMap stands, const Cutter& cutter, double less_m);
+  StockTop(HeightMap stands, const Cutter& cutter, double less_m);
 
   const HeightMap& map() const { return map_; }
   /// Nothing stands above these heights: what was cut may have been hollow below.

@@ -1,4 +1,4 @@
-#include "core/timing/room/tool_room.hpp"
+#include "core/timing/room/edge_room.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ double highest_beside(const Cell& cell, const Chain& chain, const Configuration&
 }  // namespace
 
 /// In voxel edges: ball and shank's end at the beginning, in the middle and at the end.
-struct ToolRoomFinder::Ends {
+struct EdgeRoomFinder::Ends {
   std::array<Vec3, 3> ball, top;
   std::size_t direction;
   double third;  ///< bound of the third derivatives over the edge
@@ -61,7 +61,7 @@ struct ToolRoomFinder::Ends {
   double more() const { return third / (72 * std::numbers::sqrt3); }
 };
 
-ToolRoomFinder::ToolRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m)
+EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m)
     : path_(path),
       grid_(path.header().grid),
       ball_radius_(path.header().tool.ball_radius_m / grid_.voxel_m),
@@ -73,7 +73,7 @@ ToolRoomFinder::ToolRoomFinder(const PlanPath& path, const Cell& cell, const Cha
       all_below_(highest_beside(cell, chain, path.configuration(0)) <= grid_.origin_m.z() + touching_m),
       columns_(grid_.n) {}
 
-ToolRoom ToolRoomFinder::go_to(std::size_t point, const PathEdge& edge, const EdgePlaces& places) {
+EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const PathEdge& edge, const EdgePlaces& places) {
   if (!all_below_) return {};
   Ends ends;
   for (std::size_t at = 0; at < 3; ++at) {
@@ -85,7 +85,7 @@ ToolRoom ToolRoomFinder::go_to(std::size_t point, const PathEdge& edge, const Ed
   const double turned = edge.turn * edge.length;
   ends.third = orders_ * turned * turned * edge.travel * edge.length / grid_.voxel_m;
   const int voxels = path_.edge_to(point).voxels;
-  ToolRoom room;
+  EdgeRoom room;
   if (face_steps[ends.direction].k >= 0) {
     room = in_columns(voxels, ends);
     if (!room.known && voxels == 0) room = above_all(ends);
@@ -98,7 +98,7 @@ ToolRoom ToolRoomFinder::go_to(std::size_t point, const PathEdge& edge, const Ed
   return room;
 }
 
-ToolRoom ToolRoomFinder::in_columns(int voxels, const Ends& ends) const {
+EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) const {
   const Voxel from = cell_of(ends.ball[0]), to = cell_of(ends.ball[2]), gap = to - from;
   if ((gap.i != 0) + (gap.j != 0) + (gap.k != 0) > 1 || from.k < 0 || to.k < 0) return {};
   const Voxel axis = face_steps[ends.direction];
@@ -122,7 +122,7 @@ ToolRoom ToolRoomFinder::in_columns(int voxels, const Ends& ends) const {
           room(shank_radius_, std::max(ball_off, top_off), 0.5, Ends::bow(ends.top))};
 }
 
-ToolRoom ToolRoomFinder::above_all(const Ends& ends) const {
+EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) const {
   Vec3 low = ends.ball[0], high = low;
   for (const auto* points : {&ends.ball, &ends.top})
     for (const Vec3& point : *points) {

@@ -31,23 +31,23 @@ struct EndRoom {
   }
 };
 
-struct ToolRoom {
+struct EdgeRoom {
   bool known = false;  ///< else only what all certificates leave
   EndRoom ball, top;
 };
 
 /// Follows a plan from its beginning. Not shared between threads.
-class ToolRoomFinder {
+class EdgeRoomFinder {
  public:
-  ToolRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m);
+  EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m);
 
   /// Of the edge to this point, the next one.
-  ToolRoom go_to(std::size_t point, const PathEdge& edge, const EdgePlaces& places);
+  EdgeRoom go_to(std::size_t point, const PathEdge& edge, const EdgePlaces& places);
 
  private:
   struct Ends;
-  ToolRoom in_columns(int voxels, const Ends& ends) const;
-  ToolRoom above_all(const Ends& ends) const;
+  EdgeRoom in_columns(int voxels, const Ends& ends) const;
+  EdgeRoom above_all(const Ends& ends) const;
 
   const PlanPath& path_;
   Grid grid_;

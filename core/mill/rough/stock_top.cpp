@@ -1,4 +1,4 @@
-#include "core/mill/rough/surface.hpp"
+#include "core/mill/rough/stock_top.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@ constexpr std::size_t entries = 2048;
 
 }  // namespace
 
-Surface::Surface(HeightMap stands, const Cutter& cutter, double less_m)
+StockTop::StockTop(HeightMap stands, const Cutter& cutter, double less_m)
     : map_(std::move(stands)), radius_(cutter.radius_m - less_m) {
   // What is true of the farthest corner of a cell is true of all of it.
   const double to_corner = map_.lattice.step / std::numbers::sqrt2;
@@ -25,12 +25,12 @@ Surface::Surface(HeightMap stands, const Cutter& cutter, double less_m)
   if (reach <= 0) profile_.clear();
 }
 
-void Surface::lower_to(const HeightMap& tops) {
+void StockTop::lower_to(const HeightMap& tops) {
   for (std::size_t at = 0; at < map_.heights.size(); ++at)
     map_.heights[at] = std::min(map_.heights[at], tops.heights[at]);
 }
 
-double Surface::volume(const Vec3& from, const Vec3& to) const {
+double StockTop::volume(const Vec3& from, const Vec3& to) const {
   double heights = 0;
   for_each_cut(from, to,
                [&](std::size_t at, float height) { heights += static_cast<double>(map_.heights[at] - height); });
