@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/timing/edge.hpp"
-#include "core/timing/room/stray_bound.hpp"
 #include "core/timing/room/edge_room.hpp"
+#include "core/timing/room/stray_bound.hpp"
 
 namespace sculpt {
 
