@@ -82,6 +82,29 @@ void path_rows(std::string& table, const Json& report) {
           {"checks_per_voxel", "checks a voxel"}});
 }
 
+/// A line per tool, and what they leave on the surface. Lengths in millimetres.
+void mill_rows(std::string& table, const Json& report) {
+  for (const Json& tool : report.value("tools", Json::array()))
+    row(table, "tool " + tool.value("name", ""),
+        fixed(1e6 * tool.value("removed_m3", 0.0), 1, " cm3, ") + fixed(tool.value("cut_m", 0.0), 1, " m cut, ") +
+            fixed(tool.value("travel_m", 0.0), 1, " m beside, ") + std::to_string(tool.value("keyframes", 0)) +
+            " keyframes, " + std::to_string(tool.value("runs", 0)) + " runs");
+  if (!report.contains("surface")) return;
+  const Json& surface = report["surface"];
+  const auto excess_row = [&](const char* label, const Json& part) {
+    const Json excess = part.value("excess_m", Json::object());
+    const auto mm = [&](const char* field) { return fixed(1000 * excess.value(field, 0.0), 3, ""); };
+    row(table, label,
+        percent(part.value("within_tolerance", Json(0)), part.value("points", Json(0))) + " within tolerance; p50 " +
+            mm("p50") + ", p95 " + mm("p95") + ", p99 " + mm("p99") + ", max " + mm("max") + " mm");
+  };
+  excess_row("surface", surface);
+  if (surface.contains("reachable")) excess_row("  reachable", surface["reachable"]);
+  row(table, "  gouged",
+      surface.value("gouged_points", Json(0)).dump() + " points, by up to " +
+          fixed(1000 * surface.value("gouge_m", 0.0), 4, " mm"));
+}
+
 /// A line per pair of links that may touch.
 void link_rows(std::string& table, const Json& report) {
   const char* label = "links not kept apart";
@@ -136,6 +159,7 @@ std::string report_table(const Json& report) {
         {"resolution", "resolution"}});
   voxel_rows(table, report);
   path_rows(table, report);
+  mill_rows(table, report);
   link_rows(table, report);
   run_rows(table, report);
   return table;

@@ -8,7 +8,6 @@
 #include "core/base/stopwatch.hpp"
 #include "core/mill/map/assembly.hpp"
 #include "core/mill/mill.hpp"
-#include "core/mill/rough/roughing.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/report_figures.hpp"
 #include "core/trajectory/quantum.hpp"
@@ -43,6 +42,11 @@ MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
   return {without_holder(std::move(checked.cell)), std::move(checked.tools), std::move(part), std::move(octree)};
 }
 
+MillWishes wishes_of(const MillOrder& order) {
+  return {order.tolerance_m, order.scallop_m.value_or(order.tolerance_m / 2),
+          order.allowance_m.value_or(0.3 * order.tolerance_m)};
+}
+
 TrajectoryHeader make_header(const Job& job, const MillInputs& inputs, const Grid& grid, const Chain& chain) {
   TrajectoryHeader header;
   header.joints = chain.names();
@@ -52,7 +56,7 @@ TrajectoryHeader make_header(const Job& job, const MillInputs& inputs, const Gri
   header.cell = inputs.cell.name;
   header.search = name(Search::mill);
   header.seed = job.seed;
-  header.mill = {inputs.tools, mill_directions(), cut_stray_m, sha256_hex(job.mesh.bytes)};
+  header.mill = {inputs.tools, mill_directions(), wishes_of(*job.mill).stray_m(), sha256_hex(job.mesh.bytes)};
   return header;
 }
 
@@ -92,9 +96,8 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
   const TrajectoryHeader header = make_header(job, inputs, result.grid, chain);
   check_home(inputs.cell, inputs.tools, result.grid, result.voxels.stock);
   Output output({place, header, chain, result.voxels, report.voxels.remove, job.threads}, watch);
-  const MillWishes wishes{job.mill->tolerance_m, job.mill->scallop_m.value_or(job.mill->tolerance_m / 2),
-                          job.mill->allowance_m.value_or(0.3 * job.mill->tolerance_m)};
-  const MillJob milled{inputs.cell, result.grid, result.voxels, inputs.part, inputs.tools, wishes, header.home};
+  const MillJob milled{inputs.cell,  result.grid,          result.voxels, inputs.part,
+                       inputs.tools, wishes_of(*job.mill), header.home};
   const MillResult done = mill(
       milled, [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, run);
   report.plan_sha256 = output.finish().sha256;
@@ -106,7 +109,9 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
 
   const Stopwatch verifying;
   std::ifstream in(place.trajectory, std::ios::binary);
-  count_replay(report, verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256}, watch));
+  const Verdict verdict = verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256}, watch);
+  count_replay(report, verdict);
+  count_surface(report, *verdict.surface, done.reachable, job.mill->tolerance_m);
   report.seconds.verify = verifying.seconds();
   report.seconds.total = total.seconds();
   return result;

@@ -3,6 +3,16 @@
 #include <nlohmann/json.hpp>
 
 namespace sculpt {
+namespace {
+
+nlohmann::ordered_json json_of(const ExcessFigures& figures) {
+  return {
+      {"points", figures.points},
+      {"within_tolerance", figures.within_tolerance},
+      {"excess_m", {{"p50", figures.p50_m}, {"p95", figures.p95_m}, {"p99", figures.p99_m}, {"max", figures.most_m}}}};
+}
+
+}  // namespace
 
 std::string report_json(const Report& report) {
   using Json = nlohmann::ordered_json;
@@ -76,6 +86,12 @@ std::string report_json(const Report& report) {
                              {"keyframes", tool.keyframes},
                              {"runs", tool.runs},
                              {"engagement", {{"mean", tool.engagement.mean}, {"max", tool.engagement.largest}}}});
+  if (const auto& surface = report.surface) {
+    json["surface"] = json_of(surface->all);
+    json["surface"]["reachable"] = json_of(surface->reachable);
+    json["surface"]["gouged_points"] = surface->gouged_points;
+    json["surface"]["gouge_m"] = surface->gouge_m;
+  }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

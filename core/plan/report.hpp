@@ -14,6 +14,20 @@
 
 namespace sculpt {
 
+/// What stands above the surface at random points of it.
+struct ExcessFigures {
+  std::uint64_t points = 0, within_tolerance = 0;
+  double p50_m = 0, p95_m = 0, p99_m = 0, most_m = 0;
+};
+
+/// Of a job with milling tools.
+struct SurfaceFigures {
+  ExcessFigures all;        ///< as the replay measures it
+  ExcessFigures reachable;  ///< of what the given tools can come to, as the planner knows it
+  std::uint64_t gouged_points = 0;
+  double gouge_m = 0;
+};
+
 /// The figures of `sculpt report` (proto/schema.json names them). Seconds are wall time.
 struct Report {
   std::string mesh, robot, search;
@@ -36,6 +50,7 @@ struct Report {
   } path;
   std::optional<SweepFigures> sweep;  ///< where the job was planned so
   std::vector<ToolFigures> tools;     ///< of a job that names some
+  std::optional<SurfaceFigures> surface;
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.
   struct {

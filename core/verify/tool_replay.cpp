@@ -33,8 +33,9 @@ ToolReplay::ToolReplay(const Cell& cell, const Tool& tool, const LinkMotion& mot
       stickout_(mm * tool.stickout_m) {
   const Around around{cell.tool_link, Vec3(0, 0, stickout_ / 2), stickout_ / 2 + std::max(ball_, shank_)};
   const Frame grid(Eigen::Translation3d(mm * cell.stock_origin_m));
-  add_target(motion, {nullptr, 0, grid.inverse(), cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
-                      ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
+  add_target(motion,
+             {nullptr, 0, grid.inverse(), cell.stock_link, grid, Vec3::Zero(), Vec3::Constant(material.side_mm()),
+              ApproachBound(motion, around, {cell.stock_link, Vec3::Zero(), -1})});
   for (const SolidBody& body : bodies) {
     if (motion.joints_between(body.link, cell.tool_link).empty()) continue;  // it moves with the tool
     add_target(motion, {&body, 0, body.pose.inverse(), body.link, body.pose, -body.half, body.half,

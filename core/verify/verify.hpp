@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,19 @@
 #include "core/material/voxel_grid.hpp"
 #include "core/verify/findings.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
+#include "core/verify/surface_verdict.hpp"
 
 namespace sculpt {
 
 struct Verdict {
   bool clean = false;
-  std::uint64_t collisions = 0;          ///< all findings, also those not listed
-  std::uint64_t voxels_checked = 0;      ///< voxels whose removal was replayed
-  std::uint64_t freed = 0;               ///< voxels that came loose from the table, counted when they did
-  VoxelSet left;                         ///< material that still stands at the end
-  std::vector<Finding> findings;         ///< the first 100
-  std::vector<ExemptPair> exempt_pairs;  ///< links with shapes that were not kept apart
+  std::uint64_t collisions = 0;           ///< all findings, also those not listed
+  std::uint64_t voxels_checked = 0;       ///< voxels whose removal was replayed
+  std::uint64_t freed = 0;                ///< voxels that came loose from the table, counted when they did
+  VoxelSet left;                          ///< material that still stands at the end
+  std::vector<Finding> findings;          ///< the first 100
+  std::vector<ExemptPair> exempt_pairs;   ///< links with shapes that were not kept apart
+  std::optional<SurfaceVerdict> surface;  ///< where milling tools were used
 };
 
 struct ReplaySettings {

@@ -1,9 +1,11 @@
 #include "core/mill/drive/held_tool.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/random.hpp"
+#include "core/material/voxel_rows.hpp"
 #include "core/sweep/field/find_field.hpp"
 
 namespace sculpt {
@@ -50,10 +52,19 @@ VoxelSet cells_of(const Grid& stock, const Grid& around) {
 
 VoxelSet cells_of(const VoxelSet& standing, const Grid& stock, const Grid& around) {
   VoxelSet cells(around.n);
-  for_each_voxel(standing, [&](Voxel v) {
-    const Vec3 low = stock.origin_m + stock.voxel_m * Vec3(v.i, v.j, v.k);
-    for_each_cell_of(low, low + Vec3::Constant(stock.voxel_m), around, [&](Voxel cell) { cells.insert(cell); });
-  });
+  const VoxelRows rows(standing.n());
+  for (int k = 0; k < standing.n(); ++k)
+    for (int j = 0; j < standing.n(); ++j)
+      for (int chunk = 0; chunk < rows.chunks; ++chunk) {
+        std::uint64_t bits = rows.get(standing, j, k, chunk);
+        while (bits != 0) {
+          const int first = std::countr_zero(bits), count = std::countr_one(bits >> first);
+          bits &= first + count == 64 ? ~(~std::uint64_t{0} << first) : ~std::uint64_t{0} << (first + count);
+          const Vec3 low = stock.origin_m + stock.voxel_m * Vec3(chunk * rows.width + first, j, k);
+          for_each_cell_of(low, low + stock.voxel_m * Vec3(count, 1, 1), around,
+                           [&](Voxel cell) { cells.insert(cell); });
+        }
+      }
   return cells;
 }
 
@@ -62,8 +73,14 @@ HeldTool::HeldTool(const Cell& cell, const MillTool& tool, const Grid& stock, co
       around_(around),
       carried_(sculpt::carrying(cell, tool)),
       guided_(guided_by_maps(cell, tool)),
-      carrying_scene_(carried_, around, cells_of(stock, around)),
-      guided_scene_(guided_, around, cells_of(stock, around)) {}
+      guided_scene_(guided_, around, cells_of(stock, around)) {
+  see(cells_of(stock, around));
+}
+
+void HeldTool::see(const VoxelSet& cells) {
+  carrying_scene_ = std::make_unique<Scene>(carried_, around_, cells);
+  cells_ = cells;
+}
 
 const PostureField* HeldTool::field(const Direction& direction, const Configuration& home, const RunContext& run) {
   if (const auto known = fields_.find(direction); known != fields_.end()) return known->second.get();
@@ -77,12 +94,12 @@ const PostureField* HeldTool::field(const Direction& direction, const Configurat
   return kept.get();
 }
 
-const PostureField* HeldTool::open_field(const Direction& direction, const VoxelSet& standing, const RunContext& run) {
+const PostureField* HeldTool::open_field(const Direction& direction, const RunContext& run) {
   auto& kept = fields_[direction];
   if (!kept || kept->usable_cells() == PostureField::all_cells()) return kept.get();
   const VoxelSet all(PostureLattice::fine, true);
-  kept = std::make_unique<PostureField>(*kept, guided_scene_, guided_scene_.stock_of(standing), all, run.helpers,
-                                        run.watch);
+  kept =
+      std::make_unique<PostureField>(*kept, guided_scene_, guided_scene_.stock_of(cells_), all, run.helpers, run.watch);
   return kept.get();
 }
 

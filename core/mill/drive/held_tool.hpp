@@ -30,14 +30,15 @@ class HeldTool {
   const Assembly& assembly() const { return assembly_; }
   const Grid& around() const { return around_; }
   /// Links, and what is fixed to the tool link with the tool, against everything: for ways outside the stock.
-  const Scene& carrying() const { return carrying_scene_; }
-  const Chain& chain() const { return carrying_scene_.chain(); }
+  const Scene& carrying() const { return *carrying_scene_; }
 
   /// The field of a direction; nothing where the robot cannot hold the tool so. Found when first asked for; one call at
   /// a time. Throws Cancelled.
   const PostureField* field(const Direction& direction, const Configuration& home, const RunContext& run);
   /// The same, with links held against what stands only. Replaces the field. Throws Cancelled.
-  const PostureField* open_field(const Direction& direction, const VoxelSet& standing, const RunContext& run);
+  const PostureField* open_field(const Direction& direction, const RunContext& run);
+  /// Only these cells of `around` hold anything of the stock from now on.
+  void see(const VoxelSet& cells);
 
   /// A place of the stock frame in cells of the field's view.
   static Vec3 cell_of(const PostureField& field, const Grid& around, const Vec3& point);
@@ -46,7 +47,9 @@ class HeldTool {
   Assembly assembly_;
   Grid around_;
   Cell carried_, guided_;
-  Scene carrying_scene_, guided_scene_;
+  std::unique_ptr<Scene> carrying_scene_;
+  Scene guided_scene_;
+  VoxelSet cells_;
   std::map<Direction, std::unique_ptr<PostureField>> fields_;
 };
 

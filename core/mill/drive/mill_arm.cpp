@@ -1,5 +1,6 @@
 #include "core/mill/drive/mill_arm.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -25,8 +26,9 @@ std::vector<int> stock_coordinates(const Chain& chain) {
 
 }  // namespace
 
-/// Straight; or back to a place on the way home, where the stock is turned, and forward from there; or a search.
-std::vector<Configuration> MillArm::find_way(const Configuration& to) const {
+/// Straight; or back to a place on the way home, where the stock is turned, and forward from there; or home and by a
+/// way that was found before; or a search, once.
+std::vector<Configuration> MillArm::find_way(const Configuration& to, int direction) {
   const Scene& scene = held_->carrying();
   const auto is_free = [&](const Configuration& from, const Configuration& there) {
     return from == there || scene.certify(from, there) == Contact::none;
@@ -48,6 +50,16 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to) const {
       return way;
     }
   }
+  if (const auto known = ways_.find(direction); known != ways_.end()) {
+    std::vector<Configuration> way{q_};
+    way.insert(way.end(), way_home_.begin(), way_home_.end());
+    way.insert(way.end(), known->second.begin(), known->second.end());
+    way.push_back(to);
+    bool free = is_free(way[0], way[1]);
+    for (std::size_t at = way_home_.size(); free && at + 1 < way.size(); ++at) free = is_free(way[at], way[at + 1]);
+    if (free) return way;
+  }
+  if (!searched_.insert(direction).second) return {};
   Transit found =
       plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
@@ -68,11 +80,12 @@ void MillArm::move(const std::vector<Configuration>& way) {
 void MillArm::leave_for(const Configuration& to) {
   if (q_ == to) return;
   ++transits_;
-  std::vector<Configuration> way = find_way(to);
+  std::vector<Configuration> way = find_way(to, -1);
   if (way.empty())
     throw InputError("no_transit",
                      "the arm finds no way out of a direction of the tool: keep what stands beside the stock lower");
   move(way);
+  searched_.erase(-1);
   way_home_.clear();
   if (to != home_) way_home_.assign(way.rbegin() + 1, way.rend());
   tip_.reset();
@@ -96,11 +109,15 @@ bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
   if (there.keyframes.empty()) return false;
   Keyframe last = there.keyframes.back();
   ++transits_;
-  std::vector<Configuration> way = find_way(last.q);
+  std::vector<Configuration> way = find_way(last.q, direction);
   if (way.empty()) return false;
   std::vector<Configuration> back(way.rbegin() + 1, way.rend());
   back.insert(back.end(), way_home_.begin(), way_home_.end());
+  // Not beyond the first time at home.
+  if (const auto rest = std::ranges::find(back, home_); rest != back.end()) back.erase(rest + 1, back.end());
   way_home_ = std::move(back);
+  ways_[direction].assign(way_home_.rbegin(), way_home_.rend());
+  ways_[direction].push_back(last.q);
   way.pop_back();
   move(way);
   emit_({last});

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/base/run_context.hpp"
@@ -38,7 +40,8 @@ class MillArm {
   void go_home();
 
  private:
-  std::vector<Configuration> find_way(const Configuration& to) const;
+  /// `direction`: that it is for; -1: to rest.
+  std::vector<Configuration> find_way(const Configuration& to, int direction);
   void move(const std::vector<Configuration>& way);
   void leave_for(const Configuration& to);
 
@@ -50,7 +53,9 @@ class MillArm {
   const PostureField* field_ = nullptr;
   int direction_ = -1;
   std::optional<Vec3> tip_;
-  std::vector<Configuration> way_home_;  ///< from where the direction was entered; empty at home
+  std::map<int, std::vector<Configuration>> ways_;  ///< from home to where each direction was entered last
+  std::set<int> searched_;                          ///< for ways to these
+  std::vector<Configuration> way_home_;             ///< from where the direction was entered; empty at home
   std::uint64_t transits_ = 0;
 };
 

@@ -22,14 +22,17 @@ Site::Site(const ToolFrame& frame, const Lattice& lattice, const Assembly& assem
       rings_(assembly.rings),
       margins_(margins),
       limit_(lattice),
+      beside_(lattice),
       lowest_cut_(lattice),
       stands_(lattice),
       body_limit_(lattice) {
   HeightMap solid(lattice);
-  raise(solid, part, frame);
   raise(solid, fixtures, frame);
+  beside_ = offset_by_cutter(solid, cutter_, margins.body_m);
+  raise(solid, part, frame);
+  raise_to(beside_, offset_by_rings(solid, rings_, margins.body_m));
   limit_ = offset_by_cutter(solid, cutter_, margins.cutter_m);
-  raise_to(limit_, offset_by_rings(solid, rings_, margins.body_m));
+  raise_to(limit_, beside_);
   lowest_cut_ = sculpt::lowest_cut(limit_, cutter_);
 }
 

@@ -1,6 +1,8 @@
 // What a tool can come to along one direction: its maps over the part, over what stands beside it, and over the stock.
 #pragma once
 
+#include <algorithm>
+
 #include "core/material/voxel_set.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mill/map/offset_map.hpp"
@@ -32,6 +34,11 @@ class Site {
   /// The tip may not be lower, for what the body would touch of it.
   const HeightMap& body_limit() const { return body_limit_; }
 
+  /// The tip may not be lower, for what the cutter would touch of fixtures, and the body of anything.
+  double floor(int a, int b) const { return static_cast<double>(std::max(beside_.at(a, b), body_limit_.at(a, b))); }
+  /// The highest place of what stands.
+  double top() const { return static_cast<double>(*std::ranges::max_element(stands_.heights)); }
+
   /// The lowest height at which the whole tool goes over from one place to the other (tool frame) and touches nothing,
   /// `clearance_m` above all that the cutter could.
   double clear_height(const Vec3& from, const Vec3& to, double clearance_m) const;
@@ -44,7 +51,7 @@ class Site {
   Cutter cutter_;
   std::vector<Ring> rings_;
   SiteMargins margins_;
-  HeightMap limit_, lowest_cut_, stands_, body_limit_;
+  HeightMap limit_, beside_, lowest_cut_, stands_, body_limit_;
 };
 
 }  // namespace sculpt

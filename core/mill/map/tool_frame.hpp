@@ -11,6 +11,9 @@ namespace sculpt {
 /// A direction of the tool's axis in whole numbers, from the tip towards the spindle: plans are exact about it.
 using Direction = std::array<int, 3>;
 
+/// A place across a tool's axis.
+using Point2 = Eigen::Vector2d;
+
 /// Coordinates about the stock frame's origin.
 struct ToolFrame {
   explicit ToolFrame(const Direction& along)

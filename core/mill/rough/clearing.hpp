@@ -22,8 +22,6 @@
 
 namespace sculpt {
 
-using Point2 = Eigen::Vector2d;
-
 /// What one level is cleared with.
 struct ClearingTask {
   const MillTool& tool;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mill/drive/hop.hpp"
+
 namespace sculpt {
 std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable) {
   const Lattice& lattice = site.lattice();
@@ -15,23 +17,8 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
   return free;
 }
 
-void hop(const Site& site, const Vec3& from, const Vec3& to, double least_height, std::vector<MillStroke>& strokes) {
-  const ToolFrame& frame = site.frame();
-  const double high = std::max({site.clear_height(from, to, air_clearance_m), from.z(), to.z(), least_height});
-  const Vec3 over_from(from.x(), from.y(), high), over_to(to.x(), to.y(), high);
-  // Beside what was cut the cutter may still touch it on its way up and down.
-  const auto add = [&](const Vec3& at, bool cut) {
-    strokes.push_back({frame.point(at), cut, cut ? cut_stray_m : air_stray_m});
-  };
-  if (high > from.z()) add(over_from, true);
-  if ((over_to - over_from).norm() > 0) add(over_to, false);
-  const double clear = std::clamp(site.clear_height(to, to, air_clearance_m), to.z(), high);
-  if (clear < high) add({to.x(), to.y(), clear}, false);
-  if (to.z() < clear) add(to, true);
-}
-
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, StockTop& surface,
-                                    const Vec3& at) {
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, double stray_m,
+                                    StockTop& surface, const Vec3& at) {
   std::vector<MillStroke> strokes;
   const double height = level.height;
   Clearing clearing(level, surface);
@@ -47,10 +34,10 @@ std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level,
         pass = clearing.next_from(*entry);
         if (!pass) continue;
         const Vec3 begin(entry->x(), entry->y(), height);
-        hop(site, tip, begin, least_height, strokes);
+        hop(site, tip, begin, least_height, stray_m, strokes);
       }
       for (std::size_t edge = 1; edge < pass->size(); ++edge)
-        strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, cut_stray_m});
+        strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, stray_m});
       tip = {pass->back().x(), pass->back().y(), height};
     }
   } while (clearing.lower_threshold());

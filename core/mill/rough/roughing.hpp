@@ -10,11 +10,6 @@
 
 namespace sculpt {
 
-/// How far the cutter may stray from a straight way while it cuts, and while it goes through the air.
-inline constexpr double cut_stray_m = 2e-5, air_stray_m = 5e-4;
-/// What the tool keeps off things in the air.
-inline constexpr double air_clearance_m = 2e-3;
-
 /// Of the depth of cut: what stands higher than this above a level is to come off, the rest are cusps.
 inline constexpr double cusp_share = 0.35;
 /// A way to a pass and back is worth its while for that of two diameters at full engagement (m^3).
@@ -30,12 +25,8 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
 
 /// The strokes of one level, from `at`, where the tip is (tool frame, in the air or anywhere at rest); nothing if the
 /// level has nothing that the tool can take off. `surface` loses what they cut.
-/// They go over from pass to pass at no less than `least_height`.
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, StockTop& surface,
-                                    const Vec3& at);
-
-/// Up, over and down to `to` as far as that is clear of everything, then on as if something could be there. Over at no
-/// less than `least_height`.
-void hop(const Site& site, const Vec3& from, const Vec3& to, double least_height, std::vector<MillStroke>& strokes);
+/// They go over from pass to pass at no less than `least_height`, and stray by no more than `stray_m` where they cut.
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, double stray_m,
+                                    StockTop& surface, const Vec3& at);
 
 }  // namespace sculpt

@@ -63,35 +63,68 @@ double to_triangle(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& 
   return pierces(from, to, t) ? 0 : least;
 }
 
-/// Across the axis, from the way of the axis to that part of the triangle that is higher than `bottom` and not higher
-/// than `top`.
-double across(const Vec3& axis, const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& t, double bottom,
-              double top) {
-  std::vector<Vec3> part(t.begin(), t.end());
-  for (const auto& [sign, bound] : {std::pair{1.0, bottom}, {-1.0, -top}}) {
-    std::vector<Vec3> kept;
-    for (std::size_t at = 0; at < part.size(); ++at) {
-      const Vec3 &a = part[at], &b = part[(at + 1) % part.size()];
-      const double in_a = sign * a.dot(axis) - bound, in_b = sign * b.dot(axis) - bound;
-      if (in_a >= 0) kept.push_back(a);
-      if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0)) kept.push_back(a + (b - a) * (in_a / (in_a - in_b)));
-    }
-    part = std::move(kept);
-    if (part.empty()) return infinity;
+/// A convex piece of a triangle.
+struct Piece {
+  std::array<Vec3, 8> corners;
+  std::size_t count = 0;
+};
+
+/// What of it is above a plane.
+Piece above(const Piece& piece, const Vec3& normal, double offset) {
+  Piece kept;
+  for (std::size_t at = 0; at < piece.count; ++at) {
+    const Vec3 &a = piece.corners[at], &b = piece.corners[(at + 1) % piece.count];
+    const double in_a = a.dot(normal) - offset, in_b = b.dot(normal) - offset;
+    if (in_a >= 0) kept.corners[kept.count++] = a;
+    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0))
+      kept.corners[kept.count++] = a + (b - a) * (in_a / (in_a - in_b));
   }
+  return kept;
+}
+
+/// Across the axis, from the way of the axis to a piece.
+double across(const Vec3& axis, const Vec3& from, const Vec3& to, const Piece& piece) {
   const auto flat = [&](const Vec3& p) { return Vec3(p - p.dot(axis) * axis); };
   double least = infinity;
   const Vec3 a = flat(from), b = flat(to);
-  for (std::size_t at = 0; at < part.size(); ++at) {
-    const Vec3 p = flat(part[at]), q = flat(part[(at + 1) % part.size()]);
+  Piece plan = piece;
+  for (std::size_t at = 0; at < plan.count; ++at) plan.corners[at] = flat(piece.corners[at]);
+  for (std::size_t at = 0; at < plan.count; ++at) {
+    const Vec3 &p = plan.corners[at], &q = plan.corners[(at + 1) % plan.count];
     least = std::min(least, between_segments(a, b - a, p, q - p));
   }
   // Or the axis goes through it.
-  for (std::size_t at = 1; at + 1 < part.size(); ++at) {
-    const std::array<Vec3, 3> fan{flat(part[0]), flat(part[at]), flat(part[at + 1])};
+  for (std::size_t at = 1; at + 1 < plan.count; ++at) {
+    const std::array<Vec3, 3> fan{plan.corners[0], plan.corners[at], plan.corners[at + 1]};
     const auto turn = [&](const Vec3& p, const Vec3& q) { return axis.dot((q - p).cross(a - p)); };
     const double x = turn(fan[0], fan[1]), y = turn(fan[1], fan[2]), z = turn(fan[2], fan[0]);
     if ((x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0)) return 0;
+  }
+  return least;
+}
+
+/// The same, to that part of a triangle that is higher than `bottom` and not higher than `top`.
+double across(const Vec3& axis, const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& t, double bottom,
+              double top) {
+  const Piece whole{{t[0], t[1], t[2]}, 3};
+  return across(axis, from, to, above(above(whole, axis, bottom), -axis, -top));
+}
+
+/// The same for the rod above a ball that goes straight from one place to another: what is above the way itself, and
+/// above its upper end.
+double across_rod(const Vec3& axis, const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& t, double top) {
+  const Vec3 way = to - from, level = way - way.dot(axis) * axis;
+  const double length = level.norm();
+  const Vec3& upper = way.dot(axis) > 0 ? to : from;
+  const double lowest = std::min(from.dot(axis), to.dot(axis));
+  const Piece whole{{t[0], t[1], t[2]}, 3};
+  const Piece high = above(above(whole, axis, lowest), -axis, -top);
+  if (high.count == 0) return infinity;
+  double least = across(axis, upper, upper, above(high, axis, upper.dot(axis)));
+  if (length > 1e-12) {
+    // The plane through the way that is level across it.
+    const Vec3 normal = axis - level * (way.dot(axis) / (length * length));
+    least = std::min(least, across(axis, from, to, above(high, normal, from.dot(normal))));
   }
   return least;
 }
@@ -102,7 +135,12 @@ SurfaceGrid::SurfaceGrid(const Mesh& part) {
   Eigen::AlignedBox3d all;
   for (const auto& t : part.triangles) {
     triangles_.push_back({1000 * part.vertices[t[0]], 1000 * part.vertices[t[1]], 1000 * part.vertices[t[2]]});
-    for (const Vec3& corner : triangles_.back()) all.extend(corner);
+    const Corners& corners = triangles_.back();
+    for (const Vec3& corner : corners) all.extend(corner);
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+    double radius = 0;
+    for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm());
+    balls_.push_back({middle, radius * (1 + 1e-9)});
   }
   if (triangles_.empty()) return;
   low_ = all.min();
@@ -169,8 +207,9 @@ const std::vector<std::uint32_t>& SurfaceGrid::within(const Vec3& low, const Vec
 double SurfaceGrid::depth(const Cutter& cutter, const Vec3& axis, const Vec3& from, const Vec3& to, double enough_mm) {
   if (triangles_.empty()) return -enough_mm;
   const double radius = 1000 * cutter.radius_m, corner = 1000 * cutter.corner_radius_m, flute = 1000 * cutter.flute_m;
+  const bool is_ball = cutter.kind == CutterKind::ball;
   const double rise = std::abs((to - from).dot(axis));
-  const int parts = std::max(1, static_cast<int>(std::ceil(rise / most_rise_mm)));
+  const int parts = is_ball ? 1 : std::max(1, static_cast<int>(std::ceil(rise / most_rise_mm)));
   double deepest = -enough_mm;
   for (int part = 0; part < parts; ++part) {
     const Vec3 a = from + (to - from) * part / parts, b = from + (to - from) * (part + 1) / parts;
@@ -178,22 +217,35 @@ double SurfaceGrid::depth(const Cutter& cutter, const Vec3& axis, const Vec3& fr
     const Vec3 low = a.cwiseMin(b).cwiseMin(a + up).cwiseMin(b + up) - room,
                high = a.cwiseMax(b).cwiseMax(a + up).cwiseMax(b + up) + room;
     const Vec3 base_a = a + corner * axis, base_b = b + corner * axis;
+    const double reach = radius - deepest, top = std::max(a.dot(axis), b.dot(axis)) + flute,
+                 lowest = std::min(base_a.dot(axis), base_b.dot(axis)) - reach;
+    const Vec3 level = (b - a) - (b - a).dot(axis) * axis;
+    const double level2 = level.squaredNorm();
     for (const std::uint32_t number : within(low, high)) {
       const Corners& t = triangles_[number];
-      if (cutter.kind == CutterKind::ball) deepest = std::max(deepest, radius - to_triangle(base_a, base_b, t));
+      if (std::max({t[0].dot(axis), t[1].dot(axis), t[2].dot(axis)}) < lowest) continue;
+      const Ball& ball = balls_[number];
+      const double near = reach + ball.radius;
+      // Seen along the axis it is beside the way.
+      const Vec3 off = ball.middle - a, beside = off - off.dot(axis) * axis;
+      const double share = level2 > 0 ? std::clamp(beside.dot(level) / level2, 0.0, 1.0) : 0;
+      if ((beside - share * level).squaredNorm() > near * near) continue;
+      if (is_ball) {
+        deepest = std::max(deepest, radius - to_triangle(base_a, base_b, t));
+        deepest = std::max(deepest, radius - across_rod(axis, base_a, base_b, t, top));
+        continue;
+      }
       // What is higher than the base somewhere on the way; of others than balls, than the tip.
-      const double bottom = std::min(base_a.dot(axis), base_b.dot(axis)),
-                   top = std::max(a.dot(axis), b.dot(axis)) + flute;
+      const double bottom = std::min(base_a.dot(axis), base_b.dot(axis));
       deepest = std::max(deepest, radius - across(axis, base_a, base_b, t, bottom, top));
-      if (cutter.kind == CutterKind::ball) continue;
       // A rim, as a stack of discs, each from as low as the next larger one: a little more than the rim.
       const double tip = std::min(a.dot(axis), b.dot(axis));
       constexpr int discs = 8;
       for (int disc = 0; disc < discs; ++disc) {
-        const double share = static_cast<double>(disc + 1) / discs, r = radius - corner + corner * share;
-        const double lowest =
-            corner > 0 ? corner * (1 - std::sqrt(std::max(0.0, 1 - std::pow(share - 1.0 / discs, 2)))) : 0;
-        deepest = std::max(deepest, (corner > 0 ? r : radius) - across(axis, a, b, t, tip + lowest, top));
+        const double part_of = static_cast<double>(disc + 1) / discs, r = radius - corner + corner * part_of;
+        const double rim =
+            corner > 0 ? corner * (1 - std::sqrt(std::max(0.0, 1 - std::pow(part_of - 1.0 / discs, 2)))) : 0;
+        deepest = std::max(deepest, (corner > 0 ? r : radius) - across(axis, a, b, t, tip + rim, top));
         if (corner <= 0) break;
       }
     }

@@ -26,7 +26,14 @@ class SurfaceGrid {
   const std::vector<std::uint32_t>& within(const Vec3& low, const Vec3& high);
   std::array<int, 3> box_of(const Vec3& point) const;
 
+  /// Around a triangle.
+  struct Ball {
+    Vec3 middle;
+    double radius;
+  };
+
   std::vector<Corners> triangles_;
+  std::vector<Ball> balls_;
   Vec3 low_ = Vec3::Zero();
   double edge_ = 1;
   std::array<int, 3> boxes_{};

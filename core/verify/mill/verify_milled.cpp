@@ -12,6 +12,7 @@
 #include "core/verify/mill/chip_scale.hpp"
 #include "core/verify/mill/cutter_sweep.hpp"
 #include "core/verify/mill/surface_grid.hpp"
+#include "core/verify/mill/surface_points.hpp"
 #include "core/verify/mill/tool_scene.hpp"
 #include "core/verify/robot/urdf_differences.hpp"
 
@@ -40,6 +41,7 @@ class MilledReplay {
         reader_(in),
         grid_(cell.grid(voxels.n())),
         surface_(part.mesh),
+        points_(part.mesh, voxels, grid_),
         to_remove_(voxels.stock.size() - voxels.keep.size()),
         left_(voxels.stock),
         cubes_(voxels.stock),
@@ -61,6 +63,9 @@ class MilledReplay {
       if ((at_ - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
     }
     count_loose();
+    verdict_.surface = points_.judge(left_);
+    if (const SurfaceVerdict& surface = *verdict_.surface; surface.gouged_points > 0)
+      find("points of the part are cut below the surface, by up to " + text(1000 * surface.gouge_m) + " mm");
     verdict_.left = left_;
     verdict_.collisions = found_.collisions;
     verdict_.voxels_checked = removed_;
@@ -234,6 +239,7 @@ class MilledReplay {
     const Vec3 axis = axis_of(step.direction), a = scene_->tip(from), b = scene_->tip(to);
     const double depth = surface_.depth(cutter, axis, a, b, look_mm) + stray;
     if (depth > most_gouge_mm + 2 * tip_slack_mm) find("the cutter is up to " + text(depth) + " mm inside the part");
+    if (cutter.kind == CutterKind::ball) points_.cut(a + r * axis, b + r * axis, r, stray);
     const Sweeps& swept = sweeps(step.direction);
     const std::uint64_t removed = swept.centres.take(left_, grid_, tip_->tip, step.tip);
     if (removed != step.removed)
@@ -256,6 +262,7 @@ class MilledReplay {
   TrajectoryReader reader_;
   Grid grid_;
   SurfaceGrid surface_;
+  SurfacePoints points_;
   std::uint64_t to_remove_;
   VoxelSet left_, cubes_;
   StandingVoxels material_;

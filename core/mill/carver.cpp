@@ -1,0 +1,172 @@
+#include "core/mill/carver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/mill/drive/hop.hpp"
+#include "core/mill/map/fixtures.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Beyond the stock the tip needs room for its cutter and to turn around in.
+constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
+constexpr double quanta_per_m = 1e7;
+/// Nails: of a square of the finest stepover, but no more and no fewer than these.
+constexpr double nails_a_stepover = 2;
+constexpr std::size_t fewest_nails = 20000, most_nails = 150000;
+
+Vec3 point_of(const QuantaPoint& tip) {
+  return Vec3(static_cast<double>(tip[0]), static_cast<double>(tip[1]), static_cast<double>(tip[2])) / quanta_per_m;
+}
+
+QuantaPoint quanta_of(const Vec3& point) {
+  return {std::llround(point.x() * quanta_per_m), std::llround(point.y() * quanta_per_m),
+          std::llround(point.z() * quanta_per_m)};
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (const auto& t : mesh.triangles)
+    area += (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() / 2;
+  return area;
+}
+
+Nails make_nails(const MillJob& job, std::uint64_t seed) {
+  double finest_m2 = std::numeric_limits<double>::infinity();
+  for (const MillTool& tool : job.tools)
+    finest_m2 = std::min(finest_m2, 8 * job.wishes.scallop_m * tool.cutter.radius_m);
+  const double wanted = nails_a_stepover * area_of(job.part) / finest_m2;
+  const auto count =
+      static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(fewest_nails), static_cast<double>(most_nails)));
+  return {job.part, job.voxels, job.grid, count, seed};
+}
+
+}  // namespace
+
+Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
+    : job_(job),
+      run_(run),
+      stock_(job.voxels.stock, job.grid),
+      nails_(make_nails(job, run.seed)),
+      to_remove_(job.voxels.stock.size() - job.voxels.keep.size()),
+      fixtures_(fixture_mesh(job.cell)),
+      emit_([this, &emit](std::vector<Keyframe> keyframes) {
+        count(keyframes);
+        emit(std::move(keyframes));
+      }),
+      arm_(job.home, job.home, emit_, run) {
+  double widest_m = 0;
+  for (const MillTool& tool : job.tools) widest_m = std::max(widest_m, tool.cutter.radius_m);
+  around_ = grid_around(job.grid, widest_m + room_around_m);
+}
+
+void Carver::take_tool(std::size_t number) {
+  const MillTool& tool = job_.tools[number];
+  auto held = std::make_unique<HeldTool>(job_.cell, tool, job_.grid, around_);
+  meter_ = std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3));
+  arm_.take_tool(static_cast<int>(number), *held);  // the one before is there until then
+  held_ = std::move(held);
+  refused_.assign(mill_directions().size(), 0);
+}
+
+void Carver::count(const std::vector<Keyframe>& keyframes) {
+  for (const Keyframe& keyframe : keyframes) {
+    const MillStep& step = *keyframe.mill;
+    std::optional<Vec3> tip;
+    if (step.is_placed()) tip = point_of(step.tip);
+    meter_->count(keyframe, tip && tip_ ? (*tip - *tip_).norm() : 0);
+    tip_ = tip;
+  }
+  run_.watch.step(Stage::plan, removed_, to_remove_);
+}
+
+std::unique_ptr<Site> Carver::make_site(std::size_t direction, const SiteMargins& margins, double step_m) const {
+  const ToolFrame frame(mill_directions()[direction]);
+  const double size = job_.grid.n * job_.grid.voxel_m;
+  const Assembly& assembly = held_->assembly();
+  const double margin = std::max(assembly.radius_m(), tool().cutter.radius_m + room_beside_m) + 2 * step_m;
+  return std::make_unique<Site>(
+      frame, lattice_over(frame, job_.grid.origin_m, job_.grid.origin_m + Vec3::Constant(size), margin, step_m),
+      assembly, job_.part, fixtures_, margins);
+}
+
+bool Carver::enter(std::size_t number, const Site& site) {
+  if (refused_[number]) return false;
+  refused_[number] = 1;
+  const Direction& direction = mill_directions()[number];
+  held_->field(direction, job_.home, run_);
+  held_->see(cells_of(stock_.standing(), job_.grid, around_));
+  const PostureField* field = held_->open_field(direction, run_);
+  if (field == nullptr) return false;
+  floor_ = std::make_unique<ReachFloor>(*field, around_, site, site.top() + room_around_m);
+  std::optional<Vec3> hub;
+  for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
+    if (!hub) hub = find_hub(site, site.top() + above_m);
+  if (!hub || !arm_.hold(*field, static_cast<int>(number), site.frame().point(*hub))) return false;
+  refused_[number] = 0;
+  hub_ = *hub;
+  axis_ = site.frame().w;
+  trail_.clear();
+  sweeps_.emplace(tool().cutter, direction, job_.wishes.stray_m(), job_.grid.voxel_m);
+  return true;
+}
+
+void Carver::draw_back(const Site& site) {
+  for (;;) {
+    std::vector<MillStroke> strokes;
+    hop(site, tip(site), hub_, hub_.z(), job_.wishes.stray_m(), strokes);
+    const std::vector<Vec3> trail = trail_;
+    if (carry_out(strokes) == strokes.size()) return;
+    trail_ = trail;
+    if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");
+    const Vec3 before = trail_.back();
+    trail_.pop_back();
+    const std::vector<Vec3> rest = trail_;
+    carry_out({{before, true, job_.wishes.stray_m()}});
+    trail_ = rest;
+  }
+}
+
+std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
+  FollowedMill followed = arm_.try_strokes(strokes);
+  const bool is_ball = tool().cutter.kind == CutterKind::ball;
+  const Vec3 to_middle = tool().cutter.radius_m * axis_;
+  QuantaPoint from = quanta_of(*arm_.tip());
+  trail_.push_back(*arm_.tip());
+  for (Keyframe& keyframe : followed.keyframes) {
+    MillStep& step = *keyframe.mill;
+    if (keyframe.cut) {
+      removed_ += step.removed = stock_.cut(*sweeps_, from, step.tip);
+      if (is_ball)
+        nails_.cut(point_of(from) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
+    }
+    from = step.tip;
+    trail_.push_back(point_of(step.tip));
+  }
+  trail_.pop_back();
+  const std::size_t done = followed.strokes;
+  arm_.commit(std::move(followed));
+  return done;
+}
+
+/// A place above everything that the robot reaches, as near to the middle as there is one.
+std::optional<Vec3> Carver::find_hub(const Site& site, double height) const {
+  const Lattice& lattice = site.lattice();
+  const double u = lattice.u(lattice.width / 2), v = lattice.v(lattice.height / 2);
+  std::optional<Vec3> nearest;
+  double least = 0;
+  for (int b = 0; b < lattice.height; b += 4)
+    for (int a = 0; a < lattice.width; a += 4) {
+      const Vec3 at(lattice.u(a), lattice.v(b), height);
+      const double far = std::hypot(at.x() - u, at.y() - v);
+      if (nearest && far >= least) continue;
+      if (!floor_->allows(at) || site.clear_height(at, at, 0) > height) continue;
+      nearest = at;
+      least = far;
+    }
+  return nearest;
+}
+
+}  // namespace sculpt

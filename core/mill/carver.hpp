@@ -1,0 +1,82 @@
+// Carries out what the stages of milling plan: the arm follows, the stock and the nails lose what is cut, and all of it
+// is counted.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/mill/drive/mill_arm.hpp"
+#include "core/mill/drive/reach_floor.hpp"
+#include "core/mill/finish/nails.hpp"
+#include "core/mill/map/site.hpp"
+#include "core/mill/mill_job.hpp"
+#include "core/mill/mill_stock.hpp"
+#include "core/mill/tool_meter.hpp"
+
+namespace sculpt {
+
+/// Not shared between threads.
+class Carver {
+ public:
+  using Emit = std::function<void(std::vector<Keyframe>)>;
+
+  /// All must outlive the object.
+  Carver(const MillJob& job, const Emit& emit, const RunContext& run);
+
+  /// The first one is in the spindle already. Throws InputError `no_transit` where no way leads to where it is changed.
+  void take_tool(std::size_t number);
+  /// What came of the tool that is held.
+  ToolFigures figures() { return meter_->take(); }
+  void go_home() { arm_.go_home(); }
+
+  const MillTool& tool() const { return held_->assembly().tool; }
+  const MillStock& stock() const { return stock_; }
+  const Nails& nails() const { return nails_; }
+  void mark_reachable(std::size_t nail) { nails_.mark_reachable(nail); }
+  /// Of the wishes.
+  double stray_m() const { return job_.wishes.stray_m(); }
+
+  /// A direction, its maps over cells of `step_m`, for the tool that is held. It has not seen what stands yet.
+  std::unique_ptr<Site> make_site(std::size_t direction, const SiteMargins& margins, double step_m) const;
+
+  /// Holds the tool in a direction whose site has seen what stands, high above everything; false where the robot
+  /// cannot.
+  bool enter(std::size_t direction, const Site& site);
+  /// In the direction that was entered.
+  const ReachFloor& reach() const { return *floor_; }
+  const Vec3& hub() const { return hub_; }
+  /// Of that direction's frame.
+  Vec3 tip(const Site& site) const { return site.frame().of(*arm_.tip()); }
+
+  /// Follows strokes as far as that goes; gives how many.
+  std::size_t carry_out(const std::vector<MillStroke>& strokes);
+  /// Up from where the tip is and over to the hub; where that is not possible, from a place where the tip was before.
+  void draw_back(const Site& site);
+
+ private:
+  void count(const std::vector<Keyframe>& keyframes);
+  std::optional<Vec3> find_hub(const Site& site, double height) const;
+
+  const MillJob& job_;
+  const RunContext& run_;
+  MillStock stock_;
+  Nails nails_;
+  std::uint64_t to_remove_, removed_ = 0;
+  Mesh fixtures_;
+  Grid around_;
+  std::unique_ptr<HeldTool> held_;
+  std::unique_ptr<ToolMeter> meter_;
+  std::vector<char> refused_;  ///< directions in which the robot could not hold it
+  std::optional<MillSweeps> sweeps_;
+  std::unique_ptr<const ReachFloor> floor_;
+  Vec3 hub_ = Vec3::Zero(), axis_ = Vec3::UnitZ();
+  std::optional<Vec3> tip_;  ///< of the last keyframe that was counted
+  std::vector<Vec3> trail_;  ///< where it was before, since the direction was entered
+  Emit emit_;
+  MillArm arm_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,110 @@
+#include "core/mill/finish/envelope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sculpt {
+namespace {
+
+/// Of the ball's radius: how far apart it is looked where it rests; but no nearer and no farther than these.
+constexpr double look_share = 1.0 / 6, nearest_look_m = 4e-4, farthest_look_m = 1.5e-3;
+/// Beside an upright wall the line is cut until its pieces are shorter than this, in plan.
+constexpr double finest_m = 4e-6;
+
+class Follower {
+ public:
+  Follower(const EnvelopeTask& task, const Point2& from, const Point2& to) : task_(task), from_(from), way_(to - from) {
+    const double length = way_.norm(), look = std::clamp(look_share * task.radius_m, nearest_look_m, farthest_look_m);
+    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(length / look)));
+    for (std::size_t at = 0; at <= pieces; ++at)
+      looks_.push_back(rest(static_cast<double>(at) / static_cast<double>(pieces)));
+  }
+
+  std::vector<Contour> run() {
+    std::size_t begin = 0;
+    while (begin < looks_.size()) {
+      if (!looks_[begin]) {
+        ++begin;
+        continue;
+      }
+      std::size_t end = begin;
+      while (end + 1 < looks_.size() && looks_[end + 1]) ++end;
+      contours_.push_back({*looks_[begin]});
+      go(begin, end);
+      begin = end + 1;
+    }
+    std::erase_if(contours_, [](const Contour& contour) { return contour.size() < 2; });
+    return std::move(contours_);
+  }
+
+ private:
+  /// The tip at rest; nothing where there is nothing to rest on, or it may not be there.
+  std::optional<Vec3> rest(double share) const {
+    const Point2 at = from_ + share * way_;
+    const double height = task_.columns.rest_height(at.x(), at.y(), task_.radius_m + task_.allowance_m, task_.bottom_m);
+    if (height <= task_.bottom_m) return std::nullopt;
+    const Vec3 tip(at.x(), at.y(), height - task_.radius_m);
+    if (!task_.is_allowed(tip, tip)) return std::nullopt;
+    return tip;
+  }
+
+  bool is_proved(const Vec3& from, const Vec3& to) const {
+    const Vec3 up(0, 0, task_.radius_m);
+    return task_.is_allowed(from, to) && task_.columns.is_clear(from + up, to + up, task_.radius_m + task_.clear_m);
+  }
+
+  bool is_near(std::size_t from, std::size_t to) const {
+    const Vec3 &a = *looks_[from], way = *looks_[to] - a;
+    const double level = way.head<2>().norm() / std::max(way.norm(), 1e-12);
+    for (std::size_t at = from + 1; at < to; ++at) {
+      const double share = static_cast<double>(at - from) / static_cast<double>(to - from);
+      if ((a.z() + share * way.z() - looks_[at]->z()) * level > task_.chord_m) return false;
+      if (a.z() + share * way.z() < looks_[at]->z() - task_.allowance_m) return false;
+    }
+    return true;
+  }
+
+  void go(std::size_t from, std::size_t to) {
+    if (from == to) return;
+    if (is_near(from, to) && is_proved(*looks_[from], *looks_[to])) return contours_.back().push_back(*looks_[to]);
+    if (to - from > 1) {
+      const std::size_t middle = (from + to) / 2;
+      go(from, middle);
+      go(middle, to);
+      return;
+    }
+    const double pieces = static_cast<double>(looks_.size() - 1);
+    divide(*looks_[from], static_cast<double>(from) / pieces, *looks_[to], static_cast<double>(to) / pieces);
+  }
+
+  /// Of an edge that is not proved.
+  void divide(const Vec3& a, double share_a, const Vec3& b, double share_b) {
+    if ((b - a).head<2>().norm() > finest_m) {
+      const double share = (share_a + share_b) / 2;
+      if (const auto middle = rest(share)) {
+        for (const auto& [from, share_from, to, share_to] :
+             {std::tuple{a, share_a, *middle, share}, std::tuple{*middle, share, b, share_b}})
+          if (is_proved(from, to))
+            contours_.back().push_back(to);
+          else
+            divide(from, share_from, to, share_to);
+        return;
+      }
+    }
+    contours_.push_back({b});
+  }
+
+  const EnvelopeTask& task_;
+  Point2 from_, way_;
+  std::vector<std::optional<Vec3>> looks_;
+  std::vector<Contour> contours_;
+};
+
+}  // namespace
+
+std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to) {
+  return Follower(task, from, to).run();
+}
+
+}  // namespace sculpt

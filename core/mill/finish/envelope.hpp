@@ -1,0 +1,28 @@
+// The lowest a ball cutter may go along straight lines in plan: its rest on the part, followed up and down.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/mill/finish/facet_columns.hpp"
+
+namespace sculpt {
+
+/// How near a cutter's ball is led over the part (m).
+struct EnvelopeTask {
+  const FacetColumns& columns;
+  double radius_m = 0;     ///< of the ball
+  double allowance_m = 0;  ///< it rests so far off the part
+  double clear_m = 0;      ///< and is nowhere nearer than this on an edge: less than the allowance
+  double chord_m = 0;      ///< an edge may be farther off the rest than its ends, by so much
+  double bottom_m = 0;     ///< nothing to rest on is looked for below
+  std::function<bool(const Vec3& from, const Vec3& to)> is_allowed;  ///< may the tip go so, for all the rest?
+};
+
+/// Tips, in the tool's frame; each of its edges is proved.
+using Contour = std::vector<Vec3>;
+
+/// From one place in plan straight to another; in pieces where it cannot go through.
+std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to);
+
+}  // namespace sculpt

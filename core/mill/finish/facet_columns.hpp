@@ -1,0 +1,40 @@
+// The part's facets as a tool sees them along its axis, and where a ball with a rod above it may be among them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+#include "core/mill/map/tool_frame.hpp"
+
+namespace sculpt {
+
+/// Exact, unlike height maps: a ball end of `radius` and the endless rod of the same radius above it against triangles.
+/// Coordinates of the tool's frame, m; a place is that of the ball's middle. Immutable; any thread.
+class FacetColumns {
+ public:
+  FacetColumns(const Mesh& part, const ToolFrame& frame);
+
+  /// The lowest the ball may be over (u, v), or `from` where that is higher: facets below it are not looked at.
+  double rest_height(double u, double v, double radius, double from) const;
+
+  /// Does it stay farther than `radius` from all facets on its straight way, the rod above it as well?
+  bool is_clear(const Vec3& from, const Vec3& to, double radius) const;
+
+ private:
+  struct Facet {
+    std::array<Vec3, 3> corners;
+    Vec3 normal;  ///< unit, not downwards
+    double top;
+  };
+  template <typename Visit>
+  void for_each_cell(double low_u, double high_u, double low_v, double high_v, const Visit& visit) const;
+
+  double low_u_ = 0, low_v_ = 0, step_ = 1;
+  int width_ = 0, height_ = 0;
+  std::vector<Facet> facets_;
+  std::vector<std::uint32_t> begin_, numbers_;  ///< of each cell: its part of `numbers_`, the highest first
+};
+
+}  // namespace sculpt

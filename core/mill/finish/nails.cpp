@@ -1,0 +1,125 @@
+#include "core/mill/finish/nails.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nails_a_box = 6;
+/// How far from the surface it is found out what is inside (voxel edges).
+constexpr double look_voxels = 1.0;
+
+double signed_volume(const Mesh& part) {
+  double volume = 0;
+  for (const auto& t : part.triangles)
+    volume += part.vertices[t[0]].dot(part.vertices[t[1]].cross(part.vertices[t[2]])) / 6;
+  return volume;
+}
+
+bool is_kept(const VoxelGrid& voxels, const Grid& grid, const Vec3& point) {
+  const Vec3 at = (point - grid.origin_m) / grid.voxel_m;
+  if ((at.array() < 0).any() || (at.array() >= grid.n).any()) return false;
+  return voxels.keep.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+}
+
+/// The normal outwards; none where both sides are inside.
+std::optional<Vec3> outward(const Vec3& point, const Vec3& normal, const VoxelGrid& voxels, const Grid& grid) {
+  const double off = look_voxels * grid.voxel_m;
+  const bool before = is_kept(voxels, grid, point + off * normal), behind = is_kept(voxels, grid, point - off * normal);
+  if (before && behind && is_kept(voxels, grid, point + 2 * off * normal) &&
+      is_kept(voxels, grid, point - 2 * off * normal))
+    return std::nullopt;
+  return before && !behind ? Vec3(-normal) : normal;
+}
+
+}  // namespace
+
+double way_to_ball(const Vec3& point, const Vec3& direction, const Vec3& middle, double radius) {
+  const Vec3 to = middle - point;
+  const double along = to.dot(direction), left = along * along - to.squaredNorm() + radius * radius;
+  if (left < 0) return infinity;
+  const double root = std::sqrt(left);
+  return along + root < 0 ? infinity : along - root;
+}
+
+Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed) {
+  std::vector<double> areas;
+  double area = 0;
+  for (const auto& t : part.triangles) {
+    area += (part.vertices[t[1]] - part.vertices[t[0]]).cross(part.vertices[t[2]] - part.vertices[t[0]]).norm() / 2;
+    areas.push_back(area);
+  }
+  if (!(area > 0)) return;
+  area_m2_ = area / static_cast<double>(count);
+  Random random(seed);
+  const double turn = signed_volume(part) < 0 ? -1 : 1;
+  std::vector<Nail> found;
+  Eigen::AlignedBox3d all;
+  std::size_t facet = 0;
+  // One in each of `count` shares of the area.
+  for (std::size_t share = 0; share < count; ++share) {
+    const double at = (static_cast<double>(share) + random.unit()) * area_m2_;
+    while (facet + 1 < areas.size() && areas[facet] < at) ++facet;
+    const auto& t = part.triangles[facet];
+    const Vec3 e = part.vertices[t[1]] - part.vertices[t[0]], f = part.vertices[t[2]] - part.vertices[t[0]];
+    double x = random.unit(), y = random.unit();
+    if (x + y > 1) x = 1 - x, y = 1 - y;
+    const Vec3 point = part.vertices[t[0]] + x * e + y * f, normal = turn * e.cross(f).normalized();
+    if (const auto out = outward(point, normal, voxels, grid)) {
+      found.push_back({point, *out});
+      all.extend(point);
+    }
+  }
+  if (found.empty()) return;
+  low_ = all.min();
+  edge_ = std::max(std::sqrt(nails_a_box * area_m2_), all.sizes().maxCoeff() / 500);
+  std::size_t boxes = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    boxes_[axis] = static_cast<int>(all.sizes()[static_cast<int>(axis)] / edge_) + 1;
+    boxes *= static_cast<std::size_t>(boxes_[axis]);
+  }
+  const auto box_of = [&](const Nail& nail) {
+    const Vec3 at = (nail.point - low_) / edge_;
+    return boxes_row(static_cast<int>(at.y()), static_cast<int>(at.z())) + static_cast<std::size_t>(at.x());
+  };
+  begin_.assign(boxes + 1, 0);
+  for (const Nail& nail : found) ++begin_[box_of(nail) + 1];
+  for (std::size_t box = 0; box < boxes; ++box) begin_[box + 1] += begin_[box];
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  nails_.resize(found.size());
+  for (const Nail& nail : found) nails_[next[box_of(nail)]++] = nail;
+  excess_.assign(nails_.size(), static_cast<float>(uncut));
+  reachable_.resize(nails_.size());
+}
+
+void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
+  const Vec3 way = to - from, room = Vec3::Constant(radius + farthest_m);
+  const double length2 = way.squaredNorm(), reach2 = room.x() * room.x();
+  for_each_in(from.cwiseMin(to) - room, from.cwiseMax(to) + room, [&](std::uint32_t at) {
+    const Nail& nail = nails_[at];
+    const Vec3 off = nail.point - from;
+    const double share = length2 > 0 ? std::clamp(off.dot(way) / length2, 0.0, 1.0) : 0;
+    if ((off - share * way).squaredNorm() > reach2) return;
+    double least =
+        std::min(way_to_ball(nail.point, nail.normal, from, radius), way_to_ball(nail.point, nail.normal, to, radius));
+    if (length2 > 0) {
+      // The cylinder between: across the way.
+      const Vec3 p = off - way * (off.dot(way) / length2), d = nail.normal - way * (nail.normal.dot(way) / length2);
+      const double a = d.squaredNorm(), b = p.dot(d), c = p.squaredNorm() - radius * radius;
+      if (const double root = b * b - a * c; a > 1e-12 && root >= 0) {
+        const double t = (-b - std::sqrt(root)) / a, along = (off + t * nail.normal).dot(way);
+        if (along >= 0 && along <= length2 && (-b + std::sqrt(root)) / a >= 0) least = std::min(least, t);
+      }
+    }
+    // A ball that is behind the surface, or comes to it from there, cuts something else.
+    const double behind = -1e-5;
+    if (least < behind) return;
+    excess_[at] = std::min(excess_[at], static_cast<float>(std::max(0.0, least)));
+  });
+}
+
+}  // namespace sculpt

@@ -1,0 +1,82 @@
+#include "core/mill/finish/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace sculpt {
+namespace {
+
+constexpr int headings = 4;
+/// Surfaces that lean less than this have rows along the first heading.
+constexpr double level_cosine = 0.9;
+/// How far around a nail its slope is looked at, in row spacings.
+constexpr double look_spacings = 3;
+/// Rows at most so many times halved: 2^-3 of the spacing.
+constexpr int finest = 3;
+/// By so much rows may be too far apart before they are halved.
+constexpr double generous = 1.15;
+/// Rows go on over gaps of so many spacings.
+constexpr double bridged_spacings = 8;
+
+struct Place {
+  int heading;
+  std::int64_t number;  ///< of the row, in the finest spacing
+  auto operator<=>(const Place&) const = default;
+};
+
+Point2 way_of(int heading) {
+  const double angle = std::numbers::pi * heading / headings;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+int heading_of(const Vec3& normal) {
+  if (normal.z() > level_cosine) return 0;
+  const double angle = std::atan2(normal.y(), normal.x()) * headings / std::numbers::pi;
+  return ((static_cast<int>(std::lround(angle)) % headings) + headings) % headings;
+}
+
+Vec3 mean_normal(const Nails& nails, std::uint32_t number, double reach_m) {
+  const Nail& nail = nails[number];
+  Vec3 sum = nail.normal;
+  nails.for_each_near(nail.point, reach_m, [&](std::uint32_t other) {
+    if (nails[other].normal.dot(nail.normal) > 0) sum += nails[other].normal;
+  });
+  return sum.normalized();
+}
+
+}  // namespace
+
+std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
+                           const std::vector<std::uint32_t>& numbers) {
+  std::map<Place, std::vector<std::array<double, 2>>> needs;
+  const double around = std::sqrt(nails.area_m2()), step = task.spacing_m / (1 << (finest + task.finer));
+  for (const std::uint32_t number : numbers) {
+    const Vec3 normal = frame.of(nails[number].normal), middle = frame.of(nails[number].point) + task.radius_m * normal;
+    const int heading = heading_of(frame.of(mean_normal(nails, number, look_spacings * task.spacing_m)));
+    const Point2 way = way_of(heading), across(-way.y(), way.x());
+    const double x = middle.head<2>().dot(way), y = middle.head<2>().dot(across);
+    const double up = std::max(normal.z(), 1e-3), level = up / std::hypot(up, normal.head<2>().dot(across));
+    const int halved = std::clamp(static_cast<int>(std::ceil(-std::log2(generous * level))), 0, finest);
+    const std::int64_t stride = std::int64_t{1} << (finest - halved);
+    const double rows = y / (step * static_cast<double>(stride));
+    // The row nearest to a nail is enough for it.
+    needs[{heading, std::llround(rows) * stride}].push_back({x - around, x + around});
+  }
+  std::vector<Row> rows;
+  for (auto& [place, spans] : needs) {
+    std::ranges::sort(spans);
+    const Point2 way = way_of(place.heading), across(-way.y(), way.x());
+    const Point2 begin = static_cast<double>(place.number) * step * across;
+    for (std::size_t at = 0; at < spans.size();) {
+      auto [low, high] = spans[at];
+      for (++at; at < spans.size() && spans[at][0] <= high + bridged_spacings * task.spacing_m; ++at)
+        high = std::max(high, spans[at][1]);
+      rows.push_back({begin + low * way, begin + high * way});
+    }
+  }
+  return rows;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,27 @@
+// Which rows over the part a set of nails needs, seen along the tool's axis.
+#pragma once
+
+#include <vector>
+
+#include "core/mill/finish/nails.hpp"
+#include "core/mill/map/tool_frame.hpp"
+
+namespace sculpt {
+
+/// In plan, m.
+struct Row {
+  Point2 from, to;
+};
+
+struct RowTask {
+  double radius_m = 0;   ///< of the ball at rest over a nail, allowance and all
+  double spacing_m = 0;  ///< of rows where the surface is level across them
+  int finer = 0;         ///< so many times rows are twice as near
+};
+
+/// Rows run up and down the slope, in one of four headings, the nearer the steeper the surface is across them.
+/// `numbers`: of the nails that rows are for.
+std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
+                           const std::vector<std::uint32_t>& numbers);
+
+}  // namespace sculpt

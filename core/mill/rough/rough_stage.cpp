@@ -1,0 +1,147 @@
+#include "core/mill/rough/rough_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mill/drive/hop.hpp"
+#include "core/mill/rough/roughing.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Lattices: cells of a cutter's radius, and no finer than this.
+constexpr double cells_a_radius = 12, finest_cell_m = 4e-4;
+/// Of a cutter's radius, left by roughing.
+constexpr double rough_share = 0.03;
+/// A direction is worth its while from this share of the stock's volume on.
+constexpr double least_gain_share = 1e-3;
+/// Voxels that are looked at to find that out, along an edge.
+constexpr int samples_along = 64;
+constexpr int max_failures = 12;
+
+class RoughStage {
+ public:
+  RoughStage(const MillJob& job, Carver& carver, const RunContext& run) : job_(job), carver_(carver), run_(run) {}
+
+  void run() {
+    find_prospects();
+    std::vector<char> used_up(mill_directions().size());
+    while (const auto best = best_direction(used_up)) {
+      used_up[*best] = 1;
+      rough_along(*best);
+    }
+  }
+
+ private:
+  const MillTool& tool() const { return carver_.tool(); }
+  const MillStock& stock() const { return carver_.stock(); }
+  double stray_m() const { return job_.wishes.stray_m(); }
+  double step_m() const { return std::max(finest_cell_m, tool().cutter.radius_m / cells_a_radius); }
+  SiteMargins margins() const { return {rough_share * tool().cutter.radius_m + stray_m(), air_clearance_m / 2}; }
+
+  /// Of each direction which of some voxels that are to be removed the tool comes to.
+  void find_prospects() {
+    const int stride = std::max(1, job_.grid.n / samples_along);
+    VoxelSet wanted = stock().left();
+    wanted -= job_.voxels.keep;
+    for (int k = stride / 2; k < job_.grid.n; k += stride)
+      for (int j = stride / 2; j < job_.grid.n; j += stride)
+        for (int i = stride / 2; i < job_.grid.n; i += stride)
+          if (wanted.contains({i, j, k})) samples_.push_back({i, j, k});
+    prospects_.resize(mill_directions().size());
+    run_.helpers.for_each_index(prospects_.size(), [&](std::size_t number) {
+      const auto site = carver_.make_site(number, margins(), 2 * step_m());
+      const HeightMap& lowest = site->lowest_cut();
+      for (const Voxel sample : samples_) {
+        const Vec3 at = site->frame().of(job_.grid.centre(sample));
+        const int a = lowest.lattice.cell_u(at.x()), b = lowest.lattice.cell_v(at.y());
+        prospects_[number].push_back(lowest.lattice.contains(a, b) && at.z() > static_cast<double>(lowest.at(a, b)));
+      }
+    });
+    least_gain_ = least_gain_share * std::pow(job_.grid.n / stride, 3);
+  }
+
+  std::optional<std::size_t> best_direction(const std::vector<char>& used_up) const {
+    std::vector<std::size_t> gains(mill_directions().size());
+    for (std::size_t number = 0; number < gains.size(); ++number)
+      for (std::size_t at = 0; at < samples_.size() && !used_up[number]; ++at)
+        gains[number] += prospects_[number][at] && stock().left().contains(samples_[at]);
+    const auto most = std::ranges::max_element(gains);
+    if (static_cast<double>(*most) < least_gain_) return std::nullopt;
+    return static_cast<std::size_t>(most - gains.begin());
+  }
+
+  void rough_along(std::size_t number) {
+    const auto site = carver_.make_site(number, margins(), step_m());
+    site->see(stock().standing(), job_.grid);
+    if (!carver_.enter(number, *site)) return;
+    const ToolFrame& frame = site->frame();
+    StockTop surface = surface_of(*site);
+    const double top = site->top();
+    double bottom = top;
+    for (int corner = 0; corner < 8; ++corner)
+      bottom = std::min(bottom, frame
+                                    .of(job_.grid.origin_m + job_.grid.n * job_.grid.voxel_m *
+                                                                 Vec3(corner & 1, corner >> 1 & 1, corner >> 2))
+                                    .z());
+    for (double height = top - tool().max_depth_m; height > bottom - tool().cutter.radius_m;
+         height -= tool().max_depth_m)
+      rough_level_along(*site, surface, height);
+    carver_.draw_back(*site);
+  }
+
+  /// What is to be cut and can be: not all that may stand.
+  HeightMap tops_to_cut(const Site& site) const {
+    return heights_of(stock().left(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
+  }
+  StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, stray_m()}; }
+
+  /// Would the tool, if it came everywhere down to this height, take off enough for a pass?
+  bool is_worth_it(const Site& site, const StockTop& surface, double height) const {
+    double volume = 0;
+    const double cusp = cusp_share * tool().max_depth_m, cell = std::pow(site.lattice().step, 2);
+    const std::vector<float>&tops = surface.map().heights, &lowest = site.lowest_cut().heights;
+    for (std::size_t at = 0; at < tops.size(); ++at) {
+      const double left = std::max(height, static_cast<double>(lowest[at]));
+      if (static_cast<double>(tops[at]) > left + cusp) volume += (static_cast<double>(tops[at]) - left) * cell;
+    }
+    return volume >= least_pass_m3(tool());
+  }
+
+  void rough_level_along(Site& site, StockTop& surface, double height) {
+    if (!is_worth_it(site, surface, height)) return;
+    site.see(stock().standing(), job_.grid);
+    std::vector<char> free = free_cells(site, height, [this](const Vec3& at) { return carver_.reach().allows(at); });
+    double least_height = height;
+    for (int failures = 0; failures < max_failures; ++failures) {
+      const std::vector<MillStroke> strokes =
+          rough_level(site, {tool(), height, cusp_share, free}, least_height, stray_m(), surface, carver_.tip(site));
+      if (strokes.empty()) return;
+      const std::size_t done = carver_.carry_out(strokes);
+      if (done == strokes.size()) return surface.lower_to(tops_to_cut(site));
+      // Not there, then, and what was to come after it is planned anew.
+      if (!strokes[done].cut) least_height = carver_.hub().z();
+      const Vec3 refused = site.frame().of(strokes[done].tip_m);
+      for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
+                         [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });
+      if (done == 0) carver_.draw_back(site);
+      site.see(stock().standing(), job_.grid);
+      surface = surface_of(site);
+    }
+  }
+
+  const MillJob& job_;
+  Carver& carver_;
+  const RunContext& run_;
+  std::vector<Voxel> samples_;
+  std::vector<std::vector<char>> prospects_;
+  double least_gain_ = 0;
+};
+
+}  // namespace
+
+void rough(const MillJob& job, Carver& carver, const RunContext& run) {
+  RoughStage(job, carver, run).run();
+}
+
+}  // namespace sculpt

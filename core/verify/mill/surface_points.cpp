@@ -1,0 +1,160 @@
+#include "core/verify/mill/surface_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace sculpt {
+namespace {
+
+constexpr double points_a_mm2 = 2;
+constexpr double fewest = 20000, most = 250000;
+/// Balls that pass a point at more than this count as not near it; a larger excess is that of the voxels.
+constexpr double near_mm = 1;
+constexpr double uncut = std::numeric_limits<double>::infinity();
+constexpr double gouge_mm = 1e-3;
+/// A millimetre so often halved is below a tenth of a micrometre.
+constexpr int halvings = 15;
+
+/// From a point to a segment.
+double away(const Vec3& point, const Vec3& from, const Vec3& way) {
+  const double length2 = way.squaredNorm();
+  const double share = length2 > 0 ? std::clamp((point - from).dot(way) / length2, 0.0, 1.0) : 0;
+  return (point - from - share * way).norm();
+}
+
+}  // namespace
+
+SurfacePoints::SurfacePoints(const Mesh& part, const VoxelGrid& voxels, const Grid& grid) : grid_(grid) {
+  std::vector<double> weights;
+  double area = 0, volume = 0;
+  for (const auto& t : part.triangles) {
+    const Vec3 &a = part.vertices[t[0]], &b = part.vertices[t[1]], &c = part.vertices[t[2]];
+    weights.push_back((b - a).cross(c - a).norm() / 2);
+    area += weights.back();
+    volume += a.dot(b.cross(c));
+  }
+  if (!(area > 0)) return;
+  std::mt19937_64 random(20261123);
+  std::discrete_distribution<std::size_t> facets(weights.begin(), weights.end());
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const auto is_inside = [&](const Vec3& at_mm) {
+    const Vec3 at = (at_mm / 1000 - grid.origin_m) / grid.voxel_m;
+    if ((at.array() < 0).any() || (at.array() >= grid.n).any()) return false;
+    return voxels.keep.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+  };
+  const double voxel = 1000 * grid.voxel_m;
+  std::vector<Point> found;
+  Eigen::AlignedBox3d all;
+  const auto count = static_cast<std::size_t>(std::clamp(1e6 * area * points_a_mm2, fewest, most));
+  for (std::size_t drawn = 0; drawn < count; ++drawn) {
+    const auto& t = part.triangles[facets(random)];
+    const Vec3 a = 1000 * part.vertices[t[0]], b = 1000 * part.vertices[t[1]], c = 1000 * part.vertices[t[2]];
+    const double root = std::sqrt(unit()), share = unit();
+    const Vec3 at = (1 - root) * a + root * ((1 - share) * b + share * c);
+    Vec3 normal = (b - a).cross(c - a).normalized();
+    if (volume < 0) normal = -normal;
+    const bool before = is_inside(at + voxel * normal), behind = is_inside(at - voxel * normal);
+    if (before && behind && is_inside(at + 2 * voxel * normal) && is_inside(at - 2 * voxel * normal)) continue;
+    if (before && !behind) normal = -normal;
+    found.push_back({at, normal, uncut});
+    all.extend(at);
+  }
+  if (found.empty()) return;
+  low_ = all.min();
+  edge_ = std::max({all.sizes().maxCoeff() / 400, std::sqrt(1e6 * area / static_cast<double>(count)), 1e-6});
+  boxes_ = (all.sizes().array() / edge_).cast<int>() + 1;
+  begin_.assign(
+      static_cast<std::size_t>(boxes_[0]) * static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(boxes_[2]) +
+          1,
+      0);
+  for (const Point& point : found) ++begin_[box_of(point.at) + 1];
+  for (std::size_t box = 1; box < begin_.size(); ++box) begin_[box] += begin_[box - 1];
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  points_.resize(found.size());
+  for (const Point& point : found) points_[next[box_of(point.at)]++] = point;
+}
+
+std::size_t SurfacePoints::box_of(const Vec3& at) const {
+  const Eigen::Array3i box = ((at - low_).array() / edge_).floor().cast<int>().max(0).min(boxes_ - 1);
+  return static_cast<std::size_t>(box[0]) +
+         static_cast<std::size_t>(boxes_[0]) * (static_cast<std::size_t>(box[1]) +
+                                                static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(box[2]));
+}
+
+void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double stray) {
+  if (points_.empty()) return;
+  const Vec3 way = to - from;
+  const Eigen::Array3d room = Eigen::Array3d::Constant(radius + near_mm);
+  const Eigen::Array3d low = from.array().min(to.array()) - room, high = from.array().max(to.array()) + room;
+  const Eigen::Array3d top = low_.array() + edge_ * boxes_.cast<double>();
+  if ((high < low_.array()).any() || (low > top).any()) return;
+  const Eigen::Array3i first = ((low - low_.array()) / edge_).floor().cast<int>().max(0),
+                       last = ((high - low_.array()) / edge_).floor().cast<int>().min(boxes_ - 1);
+  const double surely = radius - stray;
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j) {
+      const std::size_t row =
+          static_cast<std::size_t>(boxes_[0]) *
+          (static_cast<std::size_t>(j) + static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(k));
+      const std::uint32_t end = begin_[row + static_cast<std::size_t>(last[0]) + 1];
+      for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at) {
+        Point& point = points_[at];
+        const double here = away(point.at, from, way);
+        if (here > radius + near_mm) continue;
+        if (radius + stray - here > gouge_mm) {
+          ++gouged_;
+          deepest_ = std::max(deepest_, radius + stray - here);
+        }
+        if (here < surely) {
+          point.excess = 0;
+          continue;
+        }
+        // Along the normal the distance from the way is convex: first where it is least, then where the ball begins.
+        double near = 0, far = std::min(point.excess, near_mm);
+        const double there = away(point.at + far * point.normal, from, way);
+        if ((here + there - far) / 2 >= surely) continue;  // nowhere between: it changes by no more than the way
+        if (there >= surely) {
+          double begin = 0, end_of = far;
+          for (int halving = 0; halving < 2 * halvings; ++halving) {
+            const double third = (end_of - begin) / 3, a = begin + third, b = end_of - third;
+            if (away(point.at + a * point.normal, from, way) < away(point.at + b * point.normal, from, way))
+              end_of = b;
+            else
+              begin = a;
+          }
+          far = (begin + end_of) / 2;
+          if (away(point.at + far * point.normal, from, way) >= surely) continue;
+        }
+        for (int halving = 0; halving < halvings; ++halving) {
+          const double middle = (near + far) / 2;
+          (away(point.at + middle * point.normal, from, way) < surely ? far : near) = middle;
+        }
+        point.excess = std::min(point.excess, far);
+      }
+    }
+}
+
+SurfaceVerdict SurfacePoints::judge(const VoxelSet& left) const {
+  SurfaceVerdict verdict;
+  verdict.gouged_points = gouged_;
+  verdict.gouge_m = deepest_ / 1000;
+  const auto stands = [&](const Vec3& at_mm) {
+    const Vec3 at = (at_mm / 1000 - grid_.origin_m) / grid_.voxel_m;
+    if ((at.array() < 0).any() || (at.array() >= grid_.n).any()) return false;
+    return left.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+  };
+  const double step = 1000 * grid_.voxel_m / 4;
+  for (const Point& point : points_) {
+    double excess = point.excess;
+    if (excess == uncut) {
+      excess = near_mm;
+      while (stands(point.at + excess * point.normal)) excess += step;
+    }
+    verdict.excess_m.push_back(excess / 1000);
+  }
+  return verdict;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,87 @@
+#include "core/mill/finish/envelope.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace sculpt {
+namespace {
+
+constexpr double radius = 3e-3, allowance = 3e-5, clear = 2.1e-5, chord = 2e-5;
+
+/// Quadrilaterals as two triangles each.
+Mesh make_mesh(const std::vector<std::array<Vec3, 4>>& faces) {
+  Mesh mesh;
+  for (const auto& face : faces) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), face.begin(), face.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+EnvelopeTask make_task(const FacetColumns& columns) {
+  return {columns, radius, allowance, clear, chord, -0.1, [](const Vec3&, const Vec3&) { return true; }};
+}
+
+/// A groove of 90 degrees along y, its crease at the origin.
+Mesh groove() {
+  const double w = 0.02;
+  return make_mesh({{Vec3(-w, -w, w), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(-w, w, w)},
+                    {Vec3(0, -w, 0), Vec3(w, -w, w), Vec3(w, w, w), Vec3(0, w, 0)}});
+}
+
+TEST(Envelope, GoesDownIntoAGrooveAsFarAsTheBallFits) {
+  const Mesh mesh = groove();
+  const ToolFrame frame({0, 0, 1});
+  const FacetColumns columns(mesh, frame);
+  // Whatever u and v are called: across the groove.
+  const Vec3 from = frame.of({-0.012, 0, 0}), to = frame.of({0.012, 0, 0});
+  const auto contours = follow_envelope(make_task(columns), from.head<2>(), to.head<2>());
+  ASSERT_EQ(contours.size(), 1U);
+  double lowest = 1;
+  for (const Vec3& tip : contours[0]) lowest = std::min(lowest, tip.z());
+  // The crease keeps R (sqrt 2 - 1), and the allowance.
+  EXPECT_NEAR(lowest, (radius + allowance) * std::numbers::sqrt2 - radius, 2e-5);
+  EXPECT_LT(contours[0].size(), 40U);
+}
+
+TEST(Envelope, GoesDownAnUprightWall) {
+  const double w = 0.03;
+  const Mesh mesh = make_mesh({{Vec3(-w, -w, 0.02), Vec3(0, -w, 0.02), Vec3(0, w, 0.02), Vec3(-w, w, 0.02)},
+                               {Vec3(0, -w, 0.02), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(0, w, 0.02)},
+                               {Vec3(0, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(0, w, 0)}});
+  const ToolFrame frame({0, 0, 1});
+  const FacetColumns columns(mesh, frame);
+  const Vec3 from = frame.of({-0.01, 0, 0}), to = frame.of({0.01, 0, 0});
+  const auto contours = follow_envelope(make_task(columns), from.head<2>(), to.head<2>());
+  ASSERT_EQ(contours.size(), 1U);
+  // Some edge goes down the wall at just the radius from it.
+  double longest = 0;
+  for (std::size_t at = 1; at < contours[0].size(); ++at) {
+    const Vec3 a = frame.point(contours[0][at - 1]), b = frame.point(contours[0][at]);
+    if (std::abs(a.x() - radius) < 2 * allowance && std::abs(b.x() - radius) < 2 * allowance)
+      longest = std::max(longest, std::abs(a.z() - b.z()));
+  }
+  EXPECT_GT(longest, 0.012);
+}
+
+TEST(Envelope, BreaksOffWhereItMayNotGo) {
+  const Mesh mesh = groove();
+  const ToolFrame frame({0, 0, 1});
+  const FacetColumns columns(mesh, frame);
+  EnvelopeTask task = make_task(columns);
+  task.is_allowed = [&](const Vec3& a, const Vec3& b) {
+    return std::min(frame.point(a).z(), frame.point(b).z()) > 0.004;
+  };
+  const Vec3 from = frame.of({-0.012, 0, 0}), to = frame.of({0.012, 0, 0});
+  const auto contours = follow_envelope(task, from.head<2>(), to.head<2>());
+  ASSERT_EQ(contours.size(), 2U);
+  for (const Contour& contour : contours)
+    for (const Vec3& tip : contour) EXPECT_GT(tip.z(), 0.004);
+}
+
+}  // namespace
+}  // namespace sculpt

@@ -1,0 +1,78 @@
+#include "core/mill/finish/nails.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+constexpr double edge = 0.02, radius = 3e-3;
+
+/// A box that fills the lower half of a grid.
+struct Slab {
+  Slab() : voxels{VoxelSet(32, true), VoxelSet(32)} {
+    for (int k = 0; k < 16; ++k)
+      for (int j = 0; j < 32; ++j)
+        for (int i = 0; i < 32; ++i) voxels.keep.insert({i, j, k});
+    for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7})
+      mesh.vertices.push_back({corner & 1 ? edge : 0.0, corner & 2 ? edge : 0.0, corner & 4 ? edge / 2 : 0.0});
+    const std::array<std::array<std::uint32_t, 4>, 6> faces{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (const auto& f : faces) {
+      mesh.triangles.push_back({f[0], f[1], f[2]});
+      mesh.triangles.push_back({f[0], f[2], f[3]});
+    }
+    grid.n = 32;
+    grid.voxel_m = edge / 32;
+    grid.origin_m = Vec3::Zero();
+  }
+  Mesh mesh;
+  VoxelGrid voxels;
+  Grid grid;
+};
+
+TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
+  Slab slab;
+  for (const bool turned : {false, true}) {
+    if (turned)
+      for (auto& t : slab.mesh.triangles) std::swap(t[1], t[2]);
+    const Nails nails(slab.mesh, slab.voxels, slab.grid, 2000, 7);
+    EXPECT_EQ(nails.size(), 2000U);
+    const Vec3 middle(edge / 2, edge / 2, edge / 4);
+    for (std::size_t at = 0; at < nails.size(); ++at)
+      EXPECT_GT(nails[at].normal.dot(nails[at].point - middle), 0) << nails[at].point.transpose();
+  }
+}
+
+TEST(Nails, RowsLeaveTheScallopsOfTheirSpacing) {
+  const Slab slab;
+  Nails nails(slab.mesh, slab.voxels, slab.grid, 5000, 8);
+  const double spacing = 1e-3, off = 4e-5;
+  for (double y = -2 * spacing; y < edge + 2 * spacing; y += spacing)
+    nails.cut({-0.005, y, edge / 2 + radius + off}, {edge + 0.005, y, edge / 2 + radius + off}, radius);
+  const double cusp = off + radius - std::sqrt(radius * radius - spacing * spacing / 4);
+  double most = 0, least = 1;
+  std::size_t above = 0;
+  for (std::size_t at = 0; at < nails.size(); ++at) {
+    if (nails[at].normal.z() < 0.5) continue;
+    ++above;
+    most = std::max(most, nails.excess(at));
+    least = std::min(least, nails.excess(at));
+  }
+  EXPECT_GT(above, 1000U);
+  EXPECT_NEAR(most, cusp, 1e-6);
+  EXPECT_NEAR(least, off, 1e-6);
+}
+
+TEST(Nails, WhatABallDoesNotTouchStays) {
+  const Slab slab;
+  Nails nails(slab.mesh, slab.voxels, slab.grid, 1000, 9);
+  // Below the slab, and high above it.
+  nails.cut({0, edge / 2, -radius - 0.002}, {edge, edge / 2, -radius - 0.002}, radius);
+  nails.cut({0, edge / 2, edge + radius}, {edge, edge / 2, edge + radius}, radius);
+  for (std::size_t at = 0; at < nails.size(); ++at) EXPECT_EQ(nails.excess(at), Nails::uncut);
+}
+
+}  // namespace
+}  // namespace sculpt
