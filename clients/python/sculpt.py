@@ -718,8 +718,7 @@ def run_fetch(options):
         except OSError as error:
             raise Failure(USAGE, "file_unwritable", f"cannot write {options.output}: {error.strerror}") from None
         finally:
-            if os.path.exists(part):
-                os.remove(part)
+            pathlib.Path(part).unlink(missing_ok=True)  # another fetch to the same file may have taken it away
         return end_exit_code(end)
 
 
