@@ -115,7 +115,7 @@ void add_job_options(CLI::App& command, JobOptions& options) {
       ->type_name("METRES")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--scallop", mill.scallop_m, "Of that, between rows; default half of it")
+  command.add_option("--scallop", mill.scallop_m, "Of that, between rows; default 0.35 of it")
       ->type_name("METRES")
       ->group(group);
   command.add_option("--allowance", mill.allowance_m, "Of that, left on purpose; default three tenths of it")

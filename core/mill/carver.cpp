@@ -117,38 +117,42 @@ void Carver::draw_back(const Site& site) {
   for (;;) {
     std::vector<MillStroke> strokes;
     hop(site, tip(site), hub_, hub_.z(), job_.wishes.stray_m(), strokes);
-    const std::vector<Vec3> trail = trail_;
-    if (carry_out(strokes) == strokes.size()) return;
-    trail_ = trail;
+    if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes == strokes.size()) {
+      go(std::move(followed));
+      return;
+    }
     if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");
+    // Back to where the tip was before, and try from there.
     const Vec3 before = trail_.back();
     trail_.pop_back();
     const std::vector<Vec3> rest = trail_;
-    carry_out({{before, true, job_.wishes.stray_m()}});
+    go(arm_.try_strokes({{before, true, job_.wishes.stray_m()}}));
     trail_ = rest;
   }
 }
 
 std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
   FollowedMill followed = arm_.try_strokes(strokes);
+  const std::size_t done = followed.strokes;
+  go(std::move(followed));
+  return done;
+}
+
+void Carver::go(FollowedMill followed) {
   const bool is_ball = tool().cutter.kind == CutterKind::ball;
   const Vec3 to_middle = tool().cutter.radius_m * axis_;
   QuantaPoint from = quanta_of(*arm_.tip());
-  trail_.push_back(*arm_.tip());
   for (Keyframe& keyframe : followed.keyframes) {
     MillStep& step = *keyframe.mill;
+    trail_.push_back(point_of(from));
     if (keyframe.cut) {
       removed_ += step.removed = stock_.cut(*sweeps_, from, step.tip);
       if (is_ball)
         nails_.cut(point_of(from) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
     }
     from = step.tip;
-    trail_.push_back(point_of(step.tip));
   }
-  trail_.pop_back();
-  const std::size_t done = followed.strokes;
   arm_.commit(std::move(followed));
-  return done;
 }
 
 /// A place above everything that the robot reaches, as near to the middle as there is one.

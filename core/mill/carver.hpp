@@ -58,6 +58,7 @@ class Carver {
 
  private:
   void count(const std::vector<Keyframe>& keyframes);
+  void go(FollowedMill followed);
   std::optional<Vec3> find_hub(const Site& site, double height) const;
 
   const MillJob& job_;

@@ -23,12 +23,13 @@ const std::vector<Direction>& mill_directions() {
 MillResult mill(const MillJob& job, const std::function<void(std::vector<Keyframe>)>& emit, const RunContext& run) {
   MillResult result;
   Carver carver(job, emit, run);
+  PartViews views(job.part, mill_directions().size());
   const auto is_ball = [](const MillTool& tool) { return tool.cutter.kind == CutterKind::ball; };
   for (std::size_t number = 0; number < job.tools.size(); ++number) {
     carver.take_tool(number);
     rough(job, carver, run);
     if (is_ball(job.tools[number]))
-      finish(job, carver,
+      finish(job, views, carver,
              std::none_of(job.tools.begin() + static_cast<std::ptrdiff_t>(number) + 1, job.tools.end(), is_ball), run);
     if (number + 1 == job.tools.size()) carver.go_home();
     result.tools.push_back(carver.figures());

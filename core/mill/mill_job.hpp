@@ -15,13 +15,13 @@ namespace sculpt {
 /// What surfaces must be like (m).
 struct MillWishes {
   double tolerance_m = 1e-4;  ///< of the surface: what may stand above it where the tools can come
-  double scallop_m = 5e-5;    ///< of it, between rows
+  double scallop_m = 3.5e-5;  ///< of it, between rows
   double allowance_m = 3e-5;  ///< of it, left on purpose: what the cutter may stray is taken from this
 
   /// How far the cutter may stray from a straight way while it cuts.
   double stray_m() const { return std::min(2e-5, 2 * allowance_m / 3); }
   /// How far an edge may be above what it should follow.
-  double chord_m() const { return tolerance_m - scallop_m - allowance_m; }
+  double chord_m() const { return std::max(0.1 * tolerance_m, tolerance_m - scallop_m - allowance_m - stray_m()); }
 };
 
 /// It must outlive whoever works on it.

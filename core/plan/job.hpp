@@ -43,7 +43,7 @@ struct MillOrder {
   ToolLibraryFile library;
   std::vector<std::string> tools;
   double tolerance_m = 1e-4;  ///< what may stand above the surface where the tools come to it
-  std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default half and three tenths
+  std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default 0.35 and 0.3 of it
 };
 
 struct Job {

@@ -43,7 +43,7 @@ MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
 }
 
 MillWishes wishes_of(const MillOrder& order) {
-  return {order.tolerance_m, order.scallop_m.value_or(order.tolerance_m / 2),
+  return {order.tolerance_m, order.scallop_m.value_or(0.35 * order.tolerance_m),
           order.allowance_m.value_or(0.3 * order.tolerance_m)};
 }
 
@@ -109,7 +109,8 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
 
   const Stopwatch verifying;
   std::ifstream in(place.trajectory, std::ios::binary);
-  const Verdict verdict = verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256}, watch);
+  const Verdict verdict =
+      verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256}, job.threads, watch);
   count_replay(report, verdict);
   count_surface(report, *verdict.surface, done.reachable, job.mill->tolerance_m);
   report.seconds.verify = verifying.seconds();

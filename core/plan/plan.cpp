@@ -221,7 +221,8 @@ Verdict replay_plan(std::istream& in, const Job& job, const Watch& watch, const 
   JobShapes shapes(job);
   if (!is_milled) return verify_trajectory(in, cell, std::move(shapes).take_voxels(grid, watch), watch, settings);
   const MilledPart part{shapes.place_part(grid, watch), sha256_hex(job.mesh.bytes)};
-  return verify_milled(in, without_holder(std::move(cell)), std::move(shapes).take_voxels(grid, watch), part, watch);
+  return verify_milled(in, without_holder(std::move(cell)), std::move(shapes).take_voxels(grid, watch), part,
+                       settings.threads, watch);
 }
 
 JobResult run_job(const Job& job, const std::filesystem::path& trajectory, const Watch& watch, TrajectoryForm form) {

@@ -36,8 +36,9 @@ constexpr int max_failures = 100;
 
 class FinishStage {
  public:
-  FinishStage(const MillJob& job, Carver& carver, const RunContext& run)
+  FinishStage(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run)
       : job_(job),
+        views_(views),
         carver_(carver),
         run_(run),
         nails_(carver.nails()),
@@ -45,6 +46,7 @@ class FinishStage {
         spacing_m_(std::sqrt(8 * job.wishes.scallop_m * radius_m_)),
         reach_(nails_.size()) {
     for (const Direction& direction : mill_directions()) frames_.emplace_back(direction);
+    sites_.resize(frames_.size());
   }
 
   void run(bool is_last) {
@@ -64,6 +66,11 @@ class FinishStage {
   bool is_open(std::size_t nail) const { return nails_.excess(nail) > job_.wishes.tolerance_m; }
   double cosine(std::size_t nail, std::size_t direction) const { return nails_[nail].normal.dot(frames_[direction].w); }
   double step_m() const { return std::max(finest_cell_m, radius_m_ / cells_a_radius); }
+  /// Made when first asked for; of each direction one thread at a time.
+  Site& site(std::size_t direction) {
+    if (!sites_[direction]) sites_[direction] = make_site(direction);
+    return *sites_[direction];
+  }
   std::unique_ptr<Site> make_site(std::size_t direction) const {
     return carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_stray_m + body_room_m},
                              step_m());
@@ -81,12 +88,12 @@ class FinishStage {
   void find_reach(double below, double from) {
     std::vector<std::vector<char>> found(frames_.size());
     run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
-      const auto site = make_site(direction);
-      const FacetColumns columns(job_.part, frames_[direction]);
+      const Site& here = site(direction);
+      const auto columns = views_.along(direction, frames_[direction]);
       found[direction].resize(nails_.size());
       for (std::size_t nail = 0; nail < nails_.size(); ++nail) {
         const double along = cosine(nail, direction);
-        if (along < below && along >= from && is_open(nail)) found[direction][nail] = is_reached(nail, *site, columns);
+        if (along < below && along >= from && is_open(nail)) found[direction][nail] = is_reached(nail, here, *columns);
         if (nail % 1024 == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
       }
     });
@@ -129,17 +136,17 @@ class FinishStage {
         wanted.push_back(nail);
         tried[nail] |= std::uint32_t{1} << direction;
       }
-    const auto site = make_site(direction);
-    site->see(carver_.stock().standing(), job_.grid);
-    if (!carver_.enter(direction, *site)) return;
-    const FacetColumns columns(job_.part, site->frame());
+    Site& along = site(direction);
+    along.see(carver_.stock().standing(), job_.grid);
+    if (!carver_.enter(direction, along)) return;
+    const auto columns = views_.along(direction, along.frame());
     std::erase_if(wanted, [&](std::uint32_t nail) {
-      const Vec3 tip = middle_over(nail, site->frame()) - Vec3(0, 0, radius_m_);
-      return !is_above_floor(*site, tip) || !carver_.reach().allows(tip);
+      const Vec3 tip = middle_over(nail, along.frame()) - Vec3(0, 0, radius_m_);
+      return !is_above_floor(along, tip) || !carver_.reach().allows(tip);
     });
-    const EnvelopeTask task = make_task(*site, columns);
+    const EnvelopeTask task = make_task(along, *columns);
     const std::vector<Row> rows =
-        find_rows({radius_m_ + job_.wishes.allowance_m, spacing_m_, round}, site->frame(), nails_, wanted);
+        find_rows({radius_m_ + job_.wishes.allowance_m, spacing_m_, round}, along.frame(), nails_, wanted);
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
@@ -147,8 +154,8 @@ class FinishStage {
     });
     std::vector<Contour> contours;
     for (auto& each : found) std::ranges::move(each, std::back_inserter(contours));
-    carry_out(*site, task, std::move(contours));
-    carver_.draw_back(*site);
+    carry_out(along, task, std::move(contours));
+    carver_.draw_back(along);
   }
 
   EnvelopeTask make_task(const Site& site, const FacetColumns& columns) const {
@@ -275,18 +282,20 @@ class FinishStage {
   }
 
   const MillJob& job_;
+  PartViews& views_;
   Carver& carver_;
   const RunContext& run_;
   const Nails& nails_;
   double radius_m_, spacing_m_;
   std::vector<ToolFrame> frames_;
+  std::vector<std::unique_ptr<Site>> sites_;
   std::vector<std::uint32_t> reach_;  ///< of each nail, a bit for each direction
 };
 
 }  // namespace
 
-void finish(const MillJob& job, Carver& carver, bool is_last, const RunContext& run) {
-  FinishStage(job, carver, run).run(is_last);
+void finish(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run) {
+  FinishStage(job, views, carver, run).run(is_last);
 }
 
 }  // namespace sculpt

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "core/mill/carver.hpp"
+#include "core/mill/finish/part_views.hpp"
 
 namespace sculpt {
 
 /// With the tool that `carver` holds. `is_last`: no other tool comes after it; else spots that are too small to be
 /// worth a way there are left to that. Throws InputError, Cancelled.
-void finish(const MillJob& job, Carver& carver, bool is_last, const RunContext& run);
+void finish(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run);
 
 }  // namespace sculpt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -33,10 +34,12 @@ std::string text(double value) {
 
 class MilledReplay {
  public:
-  MilledReplay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part, const Watch& watch)
+  MilledReplay(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part, int threads,
+               const Watch& watch)
       : cell_(cell),
         voxels_(voxels),
         part_(part),
+        threads_(threads),
         watch_(watch),
         reader_(in),
         grid_(cell.grid(voxels.n())),
@@ -62,6 +65,8 @@ class MilledReplay {
       if (!piece.empty()) replay(std::move(piece));
       if ((at_ - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
     }
+    end_judging();
+    std::ranges::stable_sort(found_.findings, {}, &Finding::line);
     count_loose();
     verdict_.surface = points_.judge(left_);
     if (const SurfaceVerdict& surface = *verdict_.surface; surface.gouged_points > 0)
@@ -142,12 +147,42 @@ class MilledReplay {
     return Vec3(way[0], way[1], way[2]).normalized();
   }
 
+  /// A straight way of a cutter that cuts (mm).
+  struct Way {
+    std::uint64_t line;
+    Cutter cutter;
+    Vec3 axis, from, to;
+    double stray;
+  };
+
+  /// What cutters do to the surface needs nothing of all the rest: it is found out beside it.
+  void judge_ways() {
+    end_judging();
+    judging_ = std::async(threads_ > 1 ? std::launch::async : std::launch::deferred,
+                          [this, ways = std::exchange(ways_, {})] { return judge(ways); });
+  }
+  void end_judging() {
+    if (judging_.valid()) found_.add(judging_.get());
+  }
+  PieceFindings judge(const std::vector<Way>& ways) {
+    PieceFindings found;
+    for (const auto& [line, cutter, axis, from, to, stray] : ways) {
+      const double depth = surface_.depth(cutter, axis, from, to, look_mm) + stray;
+      if (depth > most_gouge_mm + 2 * tip_slack_mm)
+        found.find(line, "the cutter is up to " + text(depth) + " mm inside the part");
+      const double r = 1000 * cutter.radius_m;
+      if (cutter.kind == CutterKind::ball) points_.cut(from + r * axis, to + r * axis, r, stray);
+    }
+    return found;
+  }
+
   /// Up to each change of tools bodies are the same.
   void replay(std::vector<Keyframe> keyframes) {
     auto begin = keyframes.begin();
     while (begin != keyframes.end()) {
       const auto change = std::find_if(begin, keyframes.end(), [](const Keyframe& k) { return k.mill->is_change(); });
       if (change != begin) replay_piece({0, line_ + 1, at_, {begin, change}});
+      judge_ways();
       if (change == keyframes.end()) return;
       ++line_;
       change_tool(*change);
@@ -237,9 +272,7 @@ class MilledReplay {
       find("the cutter strays by up to " + text(stray) + " mm from the straight way, more than the header's " +
            text(1000 * mill().stray_m) + " mm");
     const Vec3 axis = axis_of(step.direction), a = scene_->tip(from), b = scene_->tip(to);
-    const double depth = surface_.depth(cutter, axis, a, b, look_mm) + stray;
-    if (depth > most_gouge_mm + 2 * tip_slack_mm) find("the cutter is up to " + text(depth) + " mm inside the part");
-    if (cutter.kind == CutterKind::ball) points_.cut(a + r * axis, b + r * axis, r, stray);
+    ways_.push_back({line_, cutter, axis, a, b, stray});
     const Sweeps& swept = sweeps(step.direction);
     const std::uint64_t removed = swept.centres.take(left_, grid_, tip_->tip, step.tip);
     if (removed != step.removed)
@@ -258,6 +291,7 @@ class MilledReplay {
   const Cell& cell_;
   const VoxelGrid& voxels_;
   const MilledPart& part_;
+  int threads_;
   const Watch& watch_;
   TrajectoryReader reader_;
   Grid grid_;
@@ -270,7 +304,9 @@ class MilledReplay {
   std::unique_ptr<ToolScene> scene_;
   std::map<int, std::unique_ptr<Sweeps>> sweeps_;
   Configuration at_;
-  std::optional<MillStep> tip_;  ///< of the keyframe before
+  std::vector<Way> ways_;
+  std::future<PieceFindings> judging_;  ///< of the ways before those
+  std::optional<MillStep> tip_;         ///< of the keyframe before
   std::vector<Voxel> gone_;
   ChipScale chips_;
   std::uint64_t removed_ = 0, line_ = 1;
@@ -280,9 +316,9 @@ class MilledReplay {
 
 }  // namespace
 
-Verdict verify_milled(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part,
+Verdict verify_milled(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part, int threads,
                       const Watch& watch) {
-  return MilledReplay(in, cell, voxels, part, watch).run();
+  return MilledReplay(in, cell, voxels, part, threads, watch).run();
 }
 
 }  // namespace sculpt

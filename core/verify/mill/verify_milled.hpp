@@ -23,7 +23,8 @@ struct MilledPart {
 /// part by more than a micrometre, no chip is thicker than the tool's depth times width of cut (10 % and what a voxel
 /// makes of it added) on level cuts, and nothing else of tool and robot touches what may stand, the room or itself.
 /// Throws InputError `trajectory_invalid`; Cancelled.
-Verdict verify_milled(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part,
+/// `threads`: above one, the surface is looked at beside the rest; the verdict is the same.
+Verdict verify_milled(std::istream& in, const Cell& cell, const VoxelGrid& voxels, const MilledPart& part, int threads,
                       const Watch& watch);
 
 }  // namespace sculpt

@@ -196,6 +196,9 @@ TEST(Mill, RefusesWhatCannotBe) {
   job.mill->scallop_m = 2e-4;
   EXPECT_NE(refusal(job).find("do not fit into the tolerance"), std::string::npos);
   job.mill->scallop_m.reset();
+  job.mill->allowance_m = 1e-6;
+  EXPECT_NE(refusal(job).find("less room to stray"), std::string::npos);
+  job.mill->allowance_m.reset();
   job.mill->tools = {"D12", "D12"};
   EXPECT_NE(refusal(job).find("named twice"), std::string::npos);
   job.mill.reset();
