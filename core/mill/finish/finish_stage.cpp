@@ -244,9 +244,11 @@ class FinishStage {
     }
   }
 
+  /// The top of what is to come off, of the part nothing.
   StockTop see_stock(const Site& site) const {
-    return {heights_of(carver_.stock().left(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut()),
-            carver_.tool().cutter, job_.wishes.stray_m()};
+    VoxelSet wanted = carver_.stock().left();
+    wanted -= job_.voxels.keep;
+    return {heights_of(wanted, job_.grid, site.frame(), site.lattice()), carver_.tool().cutter, job_.wishes.stray_m()};
   }
 
   /// Where the tip is while strokes are laid.

@@ -36,6 +36,16 @@ std::optional<Vec3> outward(const Vec3& point, const Vec3& normal, const VoxelGr
   return before && !behind ? Vec3(-normal) : normal;
 }
 
+/// From a point along a direction to the side of the block.
+double way_out(const Grid& grid, const Vec3& point, const Vec3& direction) {
+  double way = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double side = grid.origin_m[axis] + (direction[axis] > 0 ? grid.n * grid.voxel_m : 0);
+    if (direction[axis] != 0) way = std::min(way, (side - point[axis]) / direction[axis]);
+  }
+  return std::max(0.0, way);
+}
+
 }  // namespace
 
 double way_to_ball(const Vec3& point, const Vec3& direction, const Vec3& middle, double radius) {
@@ -94,6 +104,9 @@ Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::s
   for (const Nail& nail : found) nails_[next[box_of(nail)]++] = nail;
   excess_.assign(nails_.size(), static_cast<float>(uncut));
   reachable_.resize(nails_.size());
+  for (std::size_t at = 0; at < nails_.size(); ++at)
+    if (const double way = way_out(grid, nails_[at].point, nails_[at].normal); way < farthest_m)
+      excess_[at] = static_cast<float>(way);
 }
 
 void Nails::cut(const Vec3& from, const Vec3& to, double radius) {

@@ -29,7 +29,8 @@ class Nails {
 
   std::size_t size() const { return nails_.size(); }
   const Nail& operator[](std::size_t at) const { return nails_[at]; }
-  /// Upper bound of what stands above each (m); `uncut` where no ball came near it.
+  /// Upper bound of what stands above each (m): at first up to the side of the block; `uncut` where no ball came near
+  /// it.
   double excess(std::size_t at) const { return static_cast<double>(excess_[at]); }
   /// Not looked at if more.
   static constexpr double farthest_m = 1e-3;

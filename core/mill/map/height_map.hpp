@@ -54,10 +54,12 @@ struct HeightMap {
 HeightMap heights_of(const VoxelSet& standing, const Grid& grid, const ToolFrame& frame, const Lattice& lattice,
                      const HeightMap* floor = nullptr);
 
-/// Calls `visit(a, b)` with all cells of the lattice that are nearer than `margin` to the segment, and perhaps with
+/// Calls `visit(a, b)` with all cells of the lattice that are nearer than `margin_m` to the segment, and perhaps with
 /// some that are a little farther.
 template <typename Visit>
-void for_each_cell_near(const Lattice& lattice, const Vec3& from, const Vec3& to, double margin, const Visit& visit) {
+void for_each_cell_near(const Lattice& lattice, const Vec3& from, const Vec3& to, double margin_m, const Visit& visit) {
+  // A segment on the border of two rows is in both, however the borders are rounded.
+  const double margin = margin_m + 1e-9;
   const double du = to.x() - from.x(), dv = to.y() - from.y();
   const int first_b = std::max(0, lattice.cell_v(std::min(from.y(), to.y()) - margin)),
             last_b = std::min(lattice.height - 1, lattice.cell_v(std::max(from.y(), to.y()) + margin));

@@ -136,22 +136,20 @@ void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double 
     }
 }
 
-SurfaceVerdict SurfacePoints::judge(const VoxelSet& left) const {
+SurfaceVerdict SurfacePoints::judge(const VoxelSet& standing) const {
   SurfaceVerdict verdict;
   verdict.gouged_points = gouged_;
   verdict.gouge_m = deepest_ / 1000;
   const auto stands = [&](const Vec3& at_mm) {
     const Vec3 at = (at_mm / 1000 - grid_.origin_m) / grid_.voxel_m;
     if ((at.array() < 0).any() || (at.array() >= grid_.n).any()) return false;
-    return left.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+    return standing.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
   };
-  const double step = 1000 * grid_.voxel_m / 4;
+  const double coarse = 1000 * grid_.voxel_m / 4;
   for (const Point& point : points_) {
     double excess = point.excess;
-    if (excess == uncut) {
-      excess = near_mm;
-      while (stands(point.at + excess * point.normal)) excess += step;
-    }
+    if (excess == uncut)
+      for (excess = gouge_mm; stands(point.at + excess * point.normal);) excess += std::min(coarse, 0.01 + excess / 4);
     verdict.excess_m.push_back(excess / 1000);
   }
   return verdict;

@@ -20,8 +20,8 @@ class SurfacePoints {
   /// A ball of `radius` cuts on its middle's way from one place to the other, and strays by up to `stray`.
   void cut(const Vec3& from, const Vec3& to, double radius, double stray);
 
-  /// Points near which no ball came are measured by what is left of the voxels.
-  SurfaceVerdict judge(const VoxelSet& left) const;
+  /// Above points near which no ball came counts what is in voxels that may hold something, `standing`.
+  SurfaceVerdict judge(const VoxelSet& standing) const;
 
  private:
   struct Point {

@@ -68,7 +68,7 @@ class MilledReplay {
     end_judging();
     std::ranges::stable_sort(found_.findings, {}, &Finding::line);
     count_loose();
-    verdict_.surface = points_.judge(left_);
+    verdict_.surface = points_.judge(cubes_);
     if (const SurfaceVerdict& surface = *verdict_.surface; surface.gouged_points > 0)
       find("points of the part are cut below the surface, by up to " + text(1000 * surface.gouge_m) + " mm");
     verdict_.left = left_;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -176,6 +178,69 @@ TEST(MillReplay, AGougeIsFound) {
   other.placement.rotation_rad = Vec3(0, 0, 0.05);
   const Verdict verdict = replay(planned().text, other);
   EXPECT_FALSE(verdict.clean);
+}
+
+/// A block of 50 mm with one height over each square of an uneven grid, as binary STL.
+std::string make_steps(const std::vector<float>& at, const std::function<float(float, float)>& height) {
+  std::string bytes(84, '\0');
+  const auto add = [&](const std::array<std::array<float, 3>, 3>& corners) {
+    bytes.append(12, '\0');
+    for (const auto& corner : corners) bytes.append(reinterpret_cast<const char*>(corner.data()), 12);
+    bytes.append(2, '\0');
+  };
+  const std::size_t last = at.size() - 1;
+  const auto top = [&](std::size_t i, std::size_t j) { return std::array{at[i], at[j], height(at[i], at[j])}; };
+  const auto low = [&](std::size_t i, std::size_t j) { return std::array{at[i], at[j], 0.0F}; };
+  for (std::size_t i = 0; i < last; ++i) {
+    for (std::size_t j = 0; j < last; ++j) {
+      add({top(i, j), top(i + 1, j), top(i + 1, j + 1)});
+      add({top(i, j), top(i + 1, j + 1), top(i, j + 1)});
+      add({low(i, j), low(i + 1, j + 1), low(i + 1, j)});
+      add({low(i, j), low(i, j + 1), low(i + 1, j + 1)});
+    }
+    add({low(i, 0), low(i + 1, 0), top(i + 1, 0)});
+    add({low(i, 0), top(i + 1, 0), top(i, 0)});
+    add({low(i + 1, last), low(i, last), top(i, last)});
+    add({low(i + 1, last), top(i, last), top(i + 1, last)});
+    add({low(0, i + 1), low(0, i), top(0, i)});
+    add({low(0, i + 1), top(0, i), top(0, i + 1)});
+    add({low(last, i), low(last, i + 1), top(last, i + 1)});
+    add({low(last, i), top(last, i + 1), top(last, i)});
+  }
+  const auto count = static_cast<std::uint32_t>((bytes.size() - 84) / 50);
+  std::memcpy(bytes.data() + 80, &count, 4);
+  return bytes;
+}
+
+TEST(Mill, UprightWallsAreNotCut) {
+  // A slot of 8 mm (a path of the D6 once lay just between two rows of cells, which nobody looked at); two pockets with
+  // 1 mm between them, where a row over a floor once took too much at a time.
+  const auto slot = [](float x, float) { return std::abs(x - 25) > 4 ? 50.0F : 20.0F; };
+  const auto pockets = [](float x, float y) {
+    const bool inside = std::abs(y - 25) < 15 && (std::abs(x - 12.5F) < 8 || std::abs(x - 30) < 8.5F);
+    return inside ? 30.0F : 50.0F;
+  };
+  const auto grid = [](std::vector<float> steps) {
+    std::vector<float> at{0, 50};
+    for (const float step : steps) at.insert(at.end(), {step - 1e-3F, step + 1e-3F});
+    for (int line = 1; line < 25; ++line) at.push_back(2.0F * static_cast<float>(line) + 0.1F);
+    std::ranges::sort(at);
+    return at;
+  };
+  for (const auto& [name, bytes] : {std::pair{"slot", make_steps(grid({21, 29}), slot)},
+                                    std::pair{"pockets", make_steps(grid({4.5, 20.5, 21.5, 38.5, 10, 40}), pockets)}}) {
+    SCOPED_TRACE(name);
+    Job job = make_job("bust", 64, {"D12", "D6"});
+    job.mesh = {bytes, "stl", std::string(name) + ".stl"};
+    const fs::path file = scratch(name);
+    const JobResult result = run_job(job, file, {});
+    fs::remove(file);
+    for (const std::string& finding : result.report.findings) std::cout << finding << "\n";
+    EXPECT_TRUE(result.report.verify.clean);
+    EXPECT_EQ(result.report.surface->gouged_points, 0U);
+    const ExcessFigures& reachable = result.report.surface->reachable;
+    EXPECT_GT(reachable.within_tolerance, reachable.points * 8 / 10);
+  }
 }
 
 TEST(Mill, RefusesWhatCannotBe) {

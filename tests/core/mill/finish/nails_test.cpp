@@ -71,7 +71,10 @@ TEST(Nails, WhatABallDoesNotTouchStays) {
   // Below the slab, and high above it.
   nails.cut({0, edge / 2, -radius - 0.002}, {edge, edge / 2, -radius - 0.002}, radius);
   nails.cut({0, edge / 2, edge + radius}, {edge, edge / 2, edge + radius}, radius);
-  for (std::size_t at = 0; at < nails.size(); ++at) EXPECT_EQ(nails.excess(at), Nails::uncut);
+  for (std::size_t at = 0; at < nails.size(); ++at) {
+    // All but the top of the slab is on the block's sides already.
+    EXPECT_EQ(nails.excess(at), nails[at].normal.z() > 0.5 ? Nails::uncut : 0.0) << nails[at].point.transpose();
+  }
 }
 
 }  // namespace

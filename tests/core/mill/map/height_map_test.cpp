@@ -81,5 +81,23 @@ TEST(HeightMap, ASegmentsCellsAreAllThere) {
   }
 }
 
+TEST(HeightMap, ASegmentOnABorderOfCellsHasCells) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Lattice lattice{random.between(-0.03, -0.02), random.between(-0.03, -0.02), 0.0004, 50, 40};
+    for (int b = 1; b < lattice.height; ++b) {
+      const double v = lattice.low_v + b * lattice.step;
+      // As far beside the border as sums round.
+      for (const double at : {v, std::nextafter(v, -1), std::nextafter(v, 1)}) {
+        const Vec3 from(lattice.u(5), at, 0), to(lattice.u(9), at, 0);
+        std::set<int> columns;
+        for_each_cell_near(lattice, from, to, 0, [&](int a, int) { columns.insert(a); });
+        EXPECT_TRUE(columns.contains(5) && columns.contains(7) && columns.contains(9)) << b;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sculpt
