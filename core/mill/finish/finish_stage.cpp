@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mill/drive/hop.hpp"
-#include "core/mill/finish/envelope.hpp"
+#include "core/mill/finish/contour_strokes.hpp"
 #include "core/mill/finish/rows.hpp"
-#include "core/mill/rough/stock_top.hpp"
 
 namespace sculpt {
 namespace {
@@ -25,12 +23,8 @@ constexpr std::array classes{0.64, 0.34, -0.02};
 constexpr int rounds = 3;
 /// Of all nails: a direction is entered for so many, and in the last class for fewer.
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
-/// From row to row along the surface, where that is no farther (row spacings) and not much longer than straight.
-constexpr double beside_spacings = 20, detour = 3;
-/// Edges below this (m3/m over depth times width) are not cut: more would be taken off than the tool can.
-constexpr double most_engaged = 1.0;
-/// Of depth x width x radius: what may stand where the cutter is let down.
-constexpr double most_plunged = 0.5;
+/// From row to row along the surface, where that is no farther (row spacings).
+constexpr double beside_spacings = 20;
 constexpr std::size_t strokes_a_batch = 4000;
 constexpr int max_failures = 100;
 
@@ -178,36 +172,6 @@ class FinishStage {
     return task;
   }
 
-  /// The contour that begins or ends nearest to a place, turned so that it begins there.
-  static std::size_t take_nearest(const Vec3& at, std::vector<Contour>& contours) {
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t nearest = 0;
-    bool turned = false;
-    for (std::size_t number = 0; number < contours.size(); ++number)
-      for (const bool back : {false, true}) {
-        const double far = ((back ? contours[number].back() : contours[number].front()) - at).squaredNorm();
-        if (far >= least) continue;
-        least = far;
-        nearest = number;
-        turned = back;
-      }
-    if (turned) std::ranges::reverse(contours[nearest]);
-    return nearest;
-  }
-
-  /// Along the surface to where the next contour begins; nothing where that is no short way.
-  Contour connect(const EnvelopeTask& task, const Vec3& from, const Vec3& to) const {
-    const double far = (to - from).norm();
-    if (far > beside_spacings * spacing_m_) return {};
-    std::vector<Contour> ways = follow_envelope(task, from.head<2>(), to.head<2>());
-    if (ways.size() != 1) return {};
-    Contour& way = ways.front();
-    double length = 0;
-    for (std::size_t at = 1; at < way.size(); ++at) length += (way[at] - way[at - 1]).norm();
-    if (length > detour * far || (way.front() - from).norm() > 1e-6 || (way.back() - to).norm() > 1e-6) return {};
-    return way;
-  }
-
   /// A contour of a batch, and which of its strokes was the first one for it.
   struct Laid {
     Contour contour;
@@ -217,20 +181,17 @@ class FinishStage {
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
     double least_height = -std::numeric_limits<double>::infinity();
     for (int failures = 0; !contours.empty() && failures < max_failures;) {
-      StockTop stock = see_stock(site);
-      std::vector<MillStroke> strokes;
+      ContourStrokes laid(
+          {site, task, carver_.tool(), job_.wishes.stray_m(), beside_spacings * spacing_m_, least_height},
+          see_stock(site), carver_.tip(site));
       std::vector<Laid> batch;
-      Cut cut{carver_.tip(site), false, least_height};
-      while (!contours.empty() && strokes.size() < strokes_a_batch) {
-        const std::size_t next = take_nearest(cut.at, contours);
-        batch.push_back({std::move(contours[next]), strokes.size()});
+      while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
+        const std::size_t next = turn_nearest(laid.at(), contours);
+        batch.push_back({std::move(contours[next]), laid.strokes().size()});
         contours.erase(contours.begin() + static_cast<std::ptrdiff_t>(next));
-        const Contour& contour = batch.back().contour;
-        const Contour way = cut.is_down ? connect(task, cut.at, contour.front()) : Contour{};
-        cut.is_down = !way.empty();
-        if (cut.is_down) add(site, way, stock, cut, strokes);
-        add(site, contour, stock, cut, strokes);
+        laid.lay(batch.back().contour);
       }
+      const std::vector<MillStroke>& strokes = laid.strokes();
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) continue;
       ++failures;
@@ -249,38 +210,6 @@ class FinishStage {
     VoxelSet wanted = carver_.stock().left();
     wanted -= job_.voxels.keep;
     return {heights_of(wanted, job_.grid, site.frame(), site.lattice()), carver_.tool().cutter, job_.wishes.stray_m()};
-  }
-
-  /// Where the tip is while strokes are laid.
-  struct Cut {
-    Vec3 at;
-    bool is_down;         ///< at rest on the part
-    double least_height;  ///< of ways over
-  };
-
-  /// Strokes along a contour, let down to it where the cutter is not down; left out is where too much stands.
-  void add(const Site& site, const Contour& contour, StockTop& stock, Cut& cut,
-           std::vector<MillStroke>& strokes) const {
-    const double chip_m2 = carver_.tool().max_depth_m * carver_.tool().max_width_m;
-    const auto lower = [&](const Vec3& from, const Vec3& to) { stock.cut(from, to, [](std::size_t, float) {}); };
-    for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) {
-      const Vec3 &from = contour[edge], &to = contour[edge + 1];
-      if (!cut.is_down) {
-        const Vec3 above = from + Vec3(0, 0, radius_m_);
-        if (stock.volume(above, from) > most_plunged * chip_m2 * radius_m_) continue;
-        hop(site, cut.at, from, std::max(from.z(), cut.least_height), job_.wishes.stray_m(), strokes);
-        lower(above, from);
-        cut.at = from;
-        cut.is_down = true;
-      }
-      if (stock.volume(from, to) > most_engaged * chip_m2 * std::max((to - from).norm(), radius_m_ / 4)) {
-        cut.is_down = false;
-        continue;
-      }
-      lower(from, to);
-      strokes.push_back({site.frame().point(to), true, job_.wishes.stray_m()});
-      cut.at = to;
-    }
   }
 
   const MillJob& job_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -12,8 +11,7 @@
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/mill/chip_scale.hpp"
 #include "core/verify/mill/cutter_sweep.hpp"
-#include "core/verify/mill/surface_grid.hpp"
-#include "core/verify/mill/surface_points.hpp"
+#include "core/verify/mill/surface_judge.hpp"
 #include "core/verify/mill/tool_scene.hpp"
 #include "core/verify/robot/urdf_differences.hpp"
 
@@ -23,7 +21,6 @@ namespace {
 constexpr double joint_slack = 1e-9, home_slack = 1e-7 + joint_slack, length_slack_m = 1e-9;
 /// A tip may be that far from where its keyframe says (mm), an axis turned by so much (rad): joints are rounded.
 constexpr double tip_slack_mm = 1e-3, axis_slack = 1e-5;
-constexpr double most_gouge_mm = 1e-3, look_mm = 0.2;
 constexpr double level_mm = 1e-3;
 
 std::string text(double value) {
@@ -39,12 +36,10 @@ class MilledReplay {
       : cell_(cell),
         voxels_(voxels),
         part_(part),
-        threads_(threads),
         watch_(watch),
         reader_(in),
         grid_(cell.grid(voxels.n())),
-        surface_(part.mesh),
-        points_(part.mesh, voxels, grid_),
+        surface_(part.mesh, voxels, grid_, threads),
         to_remove_(voxels.stock.size() - voxels.keep.size()),
         left_(voxels.stock),
         cubes_(voxels.stock),
@@ -65,10 +60,10 @@ class MilledReplay {
       if (!piece.empty()) replay(std::move(piece));
       if ((at_ - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
     }
-    end_judging();
+    found_.add(surface_.finish());
     std::ranges::stable_sort(found_.findings, {}, &Finding::line);
     count_loose();
-    verdict_.surface = points_.judge(cubes_);
+    verdict_.surface = surface_.verdict(cubes_);
     if (const SurfaceVerdict& surface = *verdict_.surface; surface.gouged_points > 0)
       find("points of the part are cut below the surface, by up to " + text(1000 * surface.gouge_m) + " mm");
     verdict_.left = left_;
@@ -147,42 +142,13 @@ class MilledReplay {
     return Vec3(way[0], way[1], way[2]).normalized();
   }
 
-  /// A straight way of a cutter that cuts (mm).
-  struct Way {
-    std::uint64_t line;
-    Cutter cutter;
-    Vec3 axis, from, to;
-    double stray;
-  };
-
-  /// What cutters do to the surface needs nothing of all the rest: it is found out beside it.
-  void judge_ways() {
-    end_judging();
-    judging_ = std::async(threads_ > 1 ? std::launch::async : std::launch::deferred,
-                          [this, ways = std::exchange(ways_, {})] { return judge(ways); });
-  }
-  void end_judging() {
-    if (judging_.valid()) found_.add(judging_.get());
-  }
-  PieceFindings judge(const std::vector<Way>& ways) {
-    PieceFindings found;
-    for (const auto& [line, cutter, axis, from, to, stray] : ways) {
-      const double depth = surface_.depth(cutter, axis, from, to, look_mm) + stray;
-      if (depth > most_gouge_mm + 2 * tip_slack_mm)
-        found.find(line, "the cutter is up to " + text(depth) + " mm inside the part");
-      const double r = 1000 * cutter.radius_m;
-      if (cutter.kind == CutterKind::ball) points_.cut(from + r * axis, to + r * axis, r, stray);
-    }
-    return found;
-  }
-
   /// Up to each change of tools bodies are the same.
   void replay(std::vector<Keyframe> keyframes) {
     auto begin = keyframes.begin();
     while (begin != keyframes.end()) {
       const auto change = std::find_if(begin, keyframes.end(), [](const Keyframe& k) { return k.mill->is_change(); });
       if (change != begin) replay_piece({0, line_ + 1, at_, {begin, change}});
-      judge_ways();
+      found_.add(surface_.take(std::exchange(ways_, {})));
       if (change == keyframes.end()) return;
       ++line_;
       change_tool(*change);
@@ -291,12 +257,10 @@ class MilledReplay {
   const Cell& cell_;
   const VoxelGrid& voxels_;
   const MilledPart& part_;
-  int threads_;
   const Watch& watch_;
   TrajectoryReader reader_;
   Grid grid_;
-  SurfaceGrid surface_;
-  SurfacePoints points_;
+  SurfaceJudge surface_;
   std::uint64_t to_remove_;
   VoxelSet left_, cubes_;
   StandingVoxels material_;
@@ -304,9 +268,8 @@ class MilledReplay {
   std::unique_ptr<ToolScene> scene_;
   std::map<int, std::unique_ptr<Sweeps>> sweeps_;
   Configuration at_;
-  std::vector<Way> ways_;
-  std::future<PieceFindings> judging_;  ///< of the ways before those
-  std::optional<MillStep> tip_;         ///< of the keyframe before
+  std::vector<CutterWay> ways_;
+  std::optional<MillStep> tip_;  ///< of the keyframe before
   std::vector<Voxel> gone_;
   ChipScale chips_;
   std::uint64_t removed_ = 0, line_ = 1;

@@ -1,0 +1,50 @@
+// Contours over the part -> strokes of the tip, one contour after the other.
+#pragma once
+
+#include <vector>
+
+#include "core/mill/drive/mill_stroke.hpp"
+#include "core/mill/finish/envelope.hpp"
+#include "core/mill/map/site.hpp"
+#include "core/mill/rough/stock_top.hpp"
+
+namespace sculpt {
+
+/// Goes over to the next contour along the surface where that is short, else up, over and down. Not shared between
+/// threads.
+class ContourStrokes {
+ public:
+  /// What the strokes must keep to; it must outlive the object.
+  struct Task {
+    const Site& site;
+    const EnvelopeTask& envelope;
+    const MillTool& tool;
+    double stray_m = 0;       ///< of the cutter
+    double beside_m = 0;      ///< a contour that begins no farther away may be gone to along the surface
+    double least_height = 0;  ///< of ways over
+  };
+  /// `at`: where the tip is, in the air. `stock`: what is to come off.
+  ContourStrokes(const Task& task, StockTop stock, const Vec3& at) : task_(task), stock_(std::move(stock)), at_(at) {}
+
+  /// Left out is where the cutter would take off more than it may at once.
+  void lay(const Contour& contour);
+
+  /// Where the tip is after them (tool frame).
+  const Vec3& at() const { return at_; }
+  const std::vector<MillStroke>& strokes() const { return strokes_; }
+
+ private:
+  Contour connect(const Vec3& to) const;
+  void add(const Contour& contour);
+
+  Task task_;
+  StockTop stock_;
+  Vec3 at_;
+  bool is_down_ = false;  ///< at rest on the part
+  std::vector<MillStroke> strokes_;
+};
+
+/// The number of the contour that begins or ends nearest to a place, turned so that it begins there.
+std::size_t turn_nearest(const Vec3& at, std::vector<Contour>& contours);
+
+}  // namespace sculpt
