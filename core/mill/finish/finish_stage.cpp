@@ -205,11 +205,13 @@ class FinishStage {
     }
   }
 
-  /// The top of what is to come off, of the part nothing.
+  /// The top of what is to come off, of the part nothing; as a replay counts it, by the middles of voxels.
   StockTop see_stock(const Site& site) const {
     VoxelSet wanted = carver_.stock().left();
     wanted -= job_.voxels.keep;
-    return {heights_of(wanted, job_.grid, site.frame(), site.lattice()), carver_.tool().cutter, job_.wishes.stray_m()};
+    HeightMap tops = heights_of(wanted, job_.grid, site.frame(), site.lattice());
+    for (float& top : tops.heights) top -= static_cast<float>(job_.grid.voxel_m / 2);
+    return {std::move(tops), carver_.tool().cutter, job_.wishes.stray_m()};
   }
 
   const MillJob& job_;
