@@ -10,9 +10,7 @@ namespace {
 
 /// A way along the surface may be so many times as long as straight.
 constexpr double detour = 3;
-/// Of depth times width of cut: no edge takes off more a unit of length.
-constexpr double most_engaged = 1.0;
-/// Of depth x width x radius: what may stand where the cutter is let down.
+/// Of a chip times radius: what may stand where the cutter is let down.
 constexpr double most_plunged = 0.5;
 
 }  // namespace
@@ -38,19 +36,19 @@ Contour ContourStrokes::connect(const Vec3& to) const {
 }
 
 void ContourStrokes::add(const Contour& contour) {
-  const double radius_m = task_.tool.cutter.radius_m, chip_m2 = task_.tool.max_depth_m * task_.tool.max_width_m;
+  const double radius_m = task_.radius_m;
   const auto lower = [&](const Vec3& from, const Vec3& to) { stock_.cut(from, to, [](std::size_t, float) {}); };
   for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) {
     const Vec3 &from = contour[edge], &to = contour[edge + 1];
     if (!is_down_) {
       const Vec3 above = from + Vec3(0, 0, radius_m);
-      if (stock_.volume(above, from) > most_plunged * chip_m2 * radius_m) continue;
+      if (stock_.volume(above, from) > most_plunged * task_.chip_m2 * radius_m) continue;
       hop(task_.site, at_, from, std::max(from.z(), task_.least_height), task_.stray_m, strokes_);
       lower(above, from);
       at_ = from;
       is_down_ = true;
     }
-    if (stock_.volume(from, to) > most_engaged * chip_m2 * std::max((to - from).norm(), radius_m / 4)) {
+    if (stock_.volume(from, to) > task_.chip_m2 * std::max((to - from).norm(), radius_m / 4)) {
       is_down_ = false;
       continue;
     }

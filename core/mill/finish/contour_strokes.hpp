@@ -18,7 +18,8 @@ class ContourStrokes {
   struct Task {
     const Site& site;
     const EnvelopeTask& envelope;
-    const MillTool& tool;
+    double radius_m = 0;      ///< of the cutter
+    double chip_m2 = 0;       ///< no edge takes off more a unit of length
     double stray_m = 0;       ///< of the cutter
     double beside_m = 0;      ///< a contour that begins no farther away may be gone to along the surface
     double least_height = 0;  ///< of ways over

@@ -182,7 +182,7 @@ class FinishStage {
     double least_height = -std::numeric_limits<double>::infinity();
     for (int failures = 0; !contours.empty() && failures < max_failures;) {
       ContourStrokes laid(
-          {site, task, carver_.tool(), job_.wishes.stray_m(), beside_spacings * spacing_m_, least_height},
+          {site, task, radius_m_, chip_m2(), job_.wishes.stray_m(), beside_spacings * spacing_m_, least_height},
           see_stock(site), carver_.tip(site));
       std::vector<Laid> batch;
       while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
@@ -204,6 +204,9 @@ class FinishStage {
       carver_.draw_back(site);
     }
   }
+
+  /// Of a cut, with a layer of voxels: less cannot be told from it.
+  double chip_m2() const { return carver_.tool().max_depth_m * (carver_.tool().max_width_m + job_.grid.voxel_m); }
 
   /// The top of what is to come off, of the part nothing; as a replay counts it, by the middles of voxels.
   StockTop see_stock(const Site& site) const {

@@ -28,7 +28,7 @@ class PartViews {
 
  private:
   /// Triangles; each takes about 150 bytes a direction.
-  static constexpr std::size_t most_kept = 200000;
+  static constexpr std::size_t most_kept = 100000;
 
   const Mesh& part_;
   std::mutex mutex_;
