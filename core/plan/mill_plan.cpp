@@ -20,7 +20,6 @@ struct MillInputs {
   Cell cell;
   std::vector<MillTool> tools;
   Mesh part;
-  Octree octree;
 };
 
 MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
@@ -35,11 +34,11 @@ MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
   result.voxels = std::move(checked.shapes).take_voxels(checked.grid, watch);
   report.seconds.voxelize = voxelizing.seconds();
   const Stopwatch building;
-  Octree octree = build_octree(result.voxels, watch);
+  const Octree octree = build_octree(result.voxels, watch);
   watch.doubts = find_doubts(result.voxels, result.grid);
   count_voxels(report, result.voxels, watch.doubts, octree);
   report.seconds.octree = building.seconds();
-  return {without_holder(std::move(checked.cell)), std::move(checked.tools), std::move(part), std::move(octree)};
+  return {without_holder(std::move(checked.cell)), std::move(checked.tools), std::move(part)};
 }
 
 MillWishes wishes_of(const MillOrder& order) {

@@ -35,7 +35,6 @@ class MillArm {
 
   /// Where the tip is; nothing where the tool is not held in a direction.
   std::optional<Vec3> tip() const { return tip_; }
-  const PostureField* field() const { return field_; }
   /// From outside the stock, back the way it came or another one. Throws InputError `no_transit`.
   void go_home();
 
