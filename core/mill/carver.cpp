@@ -12,19 +12,9 @@ namespace {
 
 /// Beyond the stock the tip needs room for its cutter and to turn around in.
 constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
-constexpr double quanta_per_m = 1e7;
 /// Nails: of a square of the finest stepover, but no more and no fewer than these.
 constexpr double nails_a_stepover = 2;
 constexpr std::size_t fewest_nails = 20000, most_nails = 150000;
-
-Vec3 point_of(const QuantaPoint& tip) {
-  return Vec3(static_cast<double>(tip[0]), static_cast<double>(tip[1]), static_cast<double>(tip[2])) / quanta_per_m;
-}
-
-QuantaPoint quanta_of(const Vec3& point) {
-  return {std::llround(point.x() * quanta_per_m), std::llround(point.y() * quanta_per_m),
-          std::llround(point.z() * quanta_per_m)};
-}
 
 double area_of(const Mesh& mesh) {
   double area = 0;

@@ -7,6 +7,7 @@
 #include "core/base/random.hpp"
 #include "core/cell/link_tree.hpp"
 #include "core/motion/transit.hpp"
+#include "core/trajectory/milling/quanta_point.hpp"
 
 namespace sculpt {
 namespace {
@@ -136,9 +137,7 @@ void MillArm::commit(FollowedMill followed) {
   if (followed.keyframes.empty()) return;
   const Keyframe& last = followed.keyframes.back();
   q_ = last.q;
-  tip_ = Vec3(static_cast<double>(last.mill->tip[0]), static_cast<double>(last.mill->tip[1]),
-              static_cast<double>(last.mill->tip[2])) /
-         1e7;
+  tip_ = point_of(last.mill->tip);
   emit_(std::move(followed.keyframes));
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/collision/shape/motion_bound.hpp"
 #include "core/sweep/field/posture_lanes.hpp"
-#include "core/trajectory/quantum.hpp"
+#include "core/trajectory/milling/quanta_point.hpp"
 
 namespace sculpt {
 namespace {
@@ -15,15 +15,6 @@ constexpr double intended_share = 0.9;    // of what the cutter may stray
 constexpr double shortest_edge_m = 2e-5;  // of those that a stroke is cut into
 constexpr double first_curvature = 2e-3;  // 1/m, before an edge was seen: strays of 0.02 mm in 9 mm
 constexpr double close_m = 2e-7;          // of a posture's tip to where it should be
-
-std::array<std::int64_t, 3> quanta_of(const Vec3& point) {
-  return {std::llround(point.x() * quanta_per_unit), std::llround(point.y() * quanta_per_unit),
-          std::llround(point.z() * quanta_per_unit)};
-}
-
-Vec3 point_of(const std::array<std::int64_t, 3>& quanta) {
-  return {from_quanta(quanta[0]), from_quanta(quanta[1]), from_quanta(quanta[2])};
-}
 
 class MillFollower {
  public:
@@ -89,7 +80,7 @@ class MillFollower {
   struct Piece {
     std::size_t stroke;
     double share;  ///< of the stroke, at its end
-    std::array<std::int64_t, 3> quanta;
+    QuantaPoint quanta;
     Vec3 tip, cell;
   };
 

@@ -18,11 +18,9 @@
 
 #include "core/cell/milling/mill_tool.hpp"
 #include "core/material/voxel_set.hpp"
+#include "core/trajectory/milling/quanta_point.hpp"
 
 namespace sculpt {
-
-/// A point in quanta (1e-7 m) of the stock frame.
-using QuantaPoint = std::array<std::int64_t, 3>;
 
 /// The centres of a grid's voxels, rounded to quanta: along each axis origin + (2 i + 1) size / (2 n).
 class VoxelCentres {
