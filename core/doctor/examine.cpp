@@ -107,6 +107,7 @@ double certified_share(const Directions& directions, const Vec3& axis, int n) {
 
 void find_fields(const Scene& scene, const Configuration& home, const FieldStore& store, const RunContext& run,
                  CellFindings& found) {
+  found.fields_kept = store.has(0);
   const Stopwatch watch;
   Directions directions(scene, home, run, store);
   directions.find_straight_fields();

@@ -90,6 +90,7 @@ struct CellFindings {
   std::vector<DirectionFinding> directions;
   double reached = 0;                      ///< share of the lattice's places that are free along some direction
   double scene_s = 0, fields_s = 0;        ///< wall time of what a plan does before it begins
+  bool fields_kept = false;                ///< they were found by an earlier run
   std::optional<JointValues> better_home;  ///< a home that is free, where the cell's is none
   std::vector<Fault> faults;               ///< errors first
 

@@ -106,7 +106,7 @@ std::string findings_json(const CellFindings& found) {
   if (found.better_home) json["better_home"] = *found.better_home;
   json["reached"] = found.reached;
   json["directions"] = list(found.directions);
-  json["seconds"] = {{"scene", found.scene_s}, {"fields", found.fields_s}};
+  json["seconds"] = {{"scene", found.scene_s}, {"fields", found.fields_s}, {"fields_kept", found.fields_kept}};
   json["faults"] = list(found.faults);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
 }

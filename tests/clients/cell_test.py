@@ -4,11 +4,12 @@ import json
 import os
 import pathlib
 import stat
+import subprocess
 import unittest
 
 import png
 import shapes
-from harness import SCULPT, SCULPT_PY, ClientTest, DaemonTest, shared_data
+from harness import SCULPT, SCULPT_PY, ClientTest, DaemonTest, environment, shared_data
 
 ARM = """<robot name="maker">
   <link name="base"><collision><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.1" length="0.2"/></geometry></collision></link>
@@ -54,6 +55,12 @@ class Cell(ClientTest):
         text = self.fine("cell", "panda-turntable")
         for word in ("ready to plan with", "8 joints", "carries the stock", "home: free", "straight down", "ignore_pairs"):
             self.assertIn(word, text)
+
+    def test_fields_of_an_earlier_run_are_told(self):
+        env = {**environment(), "SCULPT_CACHE": str(self.scratch / "cache")}
+        for kept in (False, True):
+            said = subprocess.run([*SCULPT, "cell", "panda-turntable"], env=env, capture_output=True, text=True, check=True).stdout
+            self.assertEqual("kept from an earlier run" in said, kept, said)
 
     def test_a_home_that_plan_refuses_is_found_with_one_that_it_takes(self):
         cell = copy_of_the_shipped_cell(self.scratch, home={"joint2": 1.2})

@@ -27,6 +27,8 @@ class FieldStore {
 
   /// What the search of this number found; nothing where that is not known.
   std::optional<std::vector<PostureField::Record>> read(std::uint64_t number) const;
+  /// Whether there is a file of it, damaged or not.
+  bool has(std::uint64_t number) const { return !folder_.empty() && std::filesystem::exists(file_of(number)); }
   /// Where that fails nothing is kept. The oldest files go once all of them are larger than 256 MB.
   void write(std::uint64_t number, const std::vector<PostureField::Record>& found) const;
 

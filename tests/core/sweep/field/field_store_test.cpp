@@ -94,6 +94,9 @@ TEST(FieldStore, KnowsNothingOfAnotherKey) {
   EXPECT_FALSE(FieldStore(folder.path(), "other").read(0));
   EXPECT_FALSE(FieldStore(folder.path(), "one").read(1000));
   EXPECT_FALSE(FieldStore().read(0));
+  EXPECT_TRUE(FieldStore(folder.path(), "one").has(0));
+  EXPECT_FALSE(FieldStore(folder.path(), "other").has(0));
+  EXPECT_FALSE(FieldStore().has(0));
 }
 
 TEST(FieldStore, TakesNothingThatIsDamaged) {
