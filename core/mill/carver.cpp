@@ -58,7 +58,6 @@ void Carver::take_tool(std::size_t number) {
   meter_ = std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3));
   arm_.take_tool(static_cast<int>(number), *held);  // the one before is there until then
   held_ = std::move(held);
-  refused_.assign(mill_directions().size(), 0);
 }
 
 void Carver::count(const std::vector<Keyframe>& keyframes) {
@@ -82,24 +81,36 @@ std::unique_ptr<Site> Carver::make_site(std::size_t direction, const SiteMargins
       assembly, job_.part, fixtures_, margins);
 }
 
-bool Carver::enter(std::size_t number, const Site& site) {
-  if (refused_[number]) return false;
-  refused_[number] = 1;
-  const Direction& direction = mill_directions()[number];
-  held_->field(direction, job_.home, run_);
+bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>& places) {
   held_->see(cells_of(stock_.standing(), job_.grid, around_));
-  const PostureField* field = held_->open_field(direction, run_);
-  if (field == nullptr) return false;
-  floor_ = std::make_unique<ReachFloor>(*field, around_, site, site.top() + room_around_m);
+  struct Way {
+    const PostureField* field;
+    std::unique_ptr<const ReachFloor> floor;
+    std::ptrdiff_t reached;
+  };
+  std::vector<Way> ways;
+  for (const auto& field : held_->fields(mill_directions()[number], job_.home, run_)) {
+    auto floor = std::make_unique<const ReachFloor>(*field, around_, site, site.top() + room_around_m);
+    const auto reached =
+        std::ranges::count_if(places, [&](const Vec3& place) { return floor->allows(site.frame().of(place)); });
+    if (reached > 0) ways.push_back({field.get(), std::move(floor), reached});
+  }
+  std::ranges::stable_sort(ways, std::ranges::greater{}, &Way::reached);
+  return std::ranges::any_of(ways, [&](Way& way) {
+    floor_ = std::move(way.floor);
+    return hold(number, site, *way.field);
+  });
+}
+
+bool Carver::hold(std::size_t number, const Site& site, const PostureField& field) {
   std::optional<Vec3> hub;
   for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
     if (!hub) hub = find_hub(site, site.top() + above_m);
-  if (!hub || !arm_.hold(*field, static_cast<int>(number), site.frame().point(*hub))) return false;
-  refused_[number] = 0;
+  if (!hub || !arm_.hold(field, static_cast<int>(number), site.frame().point(*hub))) return false;
   hub_ = *hub;
   axis_ = site.frame().w;
   trail_.clear();
-  sweeps_.emplace(tool().cutter, direction, job_.wishes.stray_m(), job_.grid.voxel_m);
+  sweeps_.emplace(tool().cutter, mill_directions()[number], job_.wishes.stray_m(), job_.grid.voxel_m);
   return true;
 }
 

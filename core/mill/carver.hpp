@@ -42,9 +42,9 @@ class Carver {
   /// A direction, its maps over cells of `step_m`, for the tool that is held. It has not seen what stands yet.
   std::unique_ptr<Site> make_site(std::size_t direction, const SiteMargins& margins, double step_m) const;
 
-  /// Holds the tool in a direction whose site has seen what stands, high above everything; false where the robot
-  /// cannot.
-  bool enter(std::size_t direction, const Site& site);
+  /// Holds the tool in a direction whose site has seen what stands, high above everything, so that the robot comes to
+  /// as many of these places (of the tip, stock frame) as it can; false where it comes to none.
+  bool enter(std::size_t direction, const Site& site, const std::vector<Vec3>& places);
   /// In the direction that was entered.
   const ReachFloor& reach() const { return *floor_; }
   const Vec3& hub() const { return hub_; }
@@ -59,6 +59,7 @@ class Carver {
  private:
   void count(const std::vector<Keyframe>& keyframes);
   void go(FollowedMill followed);
+  bool hold(std::size_t direction, const Site& site, const PostureField& field);
   std::optional<Vec3> find_hub(const Site& site, double height) const;
 
   const MillJob& job_;
@@ -70,7 +71,6 @@ class Carver {
   Grid around_;
   std::unique_ptr<HeldTool> held_;
   std::unique_ptr<ToolMeter> meter_;
-  std::vector<char> refused_;  ///< directions in which the robot could not hold it
   std::optional<MillSweeps> sweeps_;
   std::unique_ptr<const ReachFloor> floor_;
   Vec3 hub_ = Vec3::Zero(), axis_ = Vec3::UnitZ();

@@ -82,25 +82,22 @@ void HeldTool::see(const VoxelSet& cells) {
   cells_ = cells;
 }
 
-const PostureField* HeldTool::field(const Direction& direction, const Configuration& home, const RunContext& run) {
-  if (const auto known = fields_.find(direction); known != fields_.end()) return known->second.get();
-  std::uint64_t number = 0;
-  for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component + 1000));
-  auto found =
-      find_fields(guided_scene_, view_of(direction), home, {home}, {mix(run.seed, number), run.helpers, run.watch});
-  auto& best = *std::ranges::max_element(found, {}, [](const auto& each) { return each->usable_cells(); });
-  auto& kept = fields_[direction];
-  if (best->usable_cells() > 0) kept = std::move(best);
-  return kept.get();
-}
-
-const PostureField* HeldTool::open_field(const Direction& direction, const RunContext& run) {
-  auto& kept = fields_[direction];
-  if (!kept || kept->usable_cells() == PostureField::all_cells()) return kept.get();
+const HeldTool::Fields& HeldTool::fields(const Direction& direction, const Configuration& home, const RunContext& run) {
+  const auto [at, is_new] = fields_.try_emplace(direction);
+  Fields& fields = at->second;
+  if (is_new) {
+    std::uint64_t number = 0;
+    for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component + 1000));
+    fields =
+        find_fields(guided_scene_, view_of(direction), home, {home}, {mix(run.seed, number), run.helpers, run.watch});
+    std::erase_if(fields, [](const auto& field) { return field->usable_cells() == 0; });
+  }
   const VoxelSet all(PostureLattice::fine, true);
-  kept =
-      std::make_unique<PostureField>(*kept, guided_scene_, guided_scene_.stock_of(cells_), all, run.helpers, run.watch);
-  return kept.get();
+  for (auto& field : fields)
+    if (field->usable_cells() < PostureField::all_cells())
+      field = std::make_unique<PostureField>(*field, guided_scene_, guided_scene_.stock_of(cells_), all, run.helpers,
+                                             run.watch);
+  return fields;
 }
 
 Vec3 HeldTool::cell_of(const PostureField& field, const Grid& around, const Vec3& point) {

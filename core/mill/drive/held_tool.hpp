@@ -32,11 +32,10 @@ class HeldTool {
   /// Links, and what is fixed to the tool link with the tool, against everything: for ways outside the stock.
   const Scene& carrying() const { return *carrying_scene_; }
 
-  /// The field of a direction; nothing where the robot cannot hold the tool so. Found when first asked for; one call at
-  /// a time. Throws Cancelled.
-  const PostureField* field(const Direction& direction, const Configuration& home, const RunContext& run);
-  /// The same, with links held against what stands only. Replaces the field. Throws Cancelled.
-  const PostureField* open_field(const Direction& direction, const RunContext& run);
+  using Fields = std::vector<std::unique_ptr<PostureField>>;
+  /// The fields of a direction, that together cover much, links held against what stands; none where the robot cannot
+  /// hold the tool so. Replaced by the next call for it; one call at a time. Throws Cancelled.
+  const Fields& fields(const Direction& direction, const Configuration& home, const RunContext& run);
   /// Only these cells of `around` hold anything of the stock from now on.
   void see(const VoxelSet& cells);
 
@@ -50,7 +49,7 @@ class HeldTool {
   std::unique_ptr<Scene> carrying_scene_;
   Scene guided_scene_;
   VoxelSet cells_;
-  std::map<Direction, std::unique_ptr<PostureField>> fields_;
+  std::map<Direction, Fields> fields_;
 };
 
 }  // namespace sculpt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/mill/finish/contour_strokes.hpp"
 #include "core/mill/finish/rows.hpp"
@@ -17,6 +18,9 @@ constexpr double body_room_m = 1e-4;
 constexpr double reached_share = 1.0 / 3;
 /// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
 constexpr double rest_slack_m = 1e-6;
+/// Beside a nail: of how far a ball may rest on its plane and still leave the tolerance; and in so many ways.
+constexpr double beside_share = 0.6;
+constexpr int turns_beside = 6;
 /// Angle classes: the axis is first tried near the normal. Cosines.
 constexpr std::array classes{0.64, 0.34, -0.02};
 /// How often all directions are gone through, each time with rows twice as near.
@@ -38,7 +42,8 @@ class FinishStage {
         nails_(carver.nails()),
         radius_m_(carver.tool().cutter.radius_m),
         spacing_m_(std::sqrt(8 * job.wishes.scallop_m * radius_m_)),
-        reach_(nails_.size()) {
+        reach_(nails_.size()),
+        aside_(nails_.size(), Eigen::Vector3f::Zero()) {
     for (const Direction& direction : mill_directions()) frames_.emplace_back(direction);
     sites_.resize(frames_.size());
   }
@@ -46,6 +51,7 @@ class FinishStage {
   void run(bool is_last) {
     for (int round = 0; round < (is_last ? rounds : 1); ++round) {
       std::vector<std::uint32_t> tried(nails_.size());
+      if (round == 1) find_reach_beside();
       for (std::size_t angle = 0; angle < classes.size(); ++angle) {
         if (round == 0) find_reach(angle == 0 ? 2.0 : classes[angle - 1], classes[angle]);
         const bool is_rest = is_last && (round > 0 || angle + 1 == classes.size());
@@ -70,7 +76,12 @@ class FinishStage {
                              step_m());
   }
   Vec3 middle_over(std::size_t nail, const ToolFrame& frame) const {
-    return frame.of(nails_[nail].point + (radius_m_ + job_.wishes.allowance_m) * nails_[nail].normal);
+    return frame.of(nails_[nail].point + (radius_m_ + job_.wishes.allowance_m) * nails_[nail].normal +
+                    aside_[nail].cast<double>());
+  }
+
+  Vec3 tip_at(std::size_t nail, const ToolFrame& frame) const {
+    return middle_over(nail, frame) - Vec3(0, 0, radius_m_);
   }
 
   static bool is_above_floor(const Site& site, const Vec3& tip) {
@@ -100,13 +111,44 @@ class FinishStage {
   }
 
   bool is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const {
-    const Vec3 middle = middle_over(nail, site.frame());
-    if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return false;
+    return left_at_rest(nail, middle_over(nail, site.frame()), site, columns) <=
+           job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
+  }
+
+  /// What a cutter leaves of what stands on a nail, lowered so far; infinite where it may not be.
+  double left_at_rest(std::size_t nail, const Vec3& middle, const Site& site, const FacetColumns& columns) const {
+    if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return std::numeric_limits<double>::infinity();
     const double height = columns.rest_height(
         middle.x(), middle.y(), radius_m_ + job_.wishes.allowance_m - rest_slack_m, middle.z() - rest_slack_m);
-    const double left = way_to_ball(site.frame().of(nails_[nail].point), site.frame().of(nails_[nail].normal),
-                                    {middle.x(), middle.y(), height}, radius_m_);
-    return left <= job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
+    return way_to_ball(site.frame().of(nails_[nail].point), site.frame().of(nails_[nail].normal),
+                       {middle.x(), middle.y(), height}, radius_m_);
+  }
+
+  /// In a crease the cutter cannot rest on a nail; beside it, perhaps, and still leave no more than the tolerance.
+  void find_reach_beside() {
+    std::vector<std::shared_ptr<const FacetColumns>> columns;
+    for (std::size_t direction = 0; direction < frames_.size(); ++direction) {
+      site(direction);
+      columns.push_back(views_.along(direction, frames_[direction]));
+    }
+    const double far = beside_share * std::sqrt(2 * radius_m_ * (job_.wishes.tolerance_m - job_.wishes.allowance_m));
+    constexpr std::size_t batch = 512;
+    run_.helpers.for_each_index((nails_.size() + batch - 1) / batch, [&](std::size_t part) {
+      if (run_.watch.stop.stop_requested()) throw Cancelled{};
+      for (std::size_t nail = part * batch; nail < std::min(nails_.size(), (part + 1) * batch); ++nail) {
+        const Vec3 side = nails_[nail].normal.unitOrthogonal(), other = nails_[nail].normal.cross(side);
+        for (int turn = 0; turn < turns_beside && is_open(nail) && reach_[nail] == 0; ++turn) {
+          const double angle = 2 * std::numbers::pi * turn / turns_beside;
+          aside_[nail] = (far * (std::cos(angle) * side + std::sin(angle) * other)).cast<float>();
+          for (std::size_t direction = 0; direction < frames_.size(); ++direction)
+            if (cosine(nail, direction) >= classes.back() &&
+                left_at_rest(nail, middle_over(nail, frames_[direction]), *sites_[direction], *columns[direction]) <=
+                    job_.wishes.tolerance_m)
+              reach_[nail] |= std::uint32_t{1} << direction;
+        }
+        if (reach_[nail] == 0) aside_[nail].setZero();
+      }
+    });
   }
 
   bool is_wanted(std::size_t nail, std::size_t direction, double from, const std::vector<std::uint32_t>& tried) const {
@@ -132,15 +174,21 @@ class FinishStage {
       }
     Site& along = site(direction);
     along.see(carver_.stock().standing(), job_.grid);
-    if (!carver_.enter(direction, along)) return;
-    const auto columns = views_.along(direction, along.frame());
+    std::erase_if(wanted, [&](std::uint32_t nail) { return !is_above_floor(along, tip_at(nail, along.frame())); });
+    std::vector<Vec3> places;
+    for (const std::uint32_t nail : wanted) places.push_back(along.frame().point(tip_at(nail, along.frame())));
+    if (!carver_.enter(direction, along, places)) return;
+    // The robot may come to the others in another way.
     std::erase_if(wanted, [&](std::uint32_t nail) {
-      const Vec3 tip = middle_over(nail, along.frame()) - Vec3(0, 0, radius_m_);
-      return !is_above_floor(along, tip) || !carver_.reach().allows(tip);
+      const bool comes = carver_.reach().allows(tip_at(nail, along.frame()));
+      if (!comes) tried[nail] &= ~(std::uint32_t{1} << direction);
+      return !comes;
     });
+    const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
-    const std::vector<Row> rows =
-        find_rows({radius_m_ + job_.wishes.allowance_m, spacing_m_, round}, along.frame(), nails_, wanted);
+    std::vector<RestingBall> balls;
+    for (const std::uint32_t nail : wanted) balls.push_back({nail, middle_over(nail, along.frame())});
+    const std::vector<Row> rows = find_rows({spacing_m_, round}, along.frame(), nails_, balls);
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
@@ -225,7 +273,8 @@ class FinishStage {
   double radius_m_, spacing_m_;
   std::vector<ToolFrame> frames_;
   std::vector<std::unique_ptr<Site>> sites_;
-  std::vector<std::uint32_t> reach_;  ///< of each nail, a bit for each direction
+  std::vector<std::uint32_t> reach_;    ///< of each nail, a bit for each direction
+  std::vector<Eigen::Vector3f> aside_;  ///< of each nail, how far beside it the cutter rests
 };
 
 }  // namespace

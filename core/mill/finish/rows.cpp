@@ -49,11 +49,11 @@ Vec3 mean_normal(const Nails& nails, std::uint32_t number, double reach_m) {
 }  // namespace
 
 std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
-                           const std::vector<std::uint32_t>& numbers) {
+                           const std::vector<RestingBall>& balls) {
   std::map<Place, std::vector<std::array<double, 2>>> needs;
   const double around = std::sqrt(nails.area_m2()), step = task.spacing_m / (1 << (finest + task.finer));
-  for (const std::uint32_t number : numbers) {
-    const Vec3 normal = frame.of(nails[number].normal), middle = frame.of(nails[number].point) + task.radius_m * normal;
+  for (const auto& [number, middle] : balls) {
+    const Vec3 normal = frame.of(nails[number].normal);
     const int heading = heading_of(frame.of(mean_normal(nails, number, look_spacings * task.spacing_m)));
     const Point2 way = way_of(heading), across(-way.y(), way.x());
     const double x = middle.head<2>().dot(way), y = middle.head<2>().dot(across);

@@ -14,14 +14,18 @@ struct Row {
 };
 
 struct RowTask {
-  double radius_m = 0;   ///< of the ball at rest over a nail, allowance and all
   double spacing_m = 0;  ///< of rows where the surface is level across them
   int finer = 0;         ///< so many times rows are twice as near
 };
 
-/// Rows run up and down the slope, in one of four headings, the nearer the steeper the surface is across them.
-/// `numbers`: of the nails that rows are for.
+struct RestingBall {
+  std::uint32_t nail = 0;  ///< that it rests on
+  Vec3 middle;             ///< tool frame
+};
+
+/// Rows run up and down the slope through where balls rest, in one of four headings, the nearer the steeper the surface
+/// is across them.
 std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
-                           const std::vector<std::uint32_t>& numbers);
+                           const std::vector<RestingBall>& balls);
 
 }  // namespace sculpt

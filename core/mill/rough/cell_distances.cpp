@@ -4,40 +4,67 @@
 #include <cmath>
 
 namespace sculpt {
+namespace {
 
-std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice, int far) {
-  const int w = lattice.width, h = lattice.height;
-  const auto most = static_cast<float>(far * far);
-  std::vector<float> along(lattice.size()), squares(lattice.size(), most);
-  std::vector<char> any(static_cast<std::size_t>(h));
-  for (int b = 0; b < h; ++b) {
-    float* row = along.data() + lattice.index(0, b);
-    const char* here = marked.data() + lattice.index(0, b);
-    int since = far;
-    for (int a = 0; a < w; ++a) {
-      since = here[a] ? 0 : std::min(far, since + 1);
-      row[a] = static_cast<float>(since);
-      any[static_cast<std::size_t>(b)] |= here[a];
+/// Of (x - at)^2 + squares[at] over all `at` the least, for every x.
+class LowerEnvelope {
+ public:
+  explicit LowerEnvelope(std::size_t size) : lowest_(size), from_(size + 1) {}
+
+  void find(const std::vector<double>& squares, std::vector<double>& least) {
+    std::size_t last = 0;
+    lowest_[0] = 0;
+    from_[0] = -HUGE_VAL;
+    for (std::size_t at = 1; at < squares.size(); ++at) {
+      double begin = crossing(squares, lowest_[last], at);
+      while (begin <= from_[last]) begin = crossing(squares, lowest_[--last], at);
+      lowest_[++last] = at;
+      from_[last] = begin;
+    }
+    std::size_t here = 0;
+    for (std::size_t x = 0; x < squares.size(); ++x) {
+      while (here < last && from_[here + 1] < static_cast<double>(x)) ++here;
+      const double off = static_cast<double>(x) - static_cast<double>(lowest_[here]);
+      least[x] = off * off + squares[lowest_[here]];
+    }
+  }
+
+ private:
+  static double crossing(const std::vector<double>& squares, std::size_t before, std::size_t at) {
+    const auto p = static_cast<double>(before), q = static_cast<double>(at);
+    return (squares[at] + q * q - squares[before] - p * p) / (2 * (q - p));
+  }
+
+  std::vector<std::size_t> lowest_;
+  std::vector<double> from_;
+};
+
+}  // namespace
+
+std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice) {
+  const auto w = static_cast<std::size_t>(lattice.width), h = static_cast<std::size_t>(lattice.height);
+  const double far = static_cast<double>(w + h);
+  std::vector<float> distances(lattice.size());
+  for (std::size_t b = 0; b < h; ++b) {
+    double since = far;
+    for (std::size_t a = 0; a < w; ++a) {
+      since = marked[b * w + a] ? 0 : std::min(far, since + 1);
+      distances[b * w + a] = static_cast<float>(since);
     }
     since = far;
-    for (int a = w - 1; a >= 0; --a) {
-      since = here[a] ? 0 : std::min(far, since + 1);
-      const float nearer = std::min(row[a], static_cast<float>(since));
-      row[a] = nearer * nearer;
+    for (std::size_t a = w; a-- > 0;) {
+      since = marked[b * w + a] ? 0 : std::min(far, since + 1);
+      distances[b * w + a] = std::min(distances[b * w + a], static_cast<float>(since));
     }
   }
-  for (int b = 0; b < h; ++b) {
-    if (!any[static_cast<std::size_t>(b)]) continue;
-    const float* row = along.data() + lattice.index(0, b);
-    for (int across = std::max(0, b - far); across <= std::min(h - 1, b + far); ++across) {
-      float* to = squares.data() + lattice.index(0, across);
-      const auto more = static_cast<float>((across - b) * (across - b));
-      for (int a = 0; a < w; ++a) to[a] = std::min(to[a], row[a] + more);
-    }
+  LowerEnvelope envelope(h);
+  std::vector<double> squares(h), least(h);
+  for (std::size_t a = 0; a < w; ++a) {
+    for (std::size_t b = 0; b < h; ++b) squares[b] = std::pow(static_cast<double>(distances[b * w + a]), 2);
+    envelope.find(squares, least);
+    for (std::size_t b = 0; b < h; ++b) distances[b * w + a] = static_cast<float>(std::sqrt(least[b]) * lattice.step);
   }
-  const auto step = static_cast<float>(lattice.step);
-  for (float& square : squares) square = std::sqrt(square) * step;
-  return squares;
+  return distances;
 }
 
 }  // namespace sculpt

@@ -7,8 +7,9 @@
 
 namespace sculpt {
 
-/// Of the middle of each cell to that of the nearest marked one (m), exact up to `far` cells, and that where it is
-/// more: along rows, then across, row beside row.
-std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice, int far);
+/// Of the middle of each cell to that of the nearest marked one (m); where none is marked, farther than the lattice is
+/// wide. Exact: along rows, then across by lower envelopes of parabolas (Felzenszwalb, Huttenlocher, "Distance
+/// transforms of sampled functions", Theory of Computing 8, 2012).
+std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice);
 
 }  // namespace sculpt

@@ -1,7 +1,6 @@
 #include "core/mill/rough/clearing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,60 +9,59 @@
 namespace sculpt {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// Of the cutter's radius: how long an edge is.
-constexpr double step_share = 0.4;
-/// Steps that take off less than this share of the cap end a pass; the first is for what makes most of the volume.
-constexpr std::array thresholds{0.3, 0.08};
-/// Of the cutter's disc, that ways between passes may cut through.
-constexpr double little_share = 0.06;
-constexpr std::size_t max_steps = 100000, max_idle_steps = 5;
-constexpr double turn_step = 7.5 * pi / 180, turn_ahead = 100 * pi / 180;
-/// Of an edge's length: what going the wrong way around costs.
-constexpr double wrong_side = 0.6;
+constexpr double step_share = 0.8;
+/// Of the width of cut: from row to row. Of depth times width: what may be taken off.
+constexpr double width_share = 0.92, cap_share = 1.06;
+/// Of what may be taken off over a radius, where a pass begins.
+constexpr double little_share = 0.05;
+/// Of what may be taken off: rows that take off less are left to a smaller tool.
+constexpr double least_share = 0.15;
+/// Ways from pass to pass that are gone at this height (radii).
+constexpr double linked_radii = 8;
+/// How often half a width is laid before a place that would take off too much.
+constexpr int max_tries = 3;
+/// Over so many radii it is looked at what is taken off; edges that are shorter than a third of it count as that long.
+constexpr double window_radii = 0.5;
 
 }  // namespace
 
-Clearing::Clearing(const ClearingTask& task, StockTop& surface)
+Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface)
     : task_(task),
       surface_(surface),
       lattice_(surface.lattice()),
-      step_m_(std::max(step_share * task.tool.cutter.radius_m, 2 * lattice_.step)),
-      cap_m3_m_(task.tool.max_depth_m * task.tool.max_width_m),
-      beside_m_(task.tool.cutter.radius_m - task.tool.max_width_m),
-      threshold_(thresholds.front()),
+      cap_m3_m_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
+      width_m_(width_share * task.tool.max_width_m),
       stands_above_(static_cast<float>(task.height + task.cusp_share * task.tool.max_depth_m)),
-      stands_(lattice_.size()),
-      touching_(lattice_.size()),
-      distance_(lattice_.size()),
-      tried_(lattice_.size()),
-      seen_(lattice_.size()),
-      parent_(lattice_.size()) {
-  reach_ = static_cast<int>(task.tool.cutter.radius_m / lattice_.step) + 1;
-  for (int db = -reach_; db <= reach_; ++db) {
-    int half = reach_;
-    while (half >= 0 && std::hypot(half, db) * lattice_.step > task.tool.cutter.radius_m) --half;
-    disc_.push_back(half);
-    little_ = static_cast<std::uint16_t>(little_ + 2 * half + 1);
+      stands_(find_reachable()) {
+  const Cutter& cutter = task.tool.cutter;
+  const double cusp = task.cusp_share * task.tool.max_depth_m;
+  double cleared = 0;
+  while (cleared < cutter.radius_m && cutter.height_m(cleared) <= cusp) cleared += lattice_.step / 4;
+  const double step = std::max(step_share * cutter.radius_m, 2 * lattice_.step);
+  rows_.emplace(RowTask{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared, step}, layout);
+  for (const LevelRow& row : rows_->rows()) {
+    Turn turn{row};
+    for (std::size_t other = 0; other < turns_.size(); ++other)
+      if (turns_[other].row.rank > row.rank && are_near(row, turns_[other].row)) turn.after.push_back(other);
+    turns_.push_back(std::move(turn));
   }
-  little_ = static_cast<std::uint16_t>(little_ * little_share);
-  far_ = reach_ + static_cast<int>(2 * step_m_ / lattice_.step) + 2;
-  find_reachable();
-  count_touching();
 }
 
 /// What is higher than the cutter would leave it if it came to all places where it may be, by more than a cusp.
-void Clearing::find_reachable() {
-  const std::vector<float> to_free = distances_to(task_.is_free, lattice_, far_);
+std::vector<char> Clearing::find_reachable() const {
+  std::vector<char> stands(lattice_.size());
+  const std::vector<float> to_free = distances_to(task_.is_free, lattice_);
   const Cutter& cutter = task_.tool.cutter;
   const double to_corner = std::numbers::sqrt2 * lattice_.step;
-  for (std::size_t at = 0; at < stands_.size(); ++at) {
+  for (std::size_t at = 0; at < stands.size(); ++at) {
     if (surface_.map().heights[at] <= stands_above_) continue;
     const double r = static_cast<double>(to_free[at]) + to_corner;
-    stands_[at] =
+    stands[at] =
         r<cutter.radius_m&& static_cast<double>(surface_.map().heights[at]) - cutter.height_m(r)> static_cast<double>(
             stands_above_);
   }
+  return stands;
 }
 
 double Clearing::volume_to_clear() const {
@@ -73,57 +71,9 @@ double Clearing::volume_to_clear() const {
   return heights * lattice_.step * lattice_.step;
 }
 
-/// Between the middles of cells.
-double Clearing::distance(const Point2& p) const {
-  const double x = (p.x() - lattice_.low_u) / lattice_.step - 0.5, y = (p.y() - lattice_.low_v) / lattice_.step - 0.5;
-  const int a = std::clamp(static_cast<int>(std::floor(x)), 0, lattice_.width - 2),
-            b = std::clamp(static_cast<int>(std::floor(y)), 0, lattice_.height - 2);
-  const double s = std::clamp(x - a, 0.0, 1.0), t = std::clamp(y - b, 0.0, 1.0);
-  const auto at = [&](int da, int db) { return static_cast<double>(distance_[lattice_.index(a + da, b + db)]); };
-  return (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) + t * ((1 - s) * at(0, 1) + s * at(1, 1));
-}
-
-void Clearing::count_touching() {
-  std::vector<std::uint16_t> sums(static_cast<std::size_t>(lattice_.width) + 1);
-  for (int b = 0; b < lattice_.height; ++b) {
-    bool any = false;
-    for (int a = 0; a < lattice_.width; ++a) {
-      const bool stands = stands_[lattice_.index(a, b)] != 0;
-      any = any || stands;
-      sums[static_cast<std::size_t>(a) + 1] =
-          static_cast<std::uint16_t>(sums[static_cast<std::size_t>(a)] + (stands ? 1 : 0));
-    }
-    if (!any) continue;
-    for (int db = -reach_; db <= reach_; ++db) {
-      const int row = b - db, half = disc_[static_cast<std::size_t>(db + reach_)];
-      if (half < 0 || row < 0 || row >= lattice_.height) continue;
-      std::uint16_t* touching = touching_.data() + lattice_.index(0, row);
-      for (int a = 0; a < lattice_.width; ++a) {
-        const int last = std::min(lattice_.width, a + half + 1), first = std::max(0, a - half);
-        touching[a] = static_cast<std::uint16_t>(touching[a] + sums[static_cast<std::size_t>(last)] -
-                                                 sums[static_cast<std::size_t>(first)]);
-      }
-    }
-  }
-}
-
-void Clearing::untouch(std::size_t at) {
-  const int a = static_cast<int>(at) % lattice_.width, b = static_cast<int>(at) / lattice_.width;
-  for (int db = -reach_; db <= reach_; ++db) {
-    const int row = b + db, half = disc_[static_cast<std::size_t>(db + reach_)];
-    if (half < 0 || row < 0 || row >= lattice_.height) continue;
-    std::uint16_t* touching = touching_.data() + lattice_.index(0, row);
-    for (int c = std::max(0, a - half); c <= std::min(lattice_.width - 1, a + half); ++c) --touching[c];
-  }
-}
-
 void Clearing::cut(const Point2& from, const Point2& to) {
-  surface_.cut(at_level(from), at_level(to), [&](std::size_t at, float before) {
-    if (!stands_[at] || surface_.map().heights[at] > stands_above_ || before <= stands_above_) return;
-    stands_[at] = 0;
-    is_measured_ = false;
-    untouch(at);
-  });
+  taken_m3_ += volume(from, to);
+  surface_.cut(at_level(from), at_level(to), [](std::size_t, float) {});
 }
 
 double Clearing::volume(const Point2& from, const Point2& to) const {
@@ -137,149 +87,169 @@ bool Clearing::edge_is_free(const Point2& from, const Point2& to) const {
   return free;
 }
 
-bool Clearing::edge_is_open(const Point2& from, const Point2& to) const {
-  bool open = true;
-  for_each_cell_near(lattice_, at_level(from), at_level(to), 0,
-                     [&](int a, int b) { open = open && is_open(lattice_.index(a, b)); });
-  return open;
+bool Clearing::may_cut(const Point2& from, const Point2& to) const {
+  return edge_is_free(from, to) && volume(from, to) <= cap_m3_m_ * (to - from).norm();
 }
 
-/// In the open, beside where the cutter touches something.
-bool Clearing::may_begin(int a, int b) const {
-  const std::size_t at = lattice_.index(a, b);
-  if (!is_open(at) || tried_[at]) return false;
-  for (const auto& [da, db] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    if (!lattice_.contains(a + da, b + db)) continue;
-    const std::size_t beside = lattice_.index(a + da, b + db);
-    if (task_.is_free[beside] && touching_[beside] > little_) return true;
+/// The cutter takes off little there, or nothing.
+bool Clearing::is_open(const Point2& p) const {
+  return edge_is_free(p, p) && volume(p, p) <= little_share * cap_m3_m_ * task_.tool.cutter.radius_m;
+}
+
+bool Clearing::are_near(const LevelRow& one, const LevelRow& other) const {
+  const double near2 = std::pow(task_.tool.cutter.radius_m + width_m_, 2);
+  return std::ranges::any_of(one.points, [&](const Point2& p) {
+    return std::ranges::any_of(other.points, [&](const Point2& q) { return (p - q).squaredNorm() < near2; });
+  });
+}
+
+bool Clearing::is_worth_it(const LevelRow& row) const {
+  double sum = 0, all = 0;
+  for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+    const Point2 &from = row.points[at], &to = row.points[at + 1];
+    const double most = cap_m3_m_ * (to - from).norm();
+    sum += std::min(most, volume(from, to));
+    all += most;
   }
-  return false;
+  return all > 0 && sum >= least_share * all;
 }
 
-std::optional<Point2> Clearing::find_entry(const Point2& at) const {
-  std::optional<Point2> nearest;
-  for (int b = 0; b < lattice_.height; ++b)
-    for (int a = 0; a < lattice_.width; ++a) {
-      if (!may_begin(a, b)) continue;
-      const Point2 place(lattice_.u(a), lattice_.v(b));
-      if (!nearest || (place - at).squaredNorm() < (*nearest - at).squaredNorm()) nearest = place;
+/// Of those whose turn it is.
+std::optional<std::size_t> Clearing::nearest(const Point2& at) const {
+  std::optional<std::size_t> nearest;
+  double least = 0;
+  for (std::size_t number = 0; number < turns_.size(); ++number) {
+    const Turn& turn = turns_[number];
+    if (turn.is_done || std::ranges::any_of(turn.after, [&](std::size_t before) { return !turns_[before].is_done; }))
+      continue;
+    const auto look = [&](const Point2& p) {
+      const double far = (p - at).squaredNorm();
+      if (nearest && far >= least) return;
+      nearest = number;
+      least = far;
+    };
+    if (turn.row.is_closed) {
+      std::ranges::for_each(turn.row.points, look);
+    } else {
+      look(turn.row.points.front());
+      look(turn.row.points.back());
     }
+  }
   return nearest;
 }
 
-bool Clearing::lower_threshold() {
-  const auto next = std::ranges::find_if(thresholds, [this](double each) { return each < threshold_; });
-  if (next == thresholds.end()) return false;
-  threshold_ = *next;
-  std::ranges::fill(tried_, 0);
-  return true;
+void Clearing::turn_towards(LevelRow& row, const Point2& at) const {
+  const auto far = [&](const Point2& p) { return (p - at).squaredNorm(); };
+  if (row.is_closed) {
+    row.points.pop_back();
+    std::ranges::rotate(row.points, std::ranges::min_element(row.points, {}, far));
+    row.points.push_back(row.points.front());
+  } else if (far(row.points.back()) < far(row.points.front())) {
+    std::ranges::reverse(row.points);
+  }
 }
 
-/// Of the headings not farther than `widest_turn` from this one that which keeps best to where the pass should be, what
-/// stands on its left, if the edge is free and takes off no more than it may.
-std::optional<Clearing::Step> Clearing::best_step(const Point2& from, double heading, double widest_turn) const {
-  struct Choice {
-    double cost, heading;
+/// From where the tip is, if that is near; or from where it is open: straight, from farther outside or from before its
+/// beginning; into a ring bit by bit.
+LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
+  const Point2 begin = row.points.front(), out = row.field->outwards(begin),
+               ahead = (row.points[1] - begin).normalized();
+  const double radius = task_.tool.cutter.radius_m;
+  if (tip && (begin - *tip).norm() <= linked_radii * radius && may_cut(*tip, begin)) return {*tip, begin};
+  std::vector<LevelPass> ways{{begin}};
+  for (int halves = 1; halves <= 6; ++halves) ways.push_back({begin + halves * width_m_ / 2 * out, begin});
+  for (const double radii : {1.0, 2.0}) ways.push_back({begin - radii * radius * ahead, begin});
+  for (const double radii : {3.0, 6.0}) {
+    if (!row.is_closed) break;
+    LevelPass way{begin};
+    double back = 0;
+    for (std::size_t at = row.points.size() - 1; at > 0 && back < radii * radius; --at) {
+      back += (row.points[at] - row.points[at - 1]).norm();
+      const Point2& p = row.points[at - 1];
+      way.push_back(p + std::min(1.0, back / (radii * radius)) * width_m_ * row.field->outwards(p));
+    }
+    std::ranges::reverse(way);
+    ways.push_back(std::move(way));
+  }
+  for (LevelPass& way : ways) {
+    bool is_allowed = is_open(way.front());
+    for (std::size_t at = 0; at + 1 < way.size() && is_allowed; ++at) is_allowed = may_cut(way[at], way[at + 1]);
+    if (is_allowed) return std::move(way);
+  }
+  return {};
+}
+
+/// What would take off too much comes once more, after a row that is farther out.
+void Clearing::put_off(std::size_t number, std::size_t refused) {
+  const LevelRow row = turns_[number].row;
+  const int tries = turns_[number].tries;
+  // Of an edge what the one before it leaves.
+  const auto is_too_much = [&](const Point2& from, const Point2& to) {
+    return volume(from, to) - volume(from, from) > cap_m3_m_ * (to - from).norm();
   };
-  std::vector<Choice> choices;
-  const int turns = static_cast<int>(widest_turn / turn_step);
-  const double here = distance(from);
-  for (int turn = -turns; turn <= turns; ++turn) {
-    const double towards = heading + turn * turn_step;
-    const Point2 way(std::cos(towards), std::sin(towards)), to = from + step_m_ * way, left(-way.y(), way.x());
-    // Along what stands, that on the left is nearer than that on the right.
-    const double side = distance(from + step_m_ / 2 * (way + left)) - distance(from + step_m_ / 2 * (way - left));
-    double cost = std::abs(distance(to) - beside_m_) + 1e-3 * std::abs(turn) * step_m_;
-    if (side > 0 && here < 2 * step_m_ + std::max(0.0, beside_m_)) cost += wrong_side * step_m_;
-    choices.push_back({cost, towards});
+  std::size_t end = refused + 1;
+  while (end + 1 < row.points.size() && is_too_much(row.points[end], row.points[end + 1])) ++end;
+  Turn rest{{row.field, row.value, {row.points.begin() + static_cast<std::ptrdiff_t>(refused), row.points.end()}}};
+  if (tries < max_tries) {
+    Turn outer{{row.field, row.value + width_m_ / 2, {}}};
+    outer.tries = rest.tries = tries + 1;
+    for (std::size_t at = refused > 0 ? refused - 1 : 0; at <= std::min(end + 1, row.points.size() - 1); ++at)
+      outer.row.points.push_back(row.points[at] + width_m_ / 2 * row.field->outwards(row.points[at]));
+    rest.after.push_back(turns_.size());
+    turns_.push_back(std::move(outer));
+  } else {
+    rest.row.points.erase(rest.row.points.begin(),
+                          rest.row.points.begin() + static_cast<std::ptrdiff_t>(end - refused));
   }
-  std::ranges::sort(choices, {}, &Choice::cost);
-  for (const Choice& choice : choices) {
-    Step step{from + step_m_ * Point2(std::cos(choice.heading), std::sin(choice.heading)), choice.heading, 0};
-    if (!edge_is_free(from, step.to)) continue;
-    step.volume = volume(from, step.to);
-    if (step.volume <= cap_m3_m_ * step_m_) return step;
-  }
-  return std::nullopt;
+  if (rest.row.points.size() > 1) turns_.push_back(std::move(rest));
 }
 
-/// Edges that take off next to nothing wait until one comes that takes off enough; those at the end are dropped.
-void Clearing::follow(LevelPass& pass) {
-  double heading = 0, turn = pi;
-  std::vector<Point2> waiting;
-  for (std::size_t n = 0; n < max_steps && waiting.size() <= max_idle_steps; ++n) {
-    const Point2 from = waiting.empty() ? pass.back() : waiting.back();
-    const auto step = best_step(from, heading, turn);
-    if (!step) return;
-    heading = step->heading;
-    turn = turn_ahead;
-    waiting.push_back(step->to);
-    if (step->volume < threshold_ * cap_m3_m_ * step_m_) continue;
-    for (const Point2& to : waiting) {
-      cut(pass.back(), to);
-      pass.push_back(to);
-    }
-    waiting.clear();
+/// As far as it takes off no more than it may.
+LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip) {
+  turns_[number].is_done = true;
+  LevelRow& row_now = turns_[number].row;
+  LevelPass pass = enter(row_now, tip);
+  if (pass.empty() && !row_now.is_closed) {
+    std::ranges::reverse(row_now.points);
+    pass = enter(row_now, tip);
   }
+  if (pass.empty()) return {};
+  const LevelRow row = row_now;  // turns are added below
+  for (std::size_t at = 0; at + 1 < pass.size(); ++at) cut(pass[at], pass[at + 1]);
+  const double window = window_radii * task_.tool.cutter.radius_m;
+  double length = 0, taken = 0;  // over the last edges
+  for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+    const Point2 &from = row.points[at], &to = row.points[at + 1];
+    if (!edge_is_free(from, to)) {
+      if (at + 2 < row.points.size())
+        turns_.push_back(
+            {{row.field, row.value, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
+      break;
+    }
+    const double more = volume(from, to), far = (to - from).norm();
+    if (length >= window) length = taken = 0;
+    if (taken + more > cap_m3_m_ * std::max(length + far, window) || more > cap_m3_m_ * (far + window / 3)) {
+      put_off(number, at);
+      break;
+    }
+    length += far;
+    taken += more;
+    cut(from, to);
+    pass.push_back(to);
+  }
+  return pass;
 }
 
-/// Fewer edges through what is open.
-std::vector<Point2> Clearing::straightened(const std::vector<Point2>& way) const {
-  std::vector<Point2> straight{way.front()};
-  for (std::size_t at = 0; at + 1 < way.size();) {
-    std::size_t next = at + 1;
-    for (std::size_t stride = 2; at + stride < way.size() && edge_is_open(way[at], way[at + stride]); stride *= 2)
-      next = at + stride;
-    for (std::size_t stride = (next - at) / 2; stride > 0; stride /= 2)
-      if (next + stride < way.size() && edge_is_open(way[at], way[next + stride])) next += stride;
-    straight.push_back(way[next]);
-    at = next;
-  }
-  return straight;
-}
-
-/// Breadth-first through open cells to the nearest place where a pass may begin, from where one then does.
-std::optional<LevelPass> Clearing::next_from(const Point2& at) {
-  const int a0 = lattice_.cell_u(at.x()), b0 = lattice_.cell_v(at.y());
-  if (!lattice_.contains(a0, b0)) return std::nullopt;
-  ++search_;
-  std::vector<std::uint32_t> queue{static_cast<std::uint32_t>(lattice_.index(a0, b0))};
-  seen_[queue.front()] = search_;
-  parent_[queue.front()] = -1;
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const std::size_t here = queue[head];
-    const int a = static_cast<int>(here) % lattice_.width, b = static_cast<int>(here) / lattice_.width;
-    if (may_begin(a, b)) {
-      std::vector<Point2> way;
-      for (std::int32_t back = static_cast<std::int32_t>(here); parent_[static_cast<std::size_t>(back)] >= 0;
-           back = parent_[static_cast<std::size_t>(back)])
-        way.emplace_back(lattice_.u(back % lattice_.width), lattice_.v(back / lattice_.width));
-      way.push_back(at);
-      std::ranges::reverse(way);
-      LevelPass pass = straightened(way);
-      const std::size_t before = pass.size();
-      bool is_allowed = true;
-      for (std::size_t edge = 0; edge + 1 < before && is_allowed; ++edge)
-        is_allowed = volume(pass[edge], pass[edge + 1]) <= cap_m3_m_ * (pass[edge + 1] - pass[edge]).norm();
-      if (is_allowed) {
-        for (std::size_t edge = 0; edge + 1 < before; ++edge) cut(pass[edge], pass[edge + 1]);
-        if (!is_measured_) {
-          distance_ = distances_to(stands_, lattice_, far_);
-          is_measured_ = true;
-        }
-        follow(pass);
-      }
-      tried_[here] = 1;
-      if (pass.size() > before) return pass;
+std::optional<LevelPass> Clearing::next_from(const Point2& at, bool is_down) {
+  while (const auto number = nearest(at)) {
+    Turn& turn = turns_[*number];
+    if (!is_worth_it(turn.row)) {
+      turn.is_done = true;
+      continue;
     }
-    for (const auto& [da, db] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      if (!lattice_.contains(a + da, b + db)) continue;
-      const std::size_t beside = lattice_.index(a + da, b + db);
-      if (seen_[beside] == search_ || !is_open(beside)) continue;
-      seen_[beside] = search_;
-      parent_[beside] = static_cast<std::int32_t>(here);
-      queue.push_back(static_cast<std::uint32_t>(beside));
-    }
+    turn_towards(turn.row, at);
+    LevelPass pass = follow(*number, is_down ? std::optional(at) : std::nullopt);
+    if (pass.size() > 1) return pass;
   }
   return std::nullopt;
 }

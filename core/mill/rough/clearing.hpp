@@ -1,23 +1,17 @@
 // Roughing of one level: the tip stays at one height and takes off what is above it, never more at once than is
 // allowed.
 //
-// Seen along the axis; o is the cutter, # what is to come off, the path so far comes from the left:
-//
-//          . . . . . . # # # #        The cutter keeps along what stands, its rim a width of cut inside: from where it
-//          is
-//          - - - - -(o)# # # #        it goes on where the distance to what stood when the pass began is radius less
-//          # # # # # # # # # #        width. An edge that would take off more than depth times width a unit of length
-//          is # # # # # # # # # #        not taken: then it keeps off a little more, and so it enters bit by bit as
-//          well.
-//
-// So passes are contour-parallel, one inside the other, and the engagement is not promised by their geometry but
-// measured for each edge: offsets alone do not keep it where corners are hollow (Elber, Cohen, Drake, "MATHSM: medial
-// axis transform toward high speed machining of pockets", 2005).
+// Rows are a width of cut apart, and cut from the outside inwards, so that each finds a width of cut before it. Where
+// it finds more, in hollow corners, a row half a width farther out goes before it: the engagement is not promised by
+// the geometry of rows but measured, for offsets alone do not keep it (Elber, Cohen, Drake, "MATHSM: medial axis
+// transform toward high speed machining of pockets", 2005).
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "core/cell/milling/mill_tool.hpp"
+#include "core/mill/rough/level_rows.hpp"
 #include "core/mill/rough/stock_top.hpp"
 
 namespace sculpt {
@@ -31,65 +25,56 @@ struct ClearingTask {
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
 };
 
-/// Edges at the height of the level. Those that come before the first cut lead through what is open.
+/// Edges at the height of the level. The first place is in the open, or where the tip is.
 using LevelPass = std::vector<Point2>;
 
 /// Plans passes, one after the other, and takes off the surface what they cut. Not shared between threads.
 class Clearing {
  public:
   /// `surface` and what `task` refers to must outlive the object.
-  Clearing(const ClearingTask& task, StockTop& surface);
+  Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface);
 
   /// About what is to come off here (m^3).
   double volume_to_clear() const;
-  /// The next pass from `at`, where the tip is in the open at this height, or nothing if none can be come to from there
-  /// within what is open. It begins at `at`.
-  std::optional<LevelPass> next_from(const Point2& at);
-  /// A place in the open from which a pass can be come to, near `at`; nothing if there is none.
-  std::optional<Point2> find_entry(const Point2& at) const;
-  /// Smaller chips count from now on; false if they were the smallest already.
-  bool lower_threshold();
+  /// The next pass, one that begins near `at`; nothing once there is none. `is_down`: the tip is there at this height,
+  /// and the pass may begin there.
+  std::optional<LevelPass> next_from(const Point2& at, bool is_down);
+  /// What passes took off so far (m^3).
+  double taken_m3() const { return taken_m3_; }
 
  private:
-  struct Step {
-    Point2 to;
-    double heading = 0, volume = 0;
+  struct Turn {
+    LevelRow row;
+    std::vector<std::size_t> after = {};  ///< which come before it
+    int tries = 0;
+    bool is_done = false;
   };
 
-  /// The cutter touches little there, or nothing.
-  bool is_open(std::size_t at) const { return task_.is_free[at] && touching_[at] <= little_; }
-  bool may_begin(int a, int b) const;
-  bool edge_is_free(const Point2& from, const Point2& to) const;
-  bool edge_is_open(const Point2& from, const Point2& to) const;
   Vec3 at_level(const Point2& p) const { return {p.x(), p.y(), task_.height}; }
   double volume(const Point2& from, const Point2& to) const;
-  double distance(const Point2& p) const;
-  std::optional<Step> best_step(const Point2& from, double heading, double widest_turn) const;
+  bool edge_is_free(const Point2& from, const Point2& to) const;
+  bool may_cut(const Point2& from, const Point2& to) const;
+  bool is_open(const Point2& p) const;
   void cut(const Point2& from, const Point2& to);
-  void find_reachable();
-  void count_touching();
-  void untouch(std::size_t at);
-  std::vector<Point2> straightened(const std::vector<Point2>& way) const;
-  void follow(LevelPass& pass);
+  std::vector<char> find_reachable() const;
+  bool are_near(const LevelRow& one, const LevelRow& other) const;
+  bool is_worth_it(const LevelRow& row) const;
+  std::optional<std::size_t> nearest(const Point2& at) const;
+  void turn_towards(LevelRow& row, const Point2& at) const;
+  LevelPass enter(const LevelRow& row, const std::optional<Point2>& tip) const;
+  LevelPass follow(std::size_t number, const std::optional<Point2>& tip);
+  void put_off(std::size_t number, std::size_t refused);
 
   ClearingTask task_;
   StockTop& surface_;
   const Lattice& lattice_;
-  double step_m_, cap_m3_m_;  ///< edges; volume by length
-  double beside_m_;           ///< how far the tip keeps from what stands
-  double threshold_;          ///< share of the cap that a step must take off
-  float stands_above_;        ///< cells higher than this are to come off
-  std::vector<int> disc_;     ///< by row from -reach to reach: half the width of the cutter's disc in cells; -1: none
-  int reach_ = 0, far_ = 0;   ///< cells: of the cutter's radius, and beyond it as far as a pass looks
-  std::uint16_t little_ = 0;  ///< cells that a way through what is open may touch
-  std::vector<char> stands_;  ///< by cell: to come off at this level
-  std::vector<std::uint16_t> touching_;  ///< by cell: how many of those a cutter there touches
-  std::vector<float> distance_;          ///< of a cell to those, when the pass began
-  bool is_measured_ = false;
-  std::vector<char> tried_;          ///< in vain, with this threshold
-  std::vector<std::uint32_t> seen_;  ///< by a search
-  std::uint32_t search_ = 0;
-  std::vector<std::int32_t> parent_;
+  double cap_m3_m_;     ///< volume by length
+  double width_m_;      ///< from row to row
+  float stands_above_;  ///< cells higher than this are to come off
+  std::vector<char> stands_;
+  std::optional<LevelRows> rows_;
+  std::vector<Turn> turns_;
+  double taken_m3_ = 0;
 };
 
 }  // namespace sculpt

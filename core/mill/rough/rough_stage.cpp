@@ -71,10 +71,19 @@ class RoughStage {
     return static_cast<std::size_t>(most - gains.begin());
   }
 
+  /// Where the tool might go in a direction.
+  std::vector<Vec3> places_left(std::size_t direction) const {
+    std::vector<Vec3> places;
+    for (std::size_t at = 0; at < samples_.size(); ++at)
+      if (prospects_[direction][at] && stock().left().contains(samples_[at]))
+        places.push_back(job_.grid.centre(samples_[at]));
+    return places;
+  }
+
   void rough_along(std::size_t number) {
     const auto site = carver_.make_site(number, margins(), step_m());
     site->see(stock().standing(), job_.grid);
-    if (!carver_.enter(number, *site)) return;
+    if (!carver_.enter(number, *site, places_left(number))) return;
     const ToolFrame& frame = site->frame();
     StockTop surface = surface_of(*site);
     const double top = site->top();
@@ -115,7 +124,8 @@ class RoughStage {
     double least_height = height;
     for (int failures = 0; failures < max_failures; ++failures) {
       const std::vector<MillStroke> strokes =
-          rough_level(site, {tool(), height, cusp_share, free}, least_height, stray_m(), surface, carver_.tip(site));
+          rough_level(site, {tool(), height, cusp_share, free}, {carver_.tip(site), least_height, stray_m()}, surface,
+                      run_.helpers);
       if (strokes.empty()) return;
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) return surface.lower_to(tops_to_cut(site));

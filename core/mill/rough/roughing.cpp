@@ -1,10 +1,18 @@
 #include "core/mill/rough/roughing.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/mill/drive/hop.hpp"
 
 namespace sculpt {
+namespace {
+
+/// What a way through the air costs beside one that cuts.
+constexpr double air_share = 0.5;
+
+}  // namespace
+
 std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable) {
   const Lattice& lattice = site.lattice();
   std::vector<char> free(lattice.size());
@@ -17,31 +25,50 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
   return free;
 }
 
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, double stray_m,
-                                    StockTop& surface, const Vec3& at) {
+namespace {
+
+struct LevelPlan {
   std::vector<MillStroke> strokes;
+  double length_m = 0, taken_m3 = 0;
+};
+
+LevelPlan plan_level(const Site& site, const ClearingTask& level, RowLayout layout, const LevelWays& ways,
+                     StockTop& surface) {
+  LevelPlan plan;
   const double height = level.height;
-  Clearing clearing(level, surface);
-  if (clearing.volume_to_clear() < least_pass_m3(level.tool)) return strokes;
-  Vec3 tip = at;
-  do {
-    for (;;) {
-      std::optional<LevelPass> pass;
-      if (tip.z() == height) pass = clearing.next_from(tip.head<2>());
-      if (!pass) {
-        const auto entry = clearing.find_entry(tip.head<2>());
-        if (!entry) break;
-        pass = clearing.next_from(*entry);
-        if (!pass) continue;
-        const Vec3 begin(entry->x(), entry->y(), height);
-        hop(site, tip, begin, least_height, stray_m, strokes);
-      }
-      for (std::size_t edge = 1; edge < pass->size(); ++edge)
-        strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, stray_m});
-      tip = {pass->back().x(), pass->back().y(), height};
-    }
-  } while (clearing.lower_threshold());
-  return strokes;
+  Clearing clearing(level, layout, surface);
+  if (clearing.volume_to_clear() < least_pass_m3(level.tool)) return plan;
+  Vec3 tip = ways.from;
+  while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
+    const Vec3 begin(pass->front().x(), pass->front().y(), height);
+    if (tip != begin) hop(site, tip, begin, ways.least_height, ways.stray_m, plan.strokes);
+    for (std::size_t edge = 1; edge < pass->size(); ++edge)
+      plan.strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, ways.stray_m});
+    tip = {pass->back().x(), pass->back().y(), height};
+  }
+  plan.taken_m3 = clearing.taken_m3();
+  Vec3 at = site.frame().point(ways.from);
+  for (const MillStroke& stroke : plan.strokes) {
+    plan.length_m += (stroke.tip_m - at).norm() * (stroke.cut ? 1 : air_share);
+    at = stroke.tip_m;
+  }
+  return plan;
+}
+
+}  // namespace
+
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, const LevelWays& ways,
+                                    StockTop& surface, const Helpers& helpers) {
+  constexpr std::array layouts{RowLayout::around, RowLayout::along_u, RowLayout::along_v};
+  std::vector<StockTop> left(layouts.size(), surface);
+  std::vector<LevelPlan> plans(layouts.size());
+  helpers.for_each_index(layouts.size(), [&](std::size_t number) {
+    plans[number] = plan_level(site, level, layouts[number], ways, left[number]);
+  });
+  const auto best = std::ranges::max_element(
+      plans, {}, [](const LevelPlan& plan) { return plan.strokes.empty() ? 0 : plan.taken_m3 / plan.length_m; });
+  surface = std::move(left[static_cast<std::size_t>(best - plans.begin())]);
+  return std::move(best->strokes);
 }
 
 }  // namespace sculpt

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/helpers.hpp"
 #include "core/mill/drive/mill_stroke.hpp"
 #include "core/mill/map/site.hpp"
 #include "core/mill/rough/clearing.hpp"
@@ -23,10 +24,16 @@ using IsReachable = std::function<bool(const Vec3& tip)>;
 /// The cells at which the tip may be at a height.
 std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable);
 
-/// The strokes of one level, from `at`, where the tip is (tool frame, in the air or anywhere at rest); nothing if the
-/// level has nothing that the tool can take off. `surface` loses what they cut.
-/// They go over from pass to pass at no less than `least_height`, and stray by no more than `stray_m` where they cut.
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, double least_height, double stray_m,
-                                    StockTop& surface, const Vec3& at);
+/// How the strokes of a level are joined.
+struct LevelWays {
+  Vec3 from;                ///< where the tip is (tool frame, in the air or anywhere at rest)
+  double least_height = 0;  ///< of ways over from pass to pass
+  double stray_m = 0;       ///< of strokes that cut
+};
+
+/// The strokes of one level, in the layout of rows that takes off most for its length; nothing if the level has nothing
+/// that the tool can take off. `surface` loses what they cut.
+std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, const LevelWays& ways,
+                                    StockTop& surface, const Helpers& helpers);
 
 }  // namespace sculpt

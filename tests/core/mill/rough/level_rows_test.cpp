@@ -1,0 +1,90 @@
+#include "core/mill/rough/level_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/mill/rough/cell_distances.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double radius = 0.01, width = 0.0092, cleared = 0.0073;
+
+/// A square that is to come off, the tip kept out of discs in it.
+struct Level {
+  Lattice lattice{-0.09, -0.09, 0.001, 180, 180};
+  std::vector<char> is_free = std::vector<char>(lattice.size(), 1), stands = std::vector<char>(lattice.size());
+
+  explicit Level(const std::vector<std::pair<Point2, double>>& discs) {
+    for (int b = 0; b < lattice.height; ++b)
+      for (int a = 0; a < lattice.width; ++a) {
+        const Point2 p(lattice.u(a), lattice.v(b));
+        stands[lattice.index(a, b)] = p.cwiseAbs().maxCoeff() < 0.05 ? 1 : 0;
+        for (const auto& [middle, size] : discs) {
+          if ((p - middle).norm() < size) is_free[lattice.index(a, b)] = 0;
+        }
+      }
+    // What the cutter does not come to by its side.
+    const std::vector<float> far = distances_to(is_free, lattice);
+    for (std::size_t at = 0; at < stands.size(); ++at)
+      if (far[at] > 0.006F) stands[at] = 0;
+  }
+  RowTask task() const { return {lattice, is_free, stands, radius, width, cleared, 0.008}; }
+};
+
+double distance_to(const Point2& p, const LevelRow& row) {
+  double nearest = HUGE_VAL;
+  for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+    const Point2 way = row.points[at + 1] - row.points[at];
+    const double t = std::clamp((p - row.points[at]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (p - row.points[at] - t * way).norm());
+  }
+  return nearest;
+}
+
+class Layouts : public testing::TestWithParam<RowLayout> {};
+
+TEST_P(Layouts, ComeNearToAllThatIsToComeOffAndGoNowhereElse) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    std::vector<std::pair<Point2, double>> discs;
+    for (int n = static_cast<int>(random.between(1, 4)); n > 0; --n)
+      discs.emplace_back(Point2(random.between(-0.04, 0.04), random.between(-0.04, 0.04)), random.between(0.008, 0.02));
+    const Level level(discs);
+    const LevelRows laid(level.task(), GetParam());
+    ASSERT_FALSE(laid.rows().empty());
+    for (const LevelRow& row : laid.rows())
+      for (const Point2& p : row.points) {
+        const Lattice& cells = level.lattice;
+        ASSERT_TRUE(level.is_free[cells.index(cells.cell_u(p.x()), cells.cell_v(p.y()))]) << "seed " << seed;
+        ASSERT_LT(p.cwiseAbs().maxCoeff(), 0.05 + radius + 0.001) << "seed " << seed;
+      }
+    for (int b = 0; b < level.lattice.height; ++b)
+      for (int a = 0; a < level.lattice.width; ++a) {
+        if (!level.stands[level.lattice.index(a, b)]) continue;
+        double nearest = HUGE_VAL;
+        for (const LevelRow& row : laid.rows())
+          nearest = std::min(nearest, distance_to({level.lattice.u(a), level.lattice.v(b)}, row));
+        EXPECT_LT(nearest, cleared + 0.0015)
+            << "seed " << seed << ": " << level.lattice.u(a) << " " << level.lattice.v(b);
+      }
+  }
+}
+
+TEST_P(Layouts, WhereNothingStandsAreEmpty) {
+  Level level({});
+  level.stands.assign(level.stands.size(), 0);
+  EXPECT_TRUE(LevelRows(level.task(), GetParam()).rows().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(LevelRows, Layouts,
+                         testing::Values(RowLayout::around, RowLayout::along_u, RowLayout::along_v));
+
+TEST(LevelRows, AroundNothingThereAreNone) {
+  const Level level({});
+  EXPECT_TRUE(LevelRows(level.task(), RowLayout::around).rows().empty());
+  EXPECT_FALSE(LevelRows(level.task(), RowLayout::along_u).rows().empty());
+}
+
+}  // namespace
+}  // namespace sculpt
