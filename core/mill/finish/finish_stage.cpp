@@ -28,7 +28,7 @@ constexpr int rounds = 3;
 /// Of all nails: a direction is entered for so many, and in the last class for fewer.
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 /// From row to row along the surface, where that is no farther (row spacings).
-constexpr double beside_spacings = 20;
+constexpr double beside_spacings = 60;
 constexpr std::size_t strokes_a_batch = 4000;
 constexpr int max_failures = 100;
 
