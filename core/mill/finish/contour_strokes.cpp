@@ -1,7 +1,7 @@
 #include "core/mill/finish/contour_strokes.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <tuple>
 
 #include "core/mill/drive/hop.hpp"
 
@@ -15,15 +15,15 @@ constexpr double most_plunged = 0.5;
 
 }  // namespace
 
-void ContourStrokes::lay(const Contour& contour) {
-  const Contour way = is_down_ ? connect(contour.front()) : Contour{};
+void ContourStrokes::lay(const Contour& contour, const Contour& way) {
   is_down_ = !way.empty();
   if (is_down_) add(way);
   add(contour);
 }
 
-/// Along the surface; nothing where that is no short way.
-Contour ContourStrokes::connect(const Vec3& to) const {
+Contour ContourStrokes::way_to(const Contour& contour) const {
+  if (!is_down_) return {};
+  const Vec3& to = contour.front();
   const double far = (to - at_).norm();
   if (far > task_.beside_m) return {};
   std::vector<Contour> ways = follow_envelope(task_.envelope, at_.head<2>(), to.head<2>());
@@ -58,19 +58,27 @@ void ContourStrokes::add(const Contour& contour) {
   }
 }
 
-std::size_t turn_nearest(const Vec3& at, std::vector<Contour>& contours) {
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t nearest = 0;
-  bool turned = false;
-  for (std::size_t number = 0; number < contours.size(); ++number)
-    for (const bool back : {false, true}) {
-      const double far = ((back ? contours[number].back() : contours[number].front()) - at).squaredNorm();
-      if (far >= least) continue;
-      least = far;
-      nearest = number;
-      turned = back;
-    }
-  if (turned) std::ranges::reverse(contours[nearest]);
+std::vector<std::size_t> turn_nearest(const Vec3& at, std::vector<Contour>& contours, std::size_t some) {
+  struct End {
+    double far;
+    std::size_t number;
+    bool is_back;
+  };
+  std::vector<End> ends;
+  for (std::size_t number = 0; number < contours.size(); ++number) {
+    const double front = (contours[number].front() - at).squaredNorm(),
+                 back = (contours[number].back() - at).squaredNorm();
+    ends.push_back({std::min(front, back), number, back < front});
+  }
+  some = std::min(some, ends.size());
+  std::ranges::partial_sort(ends, ends.begin() + static_cast<std::ptrdiff_t>(some), [](const End& a, const End& b) {
+    return std::tie(a.far, a.number) < std::tie(b.far, b.number);
+  });
+  std::vector<std::size_t> nearest;
+  for (std::size_t at_end = 0; at_end < some; ++at_end) {
+    if (ends[at_end].is_back) std::ranges::reverse(contours[ends[at_end].number]);
+    nearest.push_back(ends[at_end].number);
+  }
   return nearest;
 }
 

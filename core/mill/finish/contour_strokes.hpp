@@ -27,15 +27,17 @@ class ContourStrokes {
   /// `at`: where the tip is, in the air. `stock`: what is to come off.
   ContourStrokes(const Task& task, StockTop stock, const Vec3& at) : task_(task), stock_(std::move(stock)), at_(at) {}
 
-  /// Left out is where the cutter would take off more than it may at once.
-  void lay(const Contour& contour);
+  /// Along the surface to where a contour begins; nothing where that is no short way.
+  Contour way_to(const Contour& contour) const;
+  /// By a way to it, or from above where that is empty. Left out is where the cutter would take off more than it may at
+  /// once.
+  void lay(const Contour& contour, const Contour& way);
 
   /// Where the tip is after them (tool frame).
   const Vec3& at() const { return at_; }
   const std::vector<MillStroke>& strokes() const { return strokes_; }
 
  private:
-  Contour connect(const Vec3& to) const;
   void add(const Contour& contour);
 
   Task task_;
@@ -45,7 +47,8 @@ class ContourStrokes {
   std::vector<MillStroke> strokes_;
 };
 
-/// The number of the contour that begins or ends nearest to a place, turned so that it begins there.
-std::size_t turn_nearest(const Vec3& at, std::vector<Contour>& contours);
+/// The numbers of some contours that begin or end nearest to a place, the nearest first, turned so that they begin
+/// there.
+std::vector<std::size_t> turn_nearest(const Vec3& at, std::vector<Contour>& contours, std::size_t some);
 
 }  // namespace sculpt

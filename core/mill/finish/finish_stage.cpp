@@ -29,7 +29,7 @@ constexpr int rounds = 3;
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
-constexpr std::size_t strokes_a_batch = 4000;
+constexpr std::size_t strokes_a_batch = 4000, looked_at = 6;
 constexpr int max_failures = 100;
 
 class FinishStage {
@@ -234,10 +234,17 @@ class FinishStage {
           see_stock(site), carver_.tip(site));
       std::vector<Laid> batch;
       while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
-        const std::size_t next = turn_nearest(laid.at(), contours);
+        // The nearest that the tip comes to along the surface; else the nearest.
+        const std::vector<std::size_t> near = turn_nearest(laid.at(), contours, looked_at);
+        std::size_t next = near.front();
+        Contour way;
+        for (std::size_t at = 0; at < near.size() && way.empty(); ++at) {
+          way = laid.way_to(contours[near[at]]);
+          if (!way.empty()) next = near[at];
+        }
         batch.push_back({std::move(contours[next]), laid.strokes().size()});
         contours.erase(contours.begin() + static_cast<std::ptrdiff_t>(next));
-        laid.lay(batch.back().contour);
+        laid.lay(batch.back().contour, way);
       }
       const std::vector<MillStroke>& strokes = laid.strokes();
       const std::size_t done = carver_.carry_out(strokes);
