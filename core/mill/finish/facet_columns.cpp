@@ -11,6 +11,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells: about so many facets each, and at most so many along a side.
 constexpr double facets_a_cell = 4, most_along = 1024;
 constexpr double upright = 1e-9;
+/// More than coordinates of a stock are rounded by.
+constexpr double rounding_m = 1e-9;
 
 double turn(const Vec3& a, const Vec3& b, double u, double v) {
   return (b.x() - a.x()) * (v - a.y()) - (b.y() - a.y()) * (u - a.x());
@@ -222,6 +224,8 @@ bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) con
   const double r2 = radius * radius, lowest = std::min(from.z(), to.z());
   const double low_u = std::min(from.x(), to.x()), high_u = std::max(from.x(), to.x());
   const double low_v = std::min(from.y(), to.y()), high_v = std::max(from.y(), to.y());
+  const double beyond = radius + rounding_m;
+  const auto lower_of = [](const Vec3& n, const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b) ? a : b; };
   bool clear = true;
   for_each_cell(low_u - radius, high_u + radius, low_v - radius, high_v + radius,
                 [&](std::size_t cell, double cell_u, double cell_v) {
@@ -233,6 +237,9 @@ bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) con
                   for (std::uint32_t at = begin_[cell]; clear && at < begin_[cell + 1]; ++at) {
                     const Facet& facet = facets_[numbers_[at]];
                     if (facet.top + lift <= lowest) return;
+                    // All of it is above the facet's plane, and farther from it: normals look upwards.
+                    const Vec3& n = facet.normal;
+                    if (n.dot(lower_of(n, from, to) - facet.corners[0]) > beyond) continue;
                     clear = !curtain.is_nearer(facet.corners, facet.normal, r2);
                   }
                 });
