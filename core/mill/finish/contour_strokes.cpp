@@ -26,13 +26,9 @@ Contour ContourStrokes::way_to(const Contour& contour) const {
   const Vec3& to = contour.front();
   const double far = (to - at_).norm();
   if (far > task_.beside_m) return {};
-  std::vector<Contour> ways = follow_envelope(task_.envelope, at_.head<2>(), to.head<2>());
-  if (ways.size() != 1) return {};
-  Contour& way = ways.front();
-  double length = 0;
-  for (std::size_t at = 1; at < way.size(); ++at) length += (way[at] - way[at - 1]).norm();
-  if (length > detour * far || (way.front() - at_).norm() > 1e-6 || (way.back() - to).norm() > 1e-6) return {};
-  return std::move(way);
+  Contour way = follow_whole(task_.envelope, at_.head<2>(), to.head<2>(), detour * far);
+  if (!way.empty() && ((way.front() - at_).norm() > 1e-6 || (way.back() - to).norm() > 1e-6)) return {};
+  return way;
 }
 
 void ContourStrokes::add(const Contour& contour) {

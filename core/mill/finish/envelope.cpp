@@ -15,13 +15,12 @@ constexpr double finest_m = 4e-6;
 class Follower {
  public:
   Follower(const EnvelopeTask& task, const Point2& from, const Point2& to) : task_(task), from_(from), way_(to - from) {
-    const double length = way_.norm(), look = std::clamp(look_share * task.radius_m, nearest_look_m, farthest_look_m);
-    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(length / look)));
-    for (std::size_t at = 0; at <= pieces; ++at)
-      looks_.push_back(rest(static_cast<double>(at) / static_cast<double>(pieces)));
+    const double look = std::clamp(look_share * task.radius_m, nearest_look_m, farthest_look_m);
+    pieces_ = static_cast<std::size_t>(std::max(1.0, std::ceil(way_.norm() / look)));
   }
 
   std::vector<Contour> run() {
+    for (std::size_t at = 0; at <= pieces_; ++at) looks_.push_back(rest(share_of(at)));
     std::size_t begin = 0;
     while (begin < looks_.size()) {
       if (!looks_[begin]) {
@@ -38,7 +37,23 @@ class Follower {
     return std::move(contours_);
   }
 
+  Contour run_whole(double longest_m) {
+    double length = 0;
+    for (std::size_t at = 0; at <= pieces_; ++at) {
+      looks_.push_back(rest(share_of(at)));
+      if (!looks_.back()) return {};
+      if (at > 0) length += (*looks_[at] - *looks_[at - 1]).norm();
+      if (length > longest_m) return {};
+    }
+    contours_.push_back({*looks_.front()});
+    go(0, pieces_);
+    if (contours_.size() != 1) return {};
+    return std::move(contours_.front());
+  }
+
  private:
+  double share_of(std::size_t look) const { return static_cast<double>(look) / static_cast<double>(pieces_); }
+
   /// The tip at rest; nothing where there is nothing to rest on, or it may not be there.
   std::optional<Vec3> rest(double share) const {
     const Point2 at = from_ + share * way_;
@@ -74,8 +89,7 @@ class Follower {
       go(middle, to);
       return;
     }
-    const double pieces = static_cast<double>(looks_.size() - 1);
-    divide(*looks_[from], static_cast<double>(from) / pieces, *looks_[to], static_cast<double>(to) / pieces);
+    divide(*looks_[from], share_of(from), *looks_[to], share_of(to));
   }
 
   /// Of an edge that is not proved.
@@ -97,6 +111,7 @@ class Follower {
 
   const EnvelopeTask& task_;
   Point2 from_, way_;
+  std::size_t pieces_ = 1;
   std::vector<std::optional<Vec3>> looks_;
   std::vector<Contour> contours_;
 };
@@ -105,6 +120,10 @@ class Follower {
 
 std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to) {
   return Follower(task, from, to).run();
+}
+
+Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double longest_m) {
+  return Follower(task, from, to).run_whole(longest_m);
 }
 
 }  // namespace sculpt
