@@ -78,13 +78,14 @@ HeldTool::HeldTool(const Cell& cell, const MillTool& tool, const Grid& stock, co
 }
 
 void HeldTool::see(const VoxelSet& cells) {
+  if (carrying_scene_ && cells == cells_) return;
   carrying_scene_ = std::make_unique<Scene>(carried_, around_, cells);
   cells_ = cells;
 }
 
 const HeldTool::Fields& HeldTool::fields(const Direction& direction, const Configuration& home, const RunContext& run) {
-  const auto [at, is_new] = fields_.try_emplace(direction);
-  Fields& fields = at->second;
+  const auto [at, is_new] = opened_.try_emplace(direction);
+  auto& [fields, standing] = at->second;
   if (is_new) {
     std::uint64_t number = 0;
     for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component + 1000));
@@ -92,6 +93,8 @@ const HeldTool::Fields& HeldTool::fields(const Direction& direction, const Confi
         find_fields(guided_scene_, view_of(direction), home, {home}, {mix(run.seed, number), run.helpers, run.watch});
     std::erase_if(fields, [](const auto& field) { return field->usable_cells() == 0; });
   }
+  if (!is_new && standing == cells_) return fields;
+  standing = cells_;
   const VoxelSet all(PostureLattice::fine, true);
   for (auto& field : fields)
     if (field->usable_cells() < PostureField::all_cells())

@@ -49,7 +49,11 @@ class HeldTool {
   std::unique_ptr<Scene> carrying_scene_;
   Scene guided_scene_;
   VoxelSet cells_;
-  std::map<Direction, Fields> fields_;
+  struct Opened {
+    Fields fields;
+    VoxelSet standing;  ///< cells that they were opened for
+  };
+  std::map<Direction, Opened> opened_;
 };
 
 }  // namespace sculpt

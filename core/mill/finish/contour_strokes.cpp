@@ -22,7 +22,6 @@ void ContourStrokes::lay(const Contour& contour, const Contour& way) {
 }
 
 Contour ContourStrokes::way_to(const Contour& contour) const {
-  if (!is_down_) return {};
   const Vec3& to = contour.front();
   const double far = (to - at_).norm();
   if (far > task_.beside_m) return {};

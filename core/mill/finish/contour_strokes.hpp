@@ -27,12 +27,14 @@ class ContourStrokes {
   /// `at`: where the tip is, in the air. `stock`: what is to come off.
   ContourStrokes(const Task& task, StockTop stock, const Vec3& at) : task_(task), stock_(std::move(stock)), at_(at) {}
 
-  /// Along the surface to where a contour begins; nothing where that is no short way.
+  /// Along the surface to where a contour begins, the tip being down; nothing where that is no short way. Any thread.
   Contour way_to(const Contour& contour) const;
   /// By a way to it, or from above where that is empty. Left out is where the cutter would take off more than it may at
   /// once.
   void lay(const Contour& contour, const Contour& way);
 
+  /// Is it at rest on the part?
+  bool is_down() const { return is_down_; }
   /// Where the tip is after them (tool frame).
   const Vec3& at() const { return at_; }
   const std::vector<MillStroke>& strokes() const { return strokes_; }

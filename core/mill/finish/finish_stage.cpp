@@ -238,7 +238,7 @@ class FinishStage {
         const std::vector<std::size_t> near = turn_nearest(laid.at(), contours, looked_at);
         std::size_t next = near.front();
         Contour way;
-        for (std::size_t at = 0; at < near.size() && way.empty(); ++at) {
+        for (std::size_t at = 0; at < near.size() && way.empty() && laid.is_down(); ++at) {
           way = laid.way_to(contours[near[at]]);
           if (!way.empty()) next = near[at];
         }
