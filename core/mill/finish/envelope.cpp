@@ -51,6 +51,7 @@ class Follower {
         before = *looks_[at];
       }
     }
+    is_whole_ = true;
     contours_.push_back({*looks_.front()});
     go(0, pieces_);
     if (contours_.size() != 1) return {};
@@ -87,7 +88,7 @@ class Follower {
   }
 
   void go(std::size_t from, std::size_t to) {
-    if (from == to) return;
+    if (from == to || is_given_up()) return;
     if (is_near(from, to) && is_proved(*looks_[from], *looks_[to])) return contours_.back().push_back(*looks_[to]);
     if (to - from > 1) {
       const std::size_t middle = (from + to) / 2;
@@ -100,6 +101,7 @@ class Follower {
 
   /// Of an edge that is not proved.
   void divide(const Vec3& a, double share_a, const Vec3& b, double share_b) {
+    if (is_given_up()) return;
     if ((b - a).head<2>().norm() > finest_m) {
       const double share = (share_a + share_b) / 2;
       if (const auto middle = rest(share)) {
@@ -115,7 +117,10 @@ class Follower {
     contours_.push_back({b});
   }
 
+  bool is_given_up() const { return is_whole_ && contours_.size() > 1; }
+
   const EnvelopeTask& task_;
+  bool is_whole_ = false;  ///< in one piece or not at all
   Point2 from_, way_;
   std::size_t pieces_ = 1;
   std::vector<std::optional<Vec3>> looks_;
