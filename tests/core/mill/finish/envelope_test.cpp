@@ -83,5 +83,28 @@ TEST(Envelope, BreaksOffWhereItMayNotGo) {
     for (const Vec3& tip : contour) EXPECT_GT(tip.z(), 0.004);
 }
 
+TEST(Envelope, AsAWholeIsTheSameOrNothing) {
+  const Mesh mesh = groove();
+  const ToolFrame frame({0, 0, 1});
+  const FacetColumns columns(mesh, frame);
+  EnvelopeTask task = make_task(columns);
+  const Vec3 from = frame.of({-0.012, 0, 0}), to = frame.of({0.012, 0, 0});
+  const auto whole = [&](double longest_m) { return follow_whole(task, from.head<2>(), to.head<2>(), longest_m); };
+  const auto pieces = follow_envelope(task, from.head<2>(), to.head<2>());
+  ASSERT_EQ(pieces.size(), 1U);
+  double length = 0;
+  for (std::size_t at = 1; at < pieces[0].size(); ++at) length += (pieces[0][at] - pieces[0][at - 1]).norm();
+  EXPECT_EQ(whole(1.01 * length), pieces[0]);
+  EXPECT_TRUE(whole(0.99 * length).empty());
+  task.is_allowed = [&](const Vec3& a, const Vec3&) { return frame.point(a).z() > 0.004; };
+  EXPECT_TRUE(whole(1).empty());
+  // A wall that no look falls on, but that edges do.
+  task.is_allowed = [&](const Vec3& a, const Vec3& b) {
+    return (frame.point(a).x() > 1e-5) == (frame.point(b).x() > 1e-5);
+  };
+  EXPECT_GT(follow_envelope(task, from.head<2>(), to.head<2>()).size(), 1U);
+  EXPECT_TRUE(whole(1).empty());
+}
+
 }  // namespace
 }  // namespace sculpt
