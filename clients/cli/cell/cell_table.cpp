@@ -194,9 +194,9 @@ std::string cell_table(const Json& found) {
   text += chain_lines(found) + body_lines(found) + pair_lines(found) + home_lines(found) + reach_lines(found) +
           tool_line(found);
   const Json& seconds = found.at("seconds");
-  text += format("time before a plan begins: %.2f s for the scene, %.2f s for the fields%s\n",
-                 number_of(seconds, "scene"), number_of(seconds, "fields"),
-                 seconds.at("fields_kept").get<bool>() ? " (kept from an earlier run)" : "");
+  text +=
+      format("time before a plan begins: %.2f s for the scene, %.2f s for the fields%s\n", number_of(seconds, "scene"),
+             number_of(seconds, "fields"), seconds.at("fields_kept").get<bool>() ? " (kept from an earlier run)" : "");
   return text + fault_lines(found);
 }
 

@@ -42,7 +42,7 @@ CellBox box_of(const std::vector<char>& marked, const Lattice& lattice) {
 
 }  // namespace
 
-LevelRows::LevelRows(const RowTask& task, RowLayout layout) : task_(task), stands_(task.stands) {
+LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), stands_(task.stands) {
   const Lattice& all = task_.lattice;
   const CellBox marked = box_of(task_.stands, all);
   if (marked.last_a < marked.first_a) return;

@@ -31,7 +31,7 @@ struct LevelRow {
 };
 
 /// What rows are laid for.
-struct RowTask {
+struct LevelArea {
   const Lattice& lattice;
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
   const std::vector<char>& stands;   ///< by cell: is it to come off?
@@ -45,7 +45,7 @@ struct RowTask {
 class LevelRows {
  public:
   /// What `task` refers to must outlive the object. Around where the tip may be everywhere there are none.
-  LevelRows(const RowTask& task, RowLayout layout);
+  LevelRows(const LevelArea& task, RowLayout layout);
 
   const std::vector<LevelRow>& rows() const { return rows_; }
 
@@ -57,7 +57,7 @@ class LevelRows {
   Curve straightened(const Curve& curve) const;
   void clear_beside(const LevelRow& row);
 
-  RowTask task_;
+  LevelArea task_;
   std::vector<char> stands_;  ///< what rows are still to be laid for
   std::vector<std::unique_ptr<RowField>> fields_;
   std::vector<LevelRow> rows_;

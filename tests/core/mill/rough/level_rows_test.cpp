@@ -29,7 +29,7 @@ struct Level {
     for (std::size_t at = 0; at < stands.size(); ++at)
       if (far[at] > 0.006F) stands[at] = 0;
   }
-  RowTask task() const { return {lattice, is_free, stands, radius, width, cleared, 0.008}; }
+  LevelArea task() const { return {lattice, is_free, stands, radius, width, cleared, 0.008}; }
 };
 
 double distance_to(const Point2& p, const LevelRow& row) {
