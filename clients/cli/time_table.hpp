@@ -8,7 +8,6 @@
 
 namespace sculpt::cli {
 
-
 /// {"time": {total_s, ratio, by{feed, rapid, velocity{}, acceleration{}, jerk{}}, worst[{keyframe, joint, feed_m_s}]}}.
 Json time_report(const PlanPath& path, const TimedPlan& plan);
 std::string time_table(const Json& report);

@@ -27,8 +27,9 @@ PlanPath::PlanPath(std::istream& in) {
   TrajectoryReader reader(in);
   header_ = reader.header();
   if (header_.mill)
-    throw InputError("trajectory_invalid",
-                     "the plan is for milling tools (format 2), of which no time law is made yet: take one of a thin tool");
+    throw InputError(
+        "trajectory_invalid",
+        "the plan is for milling tools (format 2), of which no time law is made yet: take one of a thin tool");
   dof_ = header_.joints.size();
   add(header_.home, {});
   Configuration at = header_.home;

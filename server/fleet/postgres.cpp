@@ -1,4 +1,5 @@
-// The one file that knows libpq (tests/fences.sh): connections, questions and what goes wrong with them, above 300 lines.
+// The one file that knows libpq (tests/fences.sh): connections, questions and what goes wrong with them, above 300
+// lines.
 #include "server/fleet/postgres.hpp"
 
 #include <libpq-fe.h>
