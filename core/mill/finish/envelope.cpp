@@ -40,17 +40,7 @@ class Follower {
   Contour run_whole(double longest_m) {
     looks_.resize(pieces_ + 1);
     // Most that are none are found out from a few places.
-    for (const std::size_t stride : {std::size_t{8}, std::size_t{1}}) {
-      double length = 0;
-      Vec3 before = Vec3::Zero();
-      for (std::size_t at = 0; at <= pieces_; at += stride) {
-        if (!looks_[at]) looks_[at] = rest(share_of(at));
-        if (!looks_[at]) return {};
-        if (at > 0) length += (*looks_[at] - before).norm();
-        if (length > longest_m) return {};
-        before = *looks_[at];
-      }
-    }
+    if (!look_along(8, longest_m) || !look_along(1, longest_m)) return {};
     is_whole_ = true;
     contours_.push_back({*looks_.front()});
     go(0, pieces_);
@@ -59,6 +49,18 @@ class Follower {
   }
 
  private:
+  /// Does it rest at all of these, no farther from the first to the last?
+  bool look_along(std::size_t stride, double longest_m) {
+    double length = 0;
+    for (std::size_t at = 0; at <= pieces_; at += stride) {
+      if (!looks_[at]) looks_[at] = rest(share_of(at));
+      if (!looks_[at]) return false;
+      if (at > 0) length += (*looks_[at] - *looks_[at - stride]).norm();
+      if (length > longest_m) return false;
+    }
+    return true;
+  }
+
   double share_of(std::size_t look) const { return static_cast<double>(look) / static_cast<double>(pieces_); }
 
   /// The tip at rest; nothing where there is nothing to rest on, or it may not be there.

@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/mill/finish/contour_strokes.hpp"
+#include "core/mill/finish/nail_reach.hpp"
 #include "core/mill/finish/rows.hpp"
 
 namespace sculpt {
 namespace {
 
-/// Lattices for what is above the cutter: cells of its radius, and no finer than this.
-constexpr double cells_a_radius = 8, finest_cell_m = 8e-4;
-/// The body keeps that much more off than it may stray.
-constexpr double body_room_m = 1e-4;
-/// Of the tolerance: a nail counts as reached where the cutter would leave no more, the allowance aside.
-constexpr double reached_share = 1.0 / 3;
-/// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
-constexpr double rest_slack_m = 1e-6;
-/// Beside a nail: of how far a ball may rest on its plane and still leave the tolerance; and in so many ways.
-constexpr double beside_share = 0.6;
-constexpr int turns_beside = 6;
 /// Angle classes: the axis is first tried near the normal. Cosines.
 constexpr std::array classes{0.64, 0.34, -0.02};
 /// How often all directions are gone through, each time with rows twice as near.
@@ -42,121 +31,35 @@ class FinishStage {
         nails_(carver.nails()),
         radius_m_(carver.tool().cutter.radius_m),
         spacing_m_(std::sqrt(8 * job.wishes.scallop_m * radius_m_)),
-        reach_(nails_.size()),
-        aside_(nails_.size(), Eigen::Vector3f::Zero()) {
-    for (const Direction& direction : mill_directions()) frames_.emplace_back(direction);
-    sites_.resize(frames_.size());
-  }
+        reach_(job, views, carver, run) {}
 
   void run(bool is_last) {
     for (int round = 0; round < (is_last ? rounds : 1); ++round) {
-      std::vector<std::uint32_t> tried(nails_.size());
-      if (round == 1) find_reach_beside();
-      for (std::size_t angle = 0; angle < classes.size(); ++angle) {
-        if (round == 0) find_reach(angle == 0 ? 2.0 : classes[angle - 1], classes[angle]);
-        const bool is_rest = is_last && (round > 0 || angle + 1 == classes.size());
-        const double worth = (is_rest ? last_worth_share : worth_share) * static_cast<double>(nails_.size());
-        while (const auto best = best_direction(classes[angle], tried, worth))
-          machine(*best, classes[angle], round, tried);
-      }
+      if (round == 1) reach_.find_beside(classes.back());
+      go_through(round, is_last);
     }
   }
 
  private:
-  bool is_open(std::size_t nail) const { return nails_.excess(nail) > job_.wishes.tolerance_m; }
-  double cosine(std::size_t nail, std::size_t direction) const { return nails_[nail].normal.dot(frames_[direction].w); }
-  double step_m() const { return std::max(finest_cell_m, radius_m_ / cells_a_radius); }
-  /// Made when first asked for; of each direction one thread at a time.
-  Site& site(std::size_t direction) {
-    if (!sites_[direction]) sites_[direction] = make_site(direction);
-    return *sites_[direction];
-  }
-  std::unique_ptr<Site> make_site(std::size_t direction) const {
-    return carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_stray_m + body_room_m},
-                             step_m());
-  }
-  Vec3 middle_over(std::size_t nail, const ToolFrame& frame) const {
-    return frame.of(nails_[nail].point + (radius_m_ + job_.wishes.allowance_m) * nails_[nail].normal +
-                    aside_[nail].cast<double>());
-  }
-
-  Vec3 tip_at(std::size_t nail, const ToolFrame& frame) const {
-    return middle_over(nail, frame) - Vec3(0, 0, radius_m_);
-  }
-
-  static bool is_above_floor(const Site& site, const Vec3& tip) {
-    const int a = site.lattice().cell_u(tip.x()), b = site.lattice().cell_v(tip.y());
-    return site.lattice().contains(a, b) && site.floor(a, b) <= tip.z();
-  }
-
-  /// Of all open nails whose normals are that near to a direction: could the cutter come to them along it?
-  void find_reach(double below, double from) {
-    std::vector<std::vector<char>> found(frames_.size());
-    run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
-      const Site& here = site(direction);
-      const auto columns = views_.along(direction, frames_[direction]);
-      found[direction].resize(nails_.size());
-      for (std::size_t nail = 0; nail < nails_.size(); ++nail) {
-        const double along = cosine(nail, direction);
-        if (along < below && along >= from && is_open(nail)) found[direction][nail] = is_reached(nail, here, *columns);
-        if (nail % 1024 == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
-      }
-    });
-    for (std::size_t direction = 0; direction < found.size(); ++direction)
-      for (std::size_t nail = 0; nail < nails_.size(); ++nail)
-        if (found[direction][nail]) {
-          reach_[nail] |= std::uint32_t{1} << direction;
-          carver_.mark_reachable(nail);
-        }
-  }
-
-  bool is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const {
-    return left_at_rest(nail, middle_over(nail, site.frame()), site, columns) <=
-           job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
-  }
-
-  /// What a cutter leaves of what stands on a nail, lowered so far; infinite where it may not be.
-  double left_at_rest(std::size_t nail, const Vec3& middle, const Site& site, const FacetColumns& columns) const {
-    if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return std::numeric_limits<double>::infinity();
-    const double height = columns.rest_height(
-        middle.x(), middle.y(), radius_m_ + job_.wishes.allowance_m - rest_slack_m, middle.z() - rest_slack_m);
-    return way_to_ball(site.frame().of(nails_[nail].point), site.frame().of(nails_[nail].normal),
-                       {middle.x(), middle.y(), height}, radius_m_);
-  }
-
-  /// In a crease the cutter cannot rest on a nail; beside it, perhaps, and still leave no more than the tolerance.
-  void find_reach_beside() {
-    std::vector<std::shared_ptr<const FacetColumns>> columns;
-    for (std::size_t direction = 0; direction < frames_.size(); ++direction) {
-      site(direction);
-      columns.push_back(views_.along(direction, frames_[direction]));
+  /// All directions, those near the nails' normals first.
+  void go_through(int round, bool is_last) {
+    std::vector<std::uint32_t> tried(nails_.size());
+    for (std::size_t angle = 0; angle < classes.size(); ++angle) {
+      if (round == 0) reach_.find(angle == 0 ? 2.0 : classes[angle - 1], classes[angle]);
+      const bool is_rest = is_last && (round > 0 || angle + 1 == classes.size());
+      const double worth = (is_rest ? last_worth_share : worth_share) * static_cast<double>(nails_.size());
+      while (const auto best = best_direction(classes[angle], tried, worth))
+        machine(*best, classes[angle], round, tried);
     }
-    const double far = beside_share * std::sqrt(2 * radius_m_ * (job_.wishes.tolerance_m - job_.wishes.allowance_m));
-    constexpr std::size_t batch = 512;
-    run_.helpers.for_each_index((nails_.size() + batch - 1) / batch, [&](std::size_t part) {
-      if (run_.watch.stop.stop_requested()) throw Cancelled{};
-      for (std::size_t nail = part * batch; nail < std::min(nails_.size(), (part + 1) * batch); ++nail) {
-        const Vec3 side = nails_[nail].normal.unitOrthogonal(), other = nails_[nail].normal.cross(side);
-        for (int turn = 0; turn < turns_beside && is_open(nail) && reach_[nail] == 0; ++turn) {
-          const double angle = 2 * std::numbers::pi * turn / turns_beside;
-          aside_[nail] = (far * (std::cos(angle) * side + std::sin(angle) * other)).cast<float>();
-          for (std::size_t direction = 0; direction < frames_.size(); ++direction)
-            if (cosine(nail, direction) >= classes.back() &&
-                left_at_rest(nail, middle_over(nail, frames_[direction]), *sites_[direction], *columns[direction]) <=
-                    job_.wishes.tolerance_m)
-              reach_[nail] |= std::uint32_t{1} << direction;
-        }
-        if (reach_[nail] == 0) aside_[nail].setZero();
-      }
-    });
   }
 
   bool is_wanted(std::size_t nail, std::size_t direction, double from, const std::vector<std::uint32_t>& tried) const {
-    return (reach_[nail] & ~tried[nail]) >> direction & 1 && is_open(nail) && cosine(nail, direction) >= from;
+    return reach_.comes_along(nail, direction) && (tried[nail] >> direction & 1) == 0 && reach_.is_open(nail) &&
+           reach_.cosine(nail, direction) >= from;
   }
 
   std::optional<std::size_t> best_direction(double from, const std::vector<std::uint32_t>& tried, double worth) const {
-    std::vector<std::size_t> counts(frames_.size());
+    std::vector<std::size_t> counts(reach_.directions());
     for (std::size_t direction = 0; direction < counts.size(); ++direction)
       for (std::size_t nail = 0; nail < nails_.size(); ++nail)
         counts[direction] += is_wanted(nail, direction, from, tried);
@@ -172,22 +75,25 @@ class FinishStage {
         wanted.push_back(nail);
         tried[nail] |= std::uint32_t{1} << direction;
       }
-    Site& along = site(direction);
+    Site& along = reach_.site(direction);
     along.see(carver_.stock().standing(), job_.grid);
-    std::erase_if(wanted, [&](std::uint32_t nail) { return !is_above_floor(along, tip_at(nail, along.frame())); });
+    std::erase_if(wanted,
+                  [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
     std::vector<Vec3> places;
-    for (const std::uint32_t nail : wanted) places.push_back(along.frame().point(tip_at(nail, along.frame())));
+    places.reserve(wanted.size());
+    for (const std::uint32_t nail : wanted) places.push_back(along.frame().point(reach_.tip_at(nail, along.frame())));
     if (!carver_.enter(direction, along, places)) return;
     // The robot may come to the others in another way.
     std::erase_if(wanted, [&](std::uint32_t nail) {
-      const bool comes = carver_.reach().allows(tip_at(nail, along.frame()));
+      const bool comes = carver_.reach().allows(reach_.tip_at(nail, along.frame()));
       if (!comes) tried[nail] &= ~(std::uint32_t{1} << direction);
       return !comes;
     });
     const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
     std::vector<RestingBall> balls;
-    for (const std::uint32_t nail : wanted) balls.push_back({nail, middle_over(nail, along.frame())});
+    balls.reserve(wanted.size());
+    for (const std::uint32_t nail : wanted) balls.push_back({nail, reach_.middle_over(nail, along.frame())});
     const std::vector<Row> rows = find_rows({spacing_m_, round}, along.frame(), nails_, balls);
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
@@ -226,6 +132,21 @@ class FinishStage {
     std::size_t begin;
   };
 
+  /// The nearest that the tip comes to along the surface; else the nearest.
+  static Contour lay_next(std::vector<Contour>& contours, ContourStrokes& laid) {
+    const std::vector<std::size_t> near = turn_nearest(laid.at(), contours, looked_at);
+    std::size_t next = near.front();
+    Contour way;
+    for (std::size_t at = 0; at < near.size() && way.empty() && laid.is_down(); ++at) {
+      way = laid.way_to(contours[near[at]]);
+      if (!way.empty()) next = near[at];
+    }
+    Contour contour = std::move(contours[next]);
+    contours.erase(contours.begin() + static_cast<std::ptrdiff_t>(next));
+    laid.lay(contour, way);
+    return contour;
+  }
+
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
     double least_height = -std::numeric_limits<double>::infinity();
     for (int failures = 0; !contours.empty() && failures < max_failures;) {
@@ -234,17 +155,8 @@ class FinishStage {
           see_stock(site), carver_.tip(site));
       std::vector<Laid> batch;
       while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
-        // The nearest that the tip comes to along the surface; else the nearest.
-        const std::vector<std::size_t> near = turn_nearest(laid.at(), contours, looked_at);
-        std::size_t next = near.front();
-        Contour way;
-        for (std::size_t at = 0; at < near.size() && way.empty() && laid.is_down(); ++at) {
-          way = laid.way_to(contours[near[at]]);
-          if (!way.empty()) next = near[at];
-        }
-        batch.push_back({std::move(contours[next]), laid.strokes().size()});
-        contours.erase(contours.begin() + static_cast<std::ptrdiff_t>(next));
-        laid.lay(batch.back().contour, way);
+        const std::size_t begin = laid.strokes().size();
+        batch.push_back({lay_next(contours, laid), begin});
       }
       const std::vector<MillStroke>& strokes = laid.strokes();
       const std::size_t done = carver_.carry_out(strokes);
@@ -278,10 +190,7 @@ class FinishStage {
   const RunContext& run_;
   const Nails& nails_;
   double radius_m_, spacing_m_;
-  std::vector<ToolFrame> frames_;
-  std::vector<std::unique_ptr<Site>> sites_;
-  std::vector<std::uint32_t> reach_;    ///< of each nail, a bit for each direction
-  std::vector<Eigen::Vector3f> aside_;  ///< of each nail, how far beside it the cutter rests
+  NailReach reach_;
 };
 
 }  // namespace

@@ -39,24 +39,27 @@ class LowerEnvelope {
   std::vector<double> from_;
 };
 
+/// Of each cell of a row to the nearest marked one of that row, in cells; no farther than `far`.
+void find_along(const char* marked, std::size_t width, double far, float* distances) {
+  double since = far;
+  for (std::size_t a = 0; a < width; ++a) {
+    since = marked[a] ? 0 : std::min(far, since + 1);
+    distances[a] = static_cast<float>(since);
+  }
+  since = far;
+  for (std::size_t a = width; a-- > 0;) {
+    since = marked[a] ? 0 : std::min(far, since + 1);
+    distances[a] = std::min(distances[a], static_cast<float>(since));
+  }
+}
+
 }  // namespace
 
 std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice) {
   const auto w = static_cast<std::size_t>(lattice.width), h = static_cast<std::size_t>(lattice.height);
-  const double far = static_cast<double>(w + h);
   std::vector<float> distances(lattice.size());
-  for (std::size_t b = 0; b < h; ++b) {
-    double since = far;
-    for (std::size_t a = 0; a < w; ++a) {
-      since = marked[b * w + a] ? 0 : std::min(far, since + 1);
-      distances[b * w + a] = static_cast<float>(since);
-    }
-    since = far;
-    for (std::size_t a = w; a-- > 0;) {
-      since = marked[b * w + a] ? 0 : std::min(far, since + 1);
-      distances[b * w + a] = std::min(distances[b * w + a], static_cast<float>(since));
-    }
-  }
+  for (std::size_t b = 0; b < h; ++b)
+    find_along(marked.data() + b * w, w, static_cast<double>(w + h), distances.data() + b * w);
   LowerEnvelope envelope(h);
   std::vector<double> squares(h), least(h);
   for (std::size_t a = 0; a < w; ++a) {

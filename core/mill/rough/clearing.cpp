@@ -142,20 +142,18 @@ void Clearing::turn_towards(LevelRow& row, const Point2& at) const {
   const auto far = [&](const Point2& p) { return (p - at).squaredNorm(); };
   if (row.is_closed) {
     row.points.pop_back();
-    std::ranges::rotate(row.points, std::ranges::min_element(row.points, {}, far));
+    std::rotate(row.points.begin(), std::ranges::min_element(row.points, {}, far), row.points.end());
     row.points.push_back(row.points.front());
   } else if (far(row.points.back()) < far(row.points.front())) {
     std::ranges::reverse(row.points);
   }
 }
 
-/// From where the tip is, if that is near; or from where it is open: straight, from farther outside or from before its
-/// beginning; into a ring bit by bit.
-LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
+/// Straight, from farther outside or from before its beginning; into a ring bit by bit.
+std::vector<LevelPass> Clearing::ways_into(const LevelRow& row) const {
   const Point2 begin = row.points.front(), out = row.field->outwards(begin),
                ahead = (row.points[1] - begin).normalized();
   const double radius = task_.tool.cutter.radius_m;
-  if (tip && (begin - *tip).norm() <= linked_radii * radius && may_cut(*tip, begin)) return {*tip, begin};
   std::vector<LevelPass> ways{{begin}};
   for (int halves = 1; halves <= 6; ++halves) ways.push_back({begin + halves * width_m_ / 2 * out, begin});
   for (const double radii : {1.0, 2.0}) ways.push_back({begin - radii * radius * ahead, begin});
@@ -171,7 +169,15 @@ LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip)
     std::ranges::reverse(way);
     ways.push_back(std::move(way));
   }
-  for (LevelPass& way : ways) {
+  return ways;
+}
+
+/// From where the tip is, if that is near; or from where it is open.
+LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
+  const Point2& begin = row.points.front();
+  if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut(*tip, begin))
+    return {*tip, begin};
+  for (LevelPass& way : ways_into(row)) {
     bool is_allowed = is_open(way.front());
     for (std::size_t at = 0; at + 1 < way.size() && is_allowed; ++at) is_allowed = may_cut(way[at], way[at + 1]);
     if (is_allowed) return std::move(way);

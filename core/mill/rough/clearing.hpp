@@ -61,6 +61,7 @@ class Clearing {
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
   void turn_towards(LevelRow& row, const Point2& at) const;
+  std::vector<LevelPass> ways_into(const LevelRow& row) const;
   LevelPass enter(const LevelRow& row, const std::optional<Point2>& tip) const;
   LevelPass follow(std::size_t number, const std::optional<Point2>& tip);
   void put_off(std::size_t number, std::size_t refused);

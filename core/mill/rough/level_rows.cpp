@@ -40,6 +40,29 @@ CellBox box_of(const std::vector<char>& marked, const Lattice& lattice) {
   return box;
 }
 
+/// The distance from the middle, and `more`.
+RowField straight_field(const Lattice& lattice, RowLayout layout, double more) {
+  RowField field{lattice, {}};
+  field.values.reserve(lattice.size());
+  for (int b = 0; b < lattice.height; ++b)
+    for (int a = 0; a < lattice.width; ++a) {
+      const double across =
+          layout == RowLayout::along_u ? b - (lattice.height - 1) / 2.0 : a - (lattice.width - 1) / 2.0;
+      field.values.push_back(static_cast<float>(std::abs(across) * lattice.step + more));
+    }
+  return field;
+}
+
+/// The largest value at cells that are marked; the field is over a box of their lattice.
+double farthest_of(const RowField& field, const std::vector<char>& marked, const Lattice& all, const CellBox& box) {
+  double farthest = 0;
+  for (int b = 0; b < field.lattice.height; ++b)
+    for (int a = 0; a < field.lattice.width; ++a)
+      if (marked[all.index(a + box.first_a, b + box.first_b)])
+        farthest = std::max(farthest, static_cast<double>(field.values[field.lattice.index(a, b)]));
+  return farthest;
+}
+
 }  // namespace
 
 LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), stands_(task.stands) {
@@ -51,33 +74,17 @@ LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), sta
   const Lattice lattice = box.of(all);
   // Where the tip may not be, about what is to come off.
   std::vector<char> shut(lattice.size());
-  bool any = false;
   for (int b = near.first_b; b <= near.last_b; ++b)
     for (int a = near.first_a; a <= near.last_a; ++a)
-      if (!task_.is_free[all.index(a, b)]) {
-        shut[lattice.index(a - box.first_a, b - box.first_b)] = 1;
-        any = true;
-      }
-  const bool is_around = layout == RowLayout::around;
+      shut[lattice.index(a - box.first_a, b - box.first_b)] = task_.is_free[all.index(a, b)] ? 0 : 1;
+  const bool is_around = layout == RowLayout::around, any = std::ranges::count(shut, 1) > 0;
   if (is_around && !any) return;
   const double last = last_row_cells * lattice.step;
-  if (any) fields_.push_back(std::make_unique<RowField>(lattice, distances_to(shut, lattice)));
-  if (!is_around) {
-    auto field = std::make_unique<RowField>(lattice, std::vector<float>{});
-    for (int b = 0; b < lattice.height; ++b)
-      for (int a = 0; a < lattice.width; ++a) {
-        const double across =
-            layout == RowLayout::along_u ? b - (lattice.height - 1) / 2.0 : a - (lattice.width - 1) / 2.0;
-        field->values.push_back(static_cast<float>(std::abs(across) * lattice.step + last - task_.cleared_m));
-      }
-    fields_.push_back(std::move(field));
-  }
+  if (any) fields_.push_back(std::make_unique<RowField>(RowField{lattice, distances_to(shut, lattice)}));
+  if (!is_around)
+    fields_.push_back(std::make_unique<RowField>(straight_field(lattice, layout, last - task_.cleared_m)));
   const RowField& field = *fields_.back();
-  double farthest = 0;
-  for (int b = 0; b < lattice.height; ++b)
-    for (int a = 0; a < lattice.width; ++a)
-      if (task_.stands[all.index(a + box.first_a, b + box.first_b)])
-        farthest = std::max(farthest, static_cast<double>(field.values[lattice.index(a, b)]));
+  const double farthest = farthest_of(field, task_.stands, all, box);
   const double first = last + ((is_around ? last_share : 1) - 1) * task_.width_m, cleared = task_.cleared_m,
                outside = task_.width_m - cleared;
   const int count = static_cast<int>(std::ceil((farthest + cleared - first) / task_.width_m));
@@ -128,7 +135,7 @@ void LevelRows::lay(const RowField& field, int rank, double value, double inside
     for (const Point2& p : curve) needed.push_back(is_needed(field, p, inside, outside) ? 1 : 0);
     const bool is_ring = (curve.front() - curve.back()).norm() == 0;
     if (!is_ring) {
-      add_stretches(field, rank, value, curve, std::move(needed));
+      add_stretches({&field, value, {}, false, rank}, curve, needed);
     } else if (std::ranges::count(needed, 1) == std::ranges::ssize(needed)) {
       rows_.push_back({&field, value, straightened(curve), true, rank});
     } else {
@@ -136,35 +143,40 @@ void LevelRows::lay(const RowField& field, int rank, double value, double inside
       Curve points(curve.begin(), curve.end() - 1);
       needed.pop_back();
       const auto begin = std::ranges::find(needed, 0) - needed.begin();
-      std::ranges::rotate(points, points.begin() + begin);
-      std::ranges::rotate(needed, needed.begin() + begin);
-      add_stretches(field, rank, value, points, std::move(needed));
+      std::rotate(points.begin(), points.begin() + begin, points.end());
+      std::rotate(needed.begin(), needed.begin() + begin, needed.end());
+      add_stretches({&field, value, {}, false, rank}, points, needed);
     }
   }
 }
 
-void LevelRows::add_stretches(const RowField& field, int rank, double value, const Curve& curve,
-                              std::vector<char> needed) {
-  const double bridged_m = bridged_radii * task_.radius_m;
+/// The last place of a stretch that begins at one where something is to come off.
+std::size_t LevelRows::end_of_stretch(const Curve& curve, const std::vector<char>& needed, std::size_t begin) const {
+  std::size_t last = begin;
+  double gap = 0;
+  for (std::size_t next = begin + 1; next < curve.size() && gap <= bridged_radii * task_.radius_m; ++next) {
+    if (!edge_is_free(curve[next - 1], curve[next])) break;
+    gap += (curve[next] - curve[next - 1]).norm();
+    if (!needed[next]) continue;
+    last = next;
+    gap = 0;
+  }
+  return last;
+}
+
+/// Like `row`, along those parts of a curve where something is to come off.
+void LevelRows::add_stretches(LevelRow row, const Curve& curve, const std::vector<char>& needed) {
   for (std::size_t at = 0; at < curve.size(); ++at) {
     if (!needed[at]) continue;
-    std::size_t last = at;
-    double gap = 0;
-    for (std::size_t next = at + 1; next < curve.size() && gap <= bridged_m; ++next) {
-      if (!edge_is_free(curve[next - 1], curve[next])) break;
-      gap += (curve[next] - curve[next - 1]).norm();
-      if (!needed[next]) continue;
-      last = next;
-      gap = 0;
-    }
+    std::size_t last = end_of_stretch(curve, needed, at);
     // A place more at both ends, for what stands between two.
     const std::size_t begin = at > 0 && edge_is_free(curve[at - 1], curve[at]) ? at - 1 : at;
     if (last + 1 < curve.size() && edge_is_free(curve[last], curve[last + 1])) ++last;
-    if (last > begin)
-      rows_.push_back({&field, value,
-                       straightened({curve.begin() + static_cast<std::ptrdiff_t>(begin),
-                                     curve.begin() + static_cast<std::ptrdiff_t>(last) + 1}),
-                       false, rank});
+    if (last > begin) {
+      row.points = straightened(
+          {curve.begin() + static_cast<std::ptrdiff_t>(begin), curve.begin() + static_cast<std::ptrdiff_t>(last) + 1});
+      rows_.push_back(row);
+    }
     at = last;
   }
 }

@@ -1,0 +1,62 @@
+// Along which directions a ball cutter comes to each nail.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/mill/carver.hpp"
+#include "core/mill/finish/part_views.hpp"
+
+namespace sculpt {
+
+/// May the tip be there (tool frame), for what is above the cutter?
+bool is_above_floor(const Site& site, const Vec3& tip);
+
+/// For the tool that a carver holds. Not shared between threads.
+class NailReach {
+ public:
+  /// All must outlive the object.
+  NailReach(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run);
+
+  /// Of all open nails whose normals are that near to a direction (cosines): could the cutter come to them along it?
+  /// Those are marked as reachable. Throws Cancelled.
+  void find(double below, double from);
+  /// In a crease the cutter cannot rest on a nail; beside it, perhaps, and still leave no more than the tolerance. Of
+  /// open nails that nothing was found for. Throws Cancelled.
+  void find_beside(double from);
+
+  std::size_t directions() const { return frames_.size(); }
+  /// Its maps; made when first asked for, of each direction one thread at a time.
+  Site& site(std::size_t direction);
+  bool comes_along(std::size_t nail, std::size_t direction) const { return along_[nail] >> direction & 1; }
+  /// What stands on it is more than the tolerance.
+  bool is_open(std::size_t nail) const { return nails_.excess(nail) > job_.wishes.tolerance_m; }
+  double cosine(std::size_t nail, std::size_t direction) const { return nails_[nail].normal.dot(frames_[direction].w); }
+  /// Of the ball at rest on a nail, or beside it (tool frame).
+  Vec3 middle_over(std::size_t nail, const ToolFrame& frame) const;
+  Vec3 tip_at(std::size_t nail, const ToolFrame& frame) const {
+    return middle_over(nail, frame) - Vec3(0, 0, radius_m_);
+  }
+
+ private:
+  using Views = std::vector<std::shared_ptr<const FacetColumns>>;
+
+  bool is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const;
+  double left_at_rest(std::size_t nail, const Site& site, const FacetColumns& columns) const;
+  void find_beside(std::size_t nail, double from, double far, const Views& columns);
+
+  const MillJob& job_;
+  PartViews& views_;
+  Carver& carver_;
+  const RunContext& run_;
+  const Nails& nails_;
+  double radius_m_;
+  std::vector<ToolFrame> frames_;
+  std::vector<std::unique_ptr<Site>> sites_;
+  std::vector<std::uint32_t> along_;    ///< of each nail, a bit for each direction
+  std::vector<Eigen::Vector3f> aside_;  ///< of each nail, how far beside it the ball rests
+};
+
+}  // namespace sculpt
