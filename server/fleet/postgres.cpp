@@ -199,6 +199,19 @@ void Postgres::await_result(Clock::time_point end) {
   }
 }
 
+// What is left of it is void: it is read up to its end.
+void Postgres::leave_pipeline(Clock::time_point end) {
+  for (int nulls = 0; PQstatus(connection_) == CONNECTION_OK;) {
+    await_result(end);
+    pg_result* more = PQgetResult(connection_);
+    const bool last = more != nullptr && PQresultStatus(more) == PGRES_PIPELINE_SYNC;
+    nulls = more == nullptr ? nulls + 1 : 0;
+    PQclear(more);
+    if (last || nulls > 1) break;
+  }
+  PQexitPipelineMode(connection_);
+}
+
 // Of the statement that is next; behind it stands a null.
 Answered Postgres::next_result(Clock::time_point end) {
   await_result(end);
@@ -209,16 +222,7 @@ Answered Postgres::next_result(Clock::time_point end) {
     if (PQpipelineStatus(connection_) == PQ_PIPELINE_OFF) {
       while (pg_result* more = PQgetResult(connection_)) PQclear(more);
     } else {
-      // The rest of the pipeline is void: read up to its end.
-      for (int nulls = 0; PQstatus(connection_) == CONNECTION_OK;) {
-        await_result(end);
-        pg_result* more = PQgetResult(connection_);
-        const bool last = more != nullptr && PQresultStatus(more) == PGRES_PIPELINE_SYNC;
-        nulls = more == nullptr ? nulls + 1 : 0;
-        PQclear(more);
-        if (last || nulls > 1) break;
-      }
-      PQexitPipelineMode(connection_);
+      leave_pipeline(end);
     }
     fail(result);
   }

@@ -92,6 +92,7 @@ class Postgres {
   bool is_distrusted() const;
   void prepare(const std::string& sql);
   void send(const Question& question);
+  void leave_pipeline(Clock::time_point end);
   Answered next_result(Clock::time_point end);
   void await_result(Clock::time_point end);
   [[noreturn]] void fail(const pg_result* result);

@@ -38,9 +38,10 @@ void for_each_cell_of(const Vec3& low, const Vec3& high, const Grid& around, con
 Grid grid_around(const Grid& stock, double room_m) {
   const double size = stock.n * stock.voxel_m;
   int across = cells_around - 2;
-  while (across > 2 && size / across * ((cells_around - across) / 2) < room_m) across -= 2;
+  const auto beside = [](int cells) { return (cells_around - cells) / 2; };
+  while (across > 2 && size / across * beside(across) < room_m) across -= 2;
   const double cell = size / across;
-  return {cells_around, cell, stock.origin_m - Vec3::Constant(cell * ((cells_around - across) / 2))};
+  return {cells_around, cell, stock.origin_m - Vec3::Constant(cell * beside(across))};
 }
 
 VoxelSet cells_of(const Grid& stock, const Grid& around) {
@@ -88,7 +89,7 @@ const HeldTool::Fields& HeldTool::fields(const Direction& direction, const Confi
   auto& [fields, standing] = at->second;
   if (is_new) {
     std::uint64_t number = 0;
-    for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component + 1000));
+    for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component) + 1000);
     fields =
         find_fields(guided_scene_, view_of(direction), home, {home}, {mix(run.seed, number), run.helpers, run.watch});
     std::erase_if(fields, [](const auto& field) { return field->usable_cells() == 0; });

@@ -187,6 +187,22 @@ void FacetColumns::for_each_cell(double low_u, double high_u, double low_v, doub
             low_u_ + a * step_, low_v_ + b * step_);
 }
 
+/// The lowest that a ball may be over one facet; `height` where that is higher.
+double FacetColumns::rest_on(const Facet& facet, double u, double v, double radius, double height) {
+  const auto& t = facet.corners;
+  const Vec3& n = facet.normal;
+  if (n.z() > upright) {
+    const double z = t[0].z() + (radius - n.x() * (u - t[0].x()) - n.y() * (v - t[0].y())) / n.z();
+    if (z <= height) return height;  // the plane is the higher bound
+    if (covers(t, u - radius * n.x(), v - radius * n.y())) return z;
+  }
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    height = std::max(height, over_corner(t[edge], u, v, radius * radius));
+    height = std::max(height, over_edge(t[edge], t[(edge + 1) % 3], u, v, radius * radius));
+  }
+  return height;
+}
+
 double FacetColumns::rest_height(double u, double v, double radius, double from) const {
   const double r2 = radius * radius;
   double height = from;
@@ -194,20 +210,7 @@ double FacetColumns::rest_height(double u, double v, double radius, double from)
     for (std::uint32_t at = begin_[cell]; at < begin_[cell + 1]; ++at) {
       const Facet& facet = facets_[numbers_[at]];
       if (facet.top + lift <= height) return;
-      const auto& t = facet.corners;
-      const Vec3& n = facet.normal;
-      if (n.z() > upright) {
-        const double z = t[0].z() + (radius - n.x() * (u - t[0].x()) - n.y() * (v - t[0].y())) / n.z();
-        if (z <= height) continue;  // the plane is the higher bound
-        if (covers(t, u - radius * n.x(), v - radius * n.y())) {
-          height = z;
-          continue;
-        }
-      }
-      for (std::size_t edge = 0; edge < 3; ++edge) {
-        height = std::max(height, over_corner(t[edge], u, v, r2));
-        height = std::max(height, over_edge(t[edge], t[(edge + 1) % 3], u, v, r2));
-      }
+      height = rest_on(facet, u, v, radius, height);
     }
   };
   for_each_cell(u, u, v, v, [&](std::size_t cell, double, double) { look(cell, radius); });

@@ -28,6 +28,7 @@ class FacetColumns {
     Vec3 normal;  ///< unit, not downwards
     double top;
   };
+  static double rest_on(const Facet& facet, double u, double v, double radius, double height);
   template <typename Visit>
   void for_each_cell(double low_u, double high_u, double low_v, double high_v, const Visit& visit) const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace sculpt {
 namespace {
@@ -23,7 +24,7 @@ constexpr double bridged_spacings = 8;
 struct Place {
   int heading;
   std::int64_t number;  ///< of the row, in the finest spacing
-  auto operator<=>(const Place&) const = default;
+  bool operator<(const Place& other) const { return std::tie(heading, number) < std::tie(other.heading, other.number); }
 };
 
 Point2 way_of(int heading) {

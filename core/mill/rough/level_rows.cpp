@@ -83,8 +83,14 @@ LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), sta
   if (any) fields_.push_back(std::make_unique<RowField>(RowField{lattice, distances_to(shut, lattice)}));
   if (!is_around)
     fields_.push_back(std::make_unique<RowField>(straight_field(lattice, layout, last - task_.cleared_m)));
+  lay_all(layout, farthest_of(*fields_.back(), task_.stands, all, box), any);
+}
+
+/// From the outside inwards: rows, where the tip may not be somewhere (`any`) one around that, and what is left.
+void LevelRows::lay_all(RowLayout layout, double farthest, bool any) {
   const RowField& field = *fields_.back();
-  const double farthest = farthest_of(field, task_.stands, all, box);
+  const bool is_around = layout == RowLayout::around;
+  const double last = last_row_cells * task_.lattice.step;
   const double first = last + ((is_around ? last_share : 1) - 1) * task_.width_m, cleared = task_.cleared_m,
                outside = task_.width_m - cleared;
   const int count = static_cast<int>(std::ceil((farthest + cleared - first) / task_.width_m));

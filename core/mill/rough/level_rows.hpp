@@ -52,6 +52,7 @@ class LevelRows {
  private:
   bool edge_is_free(const Point2& from, const Point2& to) const;
   bool is_needed(const RowField& field, const Point2& p, double inside, double outside) const;
+  void lay_all(RowLayout layout, double farthest, bool any);
   void lay(const RowField& field, int rank, double value, double inside, double outside);
   std::size_t end_of_stretch(const Curve& curve, const std::vector<char>& needed, std::size_t begin) const;
   void add_stretches(LevelRow row, const Curve& curve, const std::vector<char>& needed);
