@@ -72,19 +72,15 @@ double Clearing::volume_to_clear() const {
 }
 
 void Clearing::cut(const Point2& from, const Point2& to) {
-  taken_m3_ += volume(from, to);
-  surface_.cut(at_level(from), at_level(to), [](std::size_t, float) {});
+  double heights = 0;
+  surface_.cut(at_level(from), at_level(to), [&](std::size_t at, float before) {
+    heights += static_cast<double>(before - surface_.map().heights[at]);
+  });
+  taken_m3_ += heights * lattice_.step * lattice_.step;
 }
 
 double Clearing::volume(const Point2& from, const Point2& to) const {
   return surface_.volume(at_level(from), at_level(to));
-}
-
-bool Clearing::edge_is_free(const Point2& from, const Point2& to) const {
-  bool free = lattice_.contains(lattice_.cell_u(to.x()), lattice_.cell_v(to.y()));
-  for_each_cell_near(lattice_, at_level(from), at_level(to), 0,
-                     [&](int a, int b) { free = free && task_.is_free[lattice_.index(a, b)]; });
-  return free;
 }
 
 bool Clearing::may_cut(const Point2& from, const Point2& to) const {
@@ -195,9 +191,9 @@ void Clearing::put_off(std::size_t number, std::size_t refused) {
   };
   std::size_t end = refused + 1;
   while (end + 1 < row.points.size() && is_too_much(row.points[end], row.points[end + 1])) ++end;
-  Turn rest{{row.field, row.value, {row.points.begin() + static_cast<std::ptrdiff_t>(refused), row.points.end()}}};
+  Turn rest{{row.field, {row.points.begin() + static_cast<std::ptrdiff_t>(refused), row.points.end()}}};
   if (tries < max_tries) {
-    Turn outer{{row.field, row.value + width_m_ / 2, {}}};
+    Turn outer{{row.field, {}}};
     outer.tries = rest.tries = tries + 1;
     for (std::size_t at = refused > 0 ? refused - 1 : 0; at <= std::min(end + 1, row.points.size() - 1); ++at)
       outer.row.points.push_back(row.points[at] + width_m_ / 2 * row.field->outwards(row.points[at]));
@@ -228,8 +224,7 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
     const Point2 &from = row.points[at], &to = row.points[at + 1];
     if (!edge_is_free(from, to)) {
       if (at + 2 < row.points.size())
-        turns_.push_back(
-            {{row.field, row.value, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
+        turns_.push_back({{row.field, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
       break;
     }
     const double more = volume(from, to), far = (to - from).norm();

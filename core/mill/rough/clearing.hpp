@@ -52,7 +52,9 @@ class Clearing {
 
   Vec3 at_level(const Point2& p) const { return {p.x(), p.y(), task_.height}; }
   double volume(const Point2& from, const Point2& to) const;
-  bool edge_is_free(const Point2& from, const Point2& to) const;
+  bool edge_is_free(const Point2& from, const Point2& to) const {
+    return sculpt::edge_is_free(lattice_, task_.is_free, from, to);
+  }
   bool may_cut(const Point2& from, const Point2& to) const;
   bool is_open(const Point2& p) const;
   void cut(const Point2& from, const Point2& to);

@@ -65,6 +65,13 @@ double farthest_of(const RowField& field, const std::vector<char>& marked, const
 
 }  // namespace
 
+bool edge_is_free(const Lattice& lattice, const std::vector<char>& is_free, const Point2& from, const Point2& to) {
+  bool free = lattice.contains(lattice.cell_u(to.x()), lattice.cell_v(to.y()));
+  for_each_cell_near(lattice, {from.x(), from.y(), 0}, {to.x(), to.y(), 0}, 0,
+                     [&](int a, int b) { free = free && is_free[lattice.index(a, b)]; });
+  return free;
+}
+
 LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), stands_(task.stands) {
   const Lattice& all = task_.lattice;
   const CellBox marked = box_of(task_.stands, all);
@@ -112,14 +119,6 @@ void LevelRows::clear_beside(const LevelRow& row) {
   }
 }
 
-bool LevelRows::edge_is_free(const Point2& from, const Point2& to) const {
-  const Lattice& lattice = task_.lattice;
-  bool free = lattice.contains(lattice.cell_u(to.x()), lattice.cell_v(to.y()));
-  for_each_cell_near(lattice, {from.x(), from.y(), 0}, {to.x(), to.y(), 0}, 0,
-                     [&](int a, int b) { free = free && task_.is_free[lattice.index(a, b)]; });
-  return free;
-}
-
 /// Does anything stand beside it, so far on both sides?
 bool LevelRows::is_needed(const RowField& field, const Point2& p, double inside, double outside) const {
   const Lattice& lattice = task_.lattice;
@@ -141,9 +140,9 @@ void LevelRows::lay(const RowField& field, int rank, double value, double inside
     for (const Point2& p : curve) needed.push_back(is_needed(field, p, inside, outside) ? 1 : 0);
     const bool is_ring = (curve.front() - curve.back()).norm() == 0;
     if (!is_ring) {
-      add_stretches({&field, value, {}, false, rank}, curve, needed);
+      add_stretches({&field, {}, false, rank}, curve, needed);
     } else if (std::ranges::count(needed, 1) == std::ranges::ssize(needed)) {
-      rows_.push_back({&field, value, straightened(curve), true, rank});
+      rows_.push_back({&field, straightened(curve), true, rank});
     } else {
       // A ring is begun where nothing is to come off.
       Curve points(curve.begin(), curve.end() - 1);
@@ -151,7 +150,7 @@ void LevelRows::lay(const RowField& field, int rank, double value, double inside
       const auto begin = std::ranges::find(needed, 0) - needed.begin();
       std::rotate(points.begin(), points.begin() + begin, points.end());
       std::rotate(needed.begin(), needed.begin() + begin, needed.end());
-      add_stretches({&field, value, {}, false, rank}, points, needed);
+      add_stretches({&field, {}, false, rank}, points, needed);
     }
   }
 }

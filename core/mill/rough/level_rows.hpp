@@ -23,12 +23,14 @@ namespace sculpt {
 enum class RowLayout { around, along_u, along_v };
 
 struct LevelRow {
-  const RowField* field = nullptr;
-  double value = 0;  ///< of the field (m): where it is larger comes first
+  const RowField* field = nullptr;  ///< that it is a level curve of
   Curve points;
   bool is_closed = false;
   int rank = 0;  ///< those of larger rank come before those near them
 };
+
+/// May the tip go straight from one place to the other? `is_free`: by cell of the lattice.
+bool edge_is_free(const Lattice& lattice, const std::vector<char>& is_free, const Point2& from, const Point2& to);
 
 /// What rows are laid for.
 struct LevelArea {
@@ -50,7 +52,9 @@ class LevelRows {
   const std::vector<LevelRow>& rows() const { return rows_; }
 
  private:
-  bool edge_is_free(const Point2& from, const Point2& to) const;
+  bool edge_is_free(const Point2& from, const Point2& to) const {
+    return sculpt::edge_is_free(task_.lattice, task_.is_free, from, to);
+  }
   bool is_needed(const RowField& field, const Point2& p, double inside, double outside) const;
   void lay_all(RowLayout layout, double farthest, bool any);
   void lay(const RowField& field, int rank, double value, double inside, double outside);
