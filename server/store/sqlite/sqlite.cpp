@@ -39,10 +39,16 @@ void Database::run(const char* sql) {
   if (sqlite3_exec(get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(get(), "run a statement");
 }
 
+IdleStatement& Database::idle(std::string_view sql) {
+  const auto found = idle_.find(sql);
+  return found != idle_.end() ? found->second : idle_.try_emplace(std::string(sql)).first->second;
+}
+
 Statement::Statement(Database& database, std::string_view sql)
-    : database_(&database), handle_(nullptr, sqlite3_finalize) {
-  sqlite3_stmt* handle = nullptr;
-  if (sqlite3_prepare_v2(database.get(), sql.data(), static_cast<int>(sql.size()), &handle, nullptr) != SQLITE_OK) {
+    : database_(&database), handle_(nullptr, EndUse{&database.idle(sql)}) {
+  sqlite3_stmt* handle = handle_.get_deleter().place->release();
+  if (handle == nullptr && sqlite3_prepare_v3(database.get(), sql.data(), static_cast<int>(sql.size()),
+                                              SQLITE_PREPARE_PERSISTENT, &handle, nullptr) != SQLITE_OK) {
     fail(database.get(), "prepare a statement");
   }
   handle_.reset(handle);

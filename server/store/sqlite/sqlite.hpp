@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,7 +15,14 @@
 
 namespace sculpt::server {
 
-/// One connection. Not shared between threads without a lock.
+struct FinalizeStatement {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+/// One that waits for its next use, or none.
+using IdleStatement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
+
+/// One connection. Not shared between threads without a lock. It outlives its statements and is not moved while there
+/// are any.
 class Database {
  public:
   enum class Use { write, read };
@@ -31,11 +39,25 @@ class Database {
     if (on_commit_) on_commit_();
   }
   int changes() const { return sqlite3_changes(handle_.get()); }
+  /// Where the statement of this text waits between its uses: to prepare it takes longer than to run it. The address
+  /// stays. Texts are few: values are bound, not written into them.
+  IdleStatement& idle(std::string_view sql);
 
  private:
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> handle_;
+  std::map<std::string, IdleStatement, std::less<>> idle_;
   Histogram commit_times_;
   std::function<void()> on_commit_;
+};
+
+/// Makes a statement that was used idle again.
+struct EndUse {
+  IdleStatement* place;
+  void operator()(sqlite3_stmt* statement) const {
+    sqlite3_reset(statement);
+    sqlite3_clear_bindings(statement);
+    place->reset(statement);
+  }
 };
 
 /// A prepared statement; parameters are bound from 1 in the order of the calls.
@@ -55,7 +77,7 @@ class Statement {
 
  private:
   Database* database_;
-  std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> handle_;
+  std::unique_ptr<sqlite3_stmt, EndUse> handle_;
   int bound_ = 0;
 };
 
