@@ -11,6 +11,7 @@
 #include "core/motion/tool/tool_axes.hpp"
 #include "core/plan/intake.hpp"
 #include "core/trajectory/quantum.hpp"
+#include "tests/core/base/cases.hpp"
 #include "tests/core/plan/scenarios.hpp"
 #include "tests/core/plan/soundness.hpp"
 
@@ -98,7 +99,7 @@ std::map<Voxel, Reason> expect_the_same_whatever_the_order(const Job& job, std::
   std::set<Voxel> where;
   for (const auto& [voxel, reason] : left) where.insert(voxel);
   EXPECT_TRUE(where == beyond_the_tool(job)) << text(left);
-  for (std::uint64_t seed = 1; seed < seeds; ++seed) {
+  for (std::uint64_t seed = 1; seed < cases(seeds); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     EXPECT_EQ(text(plan(job, seed)), text(left));
   }
