@@ -43,10 +43,29 @@ forbid "what reads programs back shares nothing with what writes them" "$(includ
 forbid "what writes programs knows no reader" "$(include 'core/program/read')" -- core/program/write
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
 forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/(cell_(file|motion)|milling/tool_library)\.[ch]pp')" -- core server clients
-forbid "verify shares nothing with the planners" "$(include 'core/(picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/swept_voxels|core/material/(loose_pieces|support|flood|cavities)')" -- core/verify
+forbid "verify shares nothing with the planners" "$(include 'core/(solid|picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/swept_voxels|core/material/(loose_pieces|support|flood|cavities|clamping|octree|block_graph)|core/cell/(chain|link_poses|ik)\.')" -- core/verify
+forbid "verify has kinematics of its own" '(\.|->)chain\(\)|\b(LinkPoses|holder_shapes)\b' -- core/verify
+
+# Every folder has its place in one of the orders, and a .cpp file without a header says itself what it is.
+# expect_known LIST FOLDER...: each of the folders is in the list.
+expect_known() {
+  local known=" $1 " folder
+  shift
+  for folder in "$@"; do
+    [[ ! -d $folder || $known == *" $(basename "$folder") "* ]] && continue
+    printf 'fence: no rule for the folder %s\n' "$folder"
+    breaches=$((breaches + 1))
+  done
+}
+expect_known "${core_folders[*]}" core/*/
+unsaid=$(find core proto server clients -name '*.cpp' 2>/dev/null | sort | while read -r file; do
+  [ -f "${file%.cpp}.hpp" ] || [ "$(head -c 2 "$file")" = // ] || echo "$file"
+done)
+[ -z "$unsaid" ] || { printf 'fence: neither a header nor a first line says what it is\n%s\n' "$unsaid"; breaches=$((breaches + 1)); }
 
 # The folders of the server, each above those before it; server/*.cpp joins them.
 server_folders=(base files store fleet confine run queue results access net events api http ops)
+expect_known "${server_folders[*]}" server/*/
 for ((i = 0; i < ${#server_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${server_folders[*]:i+1}")
   forbid "server/${server_folders[i]} stands below ${above//|/, }" "$(include "server/(${above:+($above)/|}[a-z_]+\.hpp)")" -- "server/${server_folders[i]}"

@@ -8,12 +8,13 @@ trap 'rm -rf "$tree"' EXIT
 expect_breach() {
   local file=$1 line=$2
   mkdir -p "$tree/$(dirname "$file")"
+  : >"$tree/${file%.*}.hpp"
   printf '%s\n' "$line" >"$tree/$file"
   if "$here/fences.sh" "$tree" >/dev/null; then
     echo "not found: '$line' in $file"
     exit 1
   fi
-  rm "$tree/$file"
+  rm -f "$tree/$file" "$tree/${file%.*}.hpp"
 }
 
 expect_breach core/plan/plan.cpp '#include "server/jobs.hpp"'
@@ -66,5 +67,30 @@ expect_breach server/net/session.cpp '#include "server/api/handlers.hpp"'
 expect_breach server/base/config.cpp '#include "server/store/sqlite.hpp"'
 expect_breach server/store/sqlite.cpp '#include "server/server.hpp"'
 expect_breach server/run/planner.cpp '#include "core/verify/robot/solid_body.hpp"'
-printf '#include "core/base/error.hpp"\n' >"$tree/core/plan/plan.cpp"
+# Each folder sees nothing of the next one in its order.
+eval "$(grep -E '^(core|server)_folders=' "$here/fences.sh")"
+for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
+  expect_breach "core/${core_folders[i]}/any.cpp" "#include \"core/${core_folders[i + 1]}/any.hpp\""
+done
+for ((i = 0; i + 1 < ${#server_folders[@]}; ++i)); do
+  expect_breach "server/${server_folders[i]}/any.cpp" "#include \"server/${server_folders[i + 1]}/any.hpp\""
+done
+expect_breach proto/json.hpp '#include <boost/asio.hpp>'
+expect_breach core/material/voxel_grid.hpp '#include "core/mesh/mesh.hpp"'
+expect_breach core/sweep/lanes.cpp '#include <hwy/highway.h>'
+expect_breach server/store/job_store.cpp '#include <libpq-fe.h>'
+expect_breach core/verify/robot/joint_range.cpp '#include "core/cell/chain.hpp"'
+expect_breach core/verify/robot/joint_range.cpp '#include "core/cell/ik.hpp"'
+expect_breach core/verify/verify.cpp '#include "core/solid/voxelize.hpp"'
+expect_breach core/verify/verify.cpp 'const Chain& chain = cell.chain();'
+expect_breach core/verify/robot/urdf_differences.cpp 'for (const Shape& shape : holder_shapes(cell.tool))'
+expect_breach core/lathe/turn.cpp '// A folder that nobody gave a rule.'
+rmdir "$tree/core/lathe"
+expect_breach server/lathe/turn.cpp '// A folder that nobody gave a rule.'
+rmdir "$tree/server/lathe"
+mkdir -p "$tree/server/ops"
+printf 'int what;\n' >"$tree/server/ops/what.cpp"
+if "$here/fences.sh" "$tree" >/dev/null; then echo "not found: a file that does not say what it is" && exit 1; fi
+rm "$tree/server/ops/what.cpp"
+printf '// A plan.\n#include "core/base/error.hpp"\n' >"$tree/core/plan/plan.cpp"
 "$here/fences.sh" "$tree"

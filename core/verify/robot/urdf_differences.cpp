@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -111,6 +112,20 @@ std::map<std::string, Limits> all_limits(const UrdfText& text) {
   return limits;
 }
 
+// The largest radius of a holder between two distances from the spindle, m.
+double holder_radius(const std::vector<HolderSection>& holder, double from_m, double to_m) {
+  double start_m = 0, radius_m = 0;
+  for (const HolderSection& section : holder) {
+    const double low = std::max(from_m, start_m), high = std::min(to_m, start_m + section.length_m);
+    const auto radius_at = [&](double z_m) {
+      return section.radius_m + (section.end_radius_m - section.radius_m) * (z_m - start_m) / section.length_m;
+    };
+    if (low < high) radius_m = std::max({radius_m, radius_at(low), radius_at(high)});
+    start_m += section.length_m;
+  }
+  return radius_m;
+}
+
 class Differences {
  public:
   Differences(const UrdfText& text, const Cell& cell)
@@ -163,14 +178,33 @@ class Differences {
     const std::string of = "link '" + link.name + "'";
     const auto at = text_.links.find(link.name);
     if (at == text_.links.end()) return sentences_.push_back(of + " of the loaded cell is not in the URDF");
-    const std::size_t added = (index == cell_.tool_link ? holder_shapes(cell_.tool).size() : 0) +
-                              (index == cell_.stock_link && cell_.has_post ? 1 : 0);
-    if (at->second.size() + added != link.shapes.size())
-      return sentences_.push_back(of + ": the URDF says " + std::to_string(at->second.size()) +
+    const std::size_t said = at->second.size(), post = index == cell_.stock_link && cell_.has_post ? 1 : 0;
+    const bool has_holder = index == cell_.tool_link && !cell_.tool.holder.empty();
+    if (has_holder ? link.shapes.size() < said + post : link.shapes.size() != said + post)
+      return sentences_.push_back(of + ": the URDF says " + std::to_string(said) +
                                   " collision shapes, the loaded cell has " +
-                                  std::to_string(link.shapes.size() - added));
+                                  std::to_string(std::max(link.shapes.size(), post) - post));
+    if (has_holder) compare_holder(of, std::span(link.shapes).subspan(said, link.shapes.size() - said - post));
     for (std::size_t shape = 0; shape < at->second.size(); ++shape)
       compare("shape " + std::to_string(shape + 1) + " of " + of, at->second[shape], link.shapes[shape]);
+  }
+
+  // One cylinder stands on the other, from the spindle on, and the holder does not come out of any of them.
+  void compare_holder(const std::string& of, std::span<const Shape> bodies) {
+    double length_m = 0, held_m = 0;
+    for (const HolderSection& section : cell_.tool.holder) length_m += section.length_m;
+    for (const Shape& body : bodies) {
+      const double end_m = held_m + body.length_m;
+      Frame place = Frame::Identity();
+      place.translation().z() = (held_m + end_m) / 2;
+      if (body.kind != ShapeKind::cylinder || !same(place, body.pose) ||
+          body.radius_m + slack < holder_radius(cell_.tool.holder, held_m + slack, end_m - slack))
+        break;
+      held_m = end_m;
+    }
+    if (!same(length_m, held_m))
+      sentences_.push_back(of + ": the holder is " + text_of(length_m) + " m long, its bodies hold it to " +
+                           text_of(held_m) + " m from the spindle");
   }
 
   void compare(const std::string& of, const TextShape& said, const Shape& shape) {

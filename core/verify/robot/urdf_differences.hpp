@@ -10,7 +10,7 @@
 namespace sculpt {
 
 /// A sentence for each joint or shape of the cell that is not what the text says, and for each that only one of the two
-/// has. What the cell file adds, holder and post, is no difference.
+/// has. What the cell file adds is no difference: the post, and cylinders that hold the holder as it describes it.
 std::vector<std::string> urdf_differences(const UrdfText& text, const Cell& cell);
 
 /// The same for the text that the cell keeps; one sentence if that cannot be read. None for a cell without text.
