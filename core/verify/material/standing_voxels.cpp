@@ -17,10 +17,10 @@ constexpr int first_bricks = 8;
 
 /// The bits of a brick with x (y, z) from `first` to `last`, 0 to 3.
 constexpr std::uint64_t bits_along_x(int first, int last) {
-  return 0x1111111111111111 * ((0xfu << first) & (0xfu >> (3 - last)));
+  return std::uint64_t{0x1111111111111111} * ((0xfu << first) & (0xfu >> (3 - last)));
 }
 constexpr std::uint64_t bits_along_y(int first, int last) {
-  return 0x0001000100010001 * ((0xffffu << 4 * first) & (0xffffu >> 4 * (3 - last)));
+  return std::uint64_t{0x0001000100010001} * ((0xffffu << 4 * first) & (0xffffu >> 4 * (3 - last)));
 }
 constexpr std::uint64_t bits_along_z(int first, int last) {
   return (~std::uint64_t{0} << 16 * first) & (~std::uint64_t{0} >> 16 * (3 - last));
