@@ -21,6 +21,21 @@ inline InputError cell_error(const std::string& where, const std::string& senten
   throw cell_error(where, sentence);
 }
 
+/// The value of a whole file, which `what` names. Throws InputError `code` for what is no JSON, with line and column,
+/// or nests values deeper than a cell file or a tool library does.
+inline nlohmann::json parse_document(const std::string& text, const std::string& code, const std::string& what) {
+  constexpr int deepest = 16;
+  const auto limit_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    if (depth > deepest) throw InputError(code, what + " nests values more than 16 deep: it is something else");
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(text, limit_depth);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(code, what + " is not valid JSON: " + error.what());
+  }
+}
+
 /// One JSON value of the cell file and its JSON pointer; every read checks the type and names the place.
 class CellField {
  public:
@@ -59,11 +74,23 @@ class CellField {
     }
     return number_here;
   }
-  Vec3 vector() const {
+  /// A length in a room, m: a larger one was meant in millimetres.
+  double length_from(double least_m) const {
+    constexpr double max_m = 1000;
+    const double length_m = number_from(least_m);
+    if (length_m > max_m) {
+      std::ostringstream limit;
+      limit << length_m << " m is in no room: give metres, at most " << max_m;
+      refuse(pointer_, limit.str());
+    }
+    return length_m;
+  }
+  /// A place in a room, m.
+  Vec3 position() const {
     require(value_.is_array() && value_.size() == 3, "an array of three numbers");
     Vec3 out;
     for (std::size_t i = 0; i < 3; ++i)
-      out[static_cast<int>(i)] = CellField(value_[i], pointer_ + "/" + std::to_string(i)).number();
+      out[static_cast<int>(i)] = CellField(value_[i], pointer_ + "/" + std::to_string(i)).length_from(-1000);
     return out;
   }
   std::vector<CellField> elements() const {

@@ -22,21 +22,6 @@ using Field = CellField;
 
 constexpr std::size_t max_sections = 16;  // of the holder
 
-json parse_json(const std::string& text) {
-  constexpr int deepest = 16;
-  const auto limit_depth = [](int depth, json::parse_event_t, json&) {
-    if (depth > deepest)
-      throw InputError("cell_invalid", "the cell file nests values more than 16 deep: it is no cell file");
-    return true;
-  };
-  try {
-    return json::parse(text, limit_depth);
-  } catch (const json::exception& error) {
-    // The library's sentence carries line and column.
-    throw InputError("cell_invalid", std::string("the cell file is not valid JSON: ") + error.what());
-  }
-}
-
 Field top_level(const json& document) {
   Field top(document, "");
   top.require_object(
@@ -114,7 +99,7 @@ ToolSpec parse_tool(const Field& field) {
   }
   tool.ball_radius = read_radius(field, "ball", tool.in_voxels);
   tool.shank_radius = read_radius(field, "shank", tool.in_voxels);
-  tool.stickout_m = field.has("stickout_m") ? field.at("stickout_m").number_from(0) : 0;
+  tool.stickout_m = field.has("stickout_m") ? field.at("stickout_m").length_from(0) : 0;
   if (tool.ball_radius <= 0) refuse(field.pointer(), "the ball's radius must be above 0");
   if (tool.shank_radius > tool.ball_radius) refuse(field.pointer(), "the shank must not be thicker than the ball");
   if (field.has("holder")) tool.holder = parse_holder(field.at("holder"), tool.stickout_m);
@@ -220,7 +205,7 @@ CellFiles read_cell_files(const fs::path& path) {
   CellFiles files;
   files.name = path.stem().string();
   files.cell_json = read_bytes(path, "cell file");
-  const json document = parse_json(files.cell_json);
+  const json document = parse_document(files.cell_json, "cell_invalid", "the cell file");
   const Field top = top_level(document);
   const std::string urdf_name = top.at("urdf").text();
   const fs::path urdf = path.parent_path() / urdf_name;
@@ -239,7 +224,7 @@ CellFiles read_cell_files(const fs::path& path) {
 }
 
 CellDraft draft_cell(const CellFiles& files) {
-  const json document = parse_json(files.cell_json);
+  const json document = parse_document(files.cell_json, "cell_invalid", "the cell file");
   const Field top = top_level(document);
   CellDraft draft;
   Cell& cell = draft.cell;
@@ -249,8 +234,8 @@ CellDraft draft_cell(const CellFiles& files) {
   }
   const Field stock = top.at("stock"), tool = top.at("tool");
   stock.require_object({"link", "size_m", "origin_m", "post"});
-  cell.stock_size_m = stock.at("size_m").number_from(1e-6);
-  cell.stock_origin_m = stock.at("origin_m").vector();
+  cell.stock_size_m = stock.at("size_m").length_from(1e-6);
+  cell.stock_origin_m = stock.at("origin_m").position();
   cell.tool = parse_tool(tool);
   cell.urdf = file_named(files, top.at("urdf").text());
   cell.robot = parse_urdf(cell.urdf, [&](const std::string& reference) { return file_named(files, reference); });

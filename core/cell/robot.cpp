@@ -138,6 +138,14 @@ void set_limits(Joint& joint, const urdf::Joint& source) {
     refuse(joint_named(joint.name) +
            " has no range to move in: give it <limit lower=... upper=.../> with lower below upper, or make it fixed");
   }
+  constexpr double max_limit = 10'000;  // proofs over a whole range take longer the wider it is
+  if (std::max(-joint.lower, joint.upper) > max_limit) {
+    std::ostringstream text;
+    text << joint_named(joint.name) << " goes from " << joint.lower << " to " << joint.upper
+         << " rad or m, and more than " << max_limit << " either way is no joint of a robot: correct its <limit>"
+         << (joint.kind == JointKind::revolute ? ", or make it continuous" : "");
+    refuse(text.str());
+  }
 }
 
 Joint to_joint(const urdf::Joint& source) {

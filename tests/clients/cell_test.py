@@ -108,6 +108,12 @@ class New(ClientTest):
         self.fine("cell", "new", arm, "-o", "cell.json", "--force", "--stock-at", "0.5,0,0.1")
         self.refused(2, "usage", "cell", "new", arm, "-o", "cell.txt")
 
+    def test_the_makers_own_file_is_never_written_over(self):
+        arm = self.write_arm()
+        before = arm.read_bytes()
+        self.refused(2, "usage", "cell", "new", arm, "-o", arm.with_suffix(".json"), "--force")
+        self.assertEqual(arm.read_bytes(), before)
+
     def test_the_same_robot_gives_the_same_cell(self):
         arm = self.write_arm()
         self.fine("cell", "new", arm, "-o", "a.json")

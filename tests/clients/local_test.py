@@ -101,6 +101,10 @@ class Place(ClientTest):
         self.assertEqual(changed, [] if best["at_m"] == [0.55, 0, 0.1] else [changed[0]])
         self.fine("plan", self.scratch / "mesh.stl", "--resolution", 8, "--robot", "./better.json", "-o", "plan.sct")
 
+    def test_a_tool_of_less_than_nothing_is_refused(self):
+        mesh = shapes.write_stl(self.scratch / "mesh.stl", shapes.steps())
+        self.refused(2, "usage", "place", mesh, "--robot", "panda-turntable", "--stickout", "-0.1")
+
     def test_the_map_is_a_picture(self):
         self.place("--map", "map.svg")
         picture = xml.etree.ElementTree.parse(self.scratch / "map.svg")

@@ -64,6 +64,12 @@ int run_new(const NewCellOptions& options) {
     throw Failure(exit_usage, "usage", "a cell file ends in .json: -o " + cell_file.string() + ".json");
   fs::path urdf_file = cell_file;
   urdf_file.replace_extension(".urdf");
+  std::error_code ignored;
+  if (fs::equivalent(urdf_file, options.urdf, ignored))
+    throw Failure(exit_usage, "usage",
+                  urdf_file.string() +
+                      " is the robot's own file, and would be written over: choose another name than " +
+                      cell_file.string() + " for the cell, or write it into another folder");
   refuse_existing(cell_file, options.force);
   refuse_existing(urdf_file, options.force);
 

@@ -78,6 +78,8 @@ StandRanges read_ranges(const PlaceOptions& options, const Cell& cell, int joint
   read("--turn", options.turn, ranges.turn, std::numbers::pi / 180);
   read("--height", options.height, ranges.height, 1);
   read("--stickout", options.stickout, ranges.stickout, 1);
+  if (std::ranges::min(ranges.stickout.values()) < 0)
+    throw Failure(exit_usage, "usage", "--stickout " + options.stickout + ": no tool sticks out by less than nothing");
   return ranges;
 }
 
@@ -219,7 +221,8 @@ void add_place(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<PlaceOptions>();
   CLI::App& command = add_command(app, invocation, "place", "Find where table or base should stand, without a server",
                                   [options] { return run_place(*options); });
-  command.add_option("mesh", options->job.mesh, "The sculpture: .stl .obj .ply .gltf .glb")
+  command
+      .add_option("mesh", options->job.mesh, "The sculpture: .stl .obj .ply .gltf .glb .off .dae, or a .binvox of 32^3")
       ->type_name("MESH")
       ->required();
   command.add_option("--robot", options->job.robot, "The cell: a name under config/cells, or the path of a cell file")

@@ -35,19 +35,6 @@ std::string text(double value) {
   return out.str();
 }
 
-json parse_json(const ToolLibraryFile& file) {
-  constexpr int deepest = 16;
-  const auto limit_depth = [](int depth, json::parse_event_t, json&) {
-    if (depth > deepest) throw InputError("tools_invalid", "a tool library does not nest values more than 16 deep");
-    return true;
-  };
-  try {
-    return json::parse(file.json, limit_depth);
-  } catch (const json::exception& error) {
-    throw InputError("tools_invalid", "the tool library '" + file.name + "' is not valid JSON: " + error.what());
-  }
-}
-
 /// A length above nothing and below `most`.
 double read_length(const CellField& field, double most) {
   const double value = field.number();
@@ -181,7 +168,7 @@ std::string read_bytes(const fs::path& path) {
 }  // namespace
 
 std::vector<MillTool> parse_tool_library(const ToolLibraryFile& file) try {
-  const json document = parse_json(file);
+  const json document = parse_document(file.json, "tools_invalid", "the tool library '" + file.name + "'");
   const CellField top(document, "");
   top.require_object({"tools"});
   std::vector<MillTool> tools;

@@ -1,5 +1,5 @@
-// A URDF as text with the places of its links and joints: to take some out and to put others in. It is parsed nowhere
-// else so roughly; what comes of it goes through parse_urdf.
+// A URDF as text with the places of its links and joints: to take some out and to put others in. Roughly parsed: what
+// comes of it goes through parse_urdf.
 #pragma once
 
 #include <string>

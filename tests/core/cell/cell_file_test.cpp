@@ -119,9 +119,12 @@ TEST(CellFile, WrongTypesAndValuesAreNamedByTheirPointer) {
   expect_refused(with(good, "\"r.urdf\"", "7"), "/urdf", "text");
   expect_refused(with(good, "0.2, \"origin", "\"0.2\", \"origin"), "/stock/size_m", "number");
   expect_refused(with(good, "0.2, \"origin", "0, \"origin"), "/stock/size_m", "at least");
+  expect_refused(with(good, "0.2, \"origin", "1e300, \"origin"), "/stock/size_m", "metres");
+  expect_refused(with(good, "[1, 2, 3]", "[1, 1e300, 3]"), "/stock/origin_m/1", "metres");
   expect_refused(with(good, "[1, 2, 3]", "[1, 2]"), "/stock/origin_m", "three");
   expect_refused(with(good, "[1, 2, 3]", "[1, 2, null]"), "/stock/origin_m/2", "number");
   expect_refused(with(good, "\"stickout_m\": 0.1", "\"stickout_m\": -1"), "/tool/stickout_m", "at least");
+  expect_refused(with(good, "\"stickout_m\": 0.1", "\"stickout_m\": 2700"), "/tool/stickout_m", "metres");
   expect_refused(with(good, "\"ball_radius_voxels\": 0.4", "\"ball_radius_voxels\": 0"), "/tool", "above 0");
   expect_refused(with(good, "\"shank_radius_voxels\": 0.3", "\"shank_radius_voxels\": 0.45"), "/tool", "thicker");
   expect_refused(with(good, "\"shank_radius_voxels\": 0.3", "\"shank_radius_m\": 0.001"), "/tool/shank_radius_m",

@@ -173,6 +173,11 @@ TEST(Robot, JointsThatCannotBePlannedAreRefused) {
                  "range");
   expect_refused(with_joint("revolute", "<axis xyz='0 0 1'/><limit lower='nan' upper='1' velocity='1' effort='1'/>"),
                  "j]");
+  expect_refused(
+      with_joint("prismatic", "<axis xyz='0 0 1'/><limit lower='-1' upper='1e300' velocity='1' effort='1'/>"),
+      "no joint of a robot");
+  expect_refused(with_joint("revolute", "<axis xyz='0 0 1'/><limit lower='-1e300' upper='1' velocity='1' effort='1'/>"),
+                 "continuous");
   expect_refused(with_joint("revolute", "<axis xyz='0 0 0'/>" + limits), "axis");
   expect_refused(with_joint("revolute", "<axis xyz='nan 0 1'/>" + limits), "j]");
   expect_refused(with_joint("revolute", "<origin xyz='0 inf 0'/><axis xyz='0 0 1'/>" + limits), "j]");
