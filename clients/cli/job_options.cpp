@@ -82,7 +82,7 @@ void add_memory_cap(CLI::App& command, std::uint64_t& bytes) {
 }
 
 void add_job_options(CLI::App& command, JobOptions& options) {
-  command.add_option("mesh", options.mesh, "The sculpture: .stl .obj .ply .gltf .glb, or a .binvox")
+  command.add_option("mesh", options.mesh, "The sculpture: .stl .obj .ply .gltf .glb .off .dae, or a .binvox")
       ->type_name("MESH")
       ->required();
   command
@@ -155,12 +155,6 @@ CellFiles read_cell(const std::string& robot) {
     return read_cell_files(robot);
   }
   return read_cell_files(find_cell(robot, shipped_cell_folders()));
-}
-
-void check_resolution(int n) {
-  if (!is_resolution(n))
-    throw InputError("resolution_invalid",
-                     "resolution " + std::to_string(n) + " cannot be used: give a power of two from 8 to 1024");
 }
 
 std::optional<MillOrder> read_mill_order(const MillOptions& options) {

@@ -60,9 +60,6 @@ bool is_cell_path(const std::string& robot);
 /// The cell's files: a path, or a name under the shipped cells. Throws Failure or InputError.
 CellFiles read_cell(const std::string& robot);
 
-/// Throws InputError `resolution_invalid` unless n is a power of two from 8 to 1024.
-void check_resolution(int n);
-
 /// Everything read from disk, ready for the planner.
 Job read_job(const JobOptions& options);
 

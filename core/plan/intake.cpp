@@ -23,13 +23,6 @@ constexpr std::uint64_t memory_a_cell_byte = 14;
 constexpr int coarse_resolution = 32;
 constexpr int reach_seeds = 24;
 
-void check_resolution(int n) {
-  if (!is_resolution(n))
-    throw InputError(
-        "resolution_invalid",
-        "resolution " + std::to_string(n) + " is not one of 8, 16, 32, 64, 128, 256, 512, 1024: choose one of these");
-}
-
 std::string mib(std::uint64_t bytes) {
   return std::to_string((bytes >> 20) + 1) + " MiB";
 }

@@ -18,6 +18,7 @@
 #include "core/doctor/draw_cell.hpp"
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
+#include "core/material/resolution.hpp"
 
 namespace sculpt::cli {
 

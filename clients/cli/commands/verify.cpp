@@ -20,6 +20,7 @@
 #include "clients/cli/progress_line.hpp"
 #include "clients/cpp/client.hpp"
 #include "core/base/extension.hpp"
+#include "core/material/resolution.hpp"
 #include "core/plan/plan.hpp"
 #include "core/trajectory/reader.hpp"
 

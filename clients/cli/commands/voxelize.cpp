@@ -12,6 +12,7 @@
 #include "clients/cli/progress_line.hpp"
 #include "clients/cli/report_table.hpp"
 #include "core/material/binvox.hpp"
+#include "core/material/resolution.hpp"
 #include "core/plan/intake.hpp"
 
 namespace sculpt::cli {
@@ -66,7 +67,9 @@ void add_voxelize(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<VoxelizeOptions>();
   CLI::App& command = add_command(app, invocation, "voxelize", "Turn a mesh into a .binvox file, without a server",
                                   [options] { return run_voxelize(*options); });
-  command.add_option("mesh", options->mesh, "The sculpture: .stl .obj .ply .gltf .glb")->type_name("MESH")->required();
+  command.add_option("mesh", options->mesh, "The sculpture: .stl .obj .ply .gltf .glb .off .dae")
+      ->type_name("MESH")
+      ->required();
   command
       .add_option("--resolution", options->resolution, "Voxels along each edge of the grid: a power of two, 8 to 1024")
       ->type_name("N")
