@@ -7,39 +7,8 @@
 namespace sculpt {
 namespace {
 
-std::vector<Voxel> members(const VoxelSet& set) {
-  std::vector<Voxel> all;
-  for (int k = 0; k < set.n(); ++k)
-    for (int j = 0; j < set.n(); ++j)
-      for (int i = 0; i < set.n(); ++i)
-        if (set.contains({i, j, k})) all.push_back({i, j, k});
-  return all;
-}
-
-/// Breadth-first from the voxels of layer 0, voxel by voxel.
-VoxelSet loose_by_brute_force(const VoxelSet& standing) {
-  const Grid bounds{standing.n(), 1, Vec3::Zero()};
-  VoxelSet loose = standing;
-  std::vector<Voxel> queue;
-  for (Voxel voxel : members(standing))
-    if (voxel.k == 0) queue.push_back(voxel);
-  for (Voxel voxel : queue) loose.erase(voxel);
-  for (std::size_t at = 0; at < queue.size(); ++at)
-    for (Voxel step : face_steps) {
-      const Voxel next = queue[at] + step;
-      if (!bounds.contains(next) || !loose.contains(next)) continue;
-      loose.erase(next);
-      queue.push_back(next);
-    }
-  return loose;
-}
-
 std::vector<Voxel> voxels_of(const VoxelLine& line) {
-  std::vector<Voxel> all{line.first};
-  const auto sign = [](int value) { return (value > 0) - (value < 0); };
-  const Voxel way = line.last - line.first;
-  while (all.back() != line.last) all.push_back(all.back() + Voxel{sign(way.i), sign(way.j), sign(way.k)});
-  return all;
+  return shapes::row_of(line.first, line.last);
 }
 
 TEST(LoosePieces, LooseIsWhatNoPathJoinsToTheFloor) {
@@ -47,7 +16,7 @@ TEST(LoosePieces, LooseIsWhatNoPathJoinsToTheFloor) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const VoxelSet keep = shapes::random_grid(8 << seed % 3, seed).keep;
-    const VoxelSet loose = loose_by_brute_force(keep);
+    const VoxelSet loose = shapes::loose_by_brute_force(keep);
     ASSERT_EQ(find_loose(keep), loose);
     with_loose += loose.size() > 0;
   }

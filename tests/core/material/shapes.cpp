@@ -177,6 +177,45 @@ VoxelGrid random_grid(int n, std::uint64_t seed) {
   return grid;
 }
 
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
+  return sum;
+}
+
+void fill(VoxelSet& set, Voxel low, Voxel high) {
+  for (int k = low.k; k <= high.k; ++k)
+    for (int j = low.j; j <= high.j; ++j)
+      for (int i = low.i; i <= high.i; ++i) set.insert({i, j, k});
+}
+
+std::vector<Voxel> row_of(Voxel first, Voxel last) {
+  const auto sign = [](int value) { return (value > 0) - (value < 0); };
+  const Voxel way{sign(last.i - first.i), sign(last.j - first.j), sign(last.k - first.k)};
+  std::vector<Voxel> all{first};
+  while (all.back() != last) all.push_back(all.back() + way);
+  return all;
+}
+
+VoxelSet loose_by_brute_force(const VoxelSet& standing) {
+  const Grid bounds{standing.n(), 1, Vec3::Zero()};
+  VoxelSet loose = standing;
+  std::vector<Voxel> queue;
+  for_each_voxel(standing, [&](Voxel voxel) {
+    if (voxel.k == 0) queue.push_back(voxel);
+  });
+  for (Voxel voxel : queue) loose.erase(voxel);
+  for (std::size_t at = 0; at < queue.size(); ++at)
+    for (Voxel step : face_steps) {
+      const Voxel next = queue[at] + step;
+      if (!bounds.contains(next) || !loose.contains(next)) continue;
+      loose.erase(next);
+      queue.push_back(next);
+    }
+  return loose;
+}
+
 std::string shared_data(const std::string& path) {
   const char* folder = std::getenv("SCULPT_SHARED_DATA");
   std::ifstream file((folder != nullptr ? std::string(folder) : SOURCE_DIR "/../shared/data") + "/" + path,

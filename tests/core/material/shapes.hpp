@@ -26,6 +26,16 @@ std::string binary_stl(const Mesh& mesh);
 std::string ascii_stl(const Mesh& mesh);
 std::string obj(const Mesh& mesh);
 
+/// Signed volume by the divergence theorem; right only for a closed surface whose triangles all turn the same way.
+double volume(const Mesh& mesh);
+
+/// All voxels from `low` to `high`, both included.
+void fill(VoxelSet& set, Voxel low, Voxel high);
+/// Those of a straight row, from `first` to `last`.
+std::vector<Voxel> row_of(Voxel first, Voxel last);
+/// What no path of standing voxels joins to layer 0: breadth-first, voxel by voxel.
+VoxelSet loose_by_brute_force(const VoxelSet& standing);
+
 /// A random grid of blobs (union of boxes) or of noise, with some air at the top; keep is a subset of stock.
 VoxelGrid random_grid(int n, std::uint64_t seed);
 

@@ -21,14 +21,6 @@ Eigen::AlignedBox3d bounds(const Mesh& mesh) {
   return box;
 }
 
-/// Signed volume by the divergence theorem; right only for a closed surface whose triangles all turn the same way.
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
-  return sum;
-}
-
 const Mesh sample_box = shapes::box(Vec3(1, 2, 3), Vec3(2, 4, 6));
 
 TEST(Mesh, StlInBothFormsAndObjGiveTheSameSolid) {
@@ -40,7 +32,7 @@ TEST(Mesh, StlInBothFormsAndObjGiveTheSameSolid) {
     const Mesh mesh = load(bytes, extension);
     EXPECT_EQ(mesh.vertices.size(), 8u) << "corners that coincide are joined";
     EXPECT_EQ(mesh.triangles.size(), 12u);
-    EXPECT_NEAR(std::abs(volume(mesh)), 6, 1e-6);
+    EXPECT_NEAR(std::abs(shapes::volume(mesh)), 6, 1e-6);
     EXPECT_TRUE(bounds(mesh).min().isApprox(Vec3(1, 2, 3)));
   }
 }
@@ -56,14 +48,14 @@ TEST(Mesh, PolygonsBecomeTriangles) {
   const std::string quads = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
   const Mesh mesh = load(corners + quads, "obj");
   EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_NEAR(volume(mesh), 4, 1e-9);
+  EXPECT_NEAR(shapes::volume(mesh), 4, 1e-9);
 }
 
 TEST(Mesh, ConcavePolygonsKeepTheirArea) {
   const std::string prism =
       "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nv 0 0 1\nv 4 0 1\nv 4 4 1\nv 2 1 1\nv 0 4 1\n"
       "f 5 4 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n";
-  EXPECT_NEAR(volume(load(prism, "obj")), 10, 1e-6);
+  EXPECT_NEAR(shapes::volume(load(prism, "obj")), 10, 1e-6);
 }
 
 TEST(Mesh, PlyAsTextAndAsBytesIsRead) {
@@ -71,7 +63,7 @@ TEST(Mesh, PlyAsTextAndAsBytesIsRead) {
   const std::string faces = "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
   const std::string text =
       "ply\nformat ascii 1.0\n" + vertices + faces + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-  EXPECT_NEAR(volume(load(text, "ply")), 1.0 / 6, 1e-9);
+  EXPECT_NEAR(shapes::volume(load(text, "ply")), 1.0 / 6, 1e-9);
   std::string bytes = "ply\nformat binary_little_endian 1.0\n" + vertices + faces;
   const auto put = [&bytes](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
   for (float f : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) put(f);
@@ -80,7 +72,7 @@ TEST(Mesh, PlyAsTextAndAsBytesIsRead) {
     put(std::uint8_t{3});
     for (int index : face) put(index);
   }
-  EXPECT_NEAR(volume(load(bytes, "ply")), 1.0 / 6, 1e-9);
+  EXPECT_NEAR(shapes::volume(load(bytes, "ply")), 1.0 / 6, 1e-9);
 }
 
 TEST(Mesh, NodeTransformsOfGltfAreAppliedToEveryAppearance) {
@@ -91,7 +83,7 @@ TEST(Mesh, NodeTransformsOfGltfAreAppliedToEveryAppearance) {
     SCOPED_TRACE(extension);
     const Mesh mesh = load(bytes, extension);
     EXPECT_EQ(mesh.triangles.size(), 8u);
-    EXPECT_NEAR(volume(mesh), (8 + 1) / 6.0, 1e-5);
+    EXPECT_NEAR(shapes::volume(mesh), (8 + 1) / 6.0, 1e-5);
     EXPECT_TRUE(bounds(mesh).min().isApprox(Vec3(10, 0, 0))) << bounds(mesh).min().transpose();
     EXPECT_TRUE(bounds(mesh).max().isApprox(Vec3(12, 6, 2))) << bounds(mesh).max().transpose();
   }

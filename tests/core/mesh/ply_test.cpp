@@ -25,13 +25,6 @@ std::string said(const std::string& bytes) {
   return shapes::error_sentence(work);
 }
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
-  return sum;
-}
-
 /// Numbers one after the other, in the byte order of the machine or the other.
 class Bytes {
  public:
@@ -69,7 +62,7 @@ TEST(Ply, EveryNumberTypeInBothByteOrders) {
       bytes.put<std::uint16_t>(7).put<std::uint32_t>(3);
       for (std::int32_t corner : face) bytes.put(corner);
     }
-    EXPECT_NEAR(volume(load(bytes.text)), -1.0 / 6, 1e-12);
+    EXPECT_NEAR(shapes::volume(load(bytes.text)), -1.0 / 6, 1e-12);
     for (std::size_t cut = 1; cut < 60; ++cut) said(bytes.text.substr(0, bytes.text.size() - cut));
   }
 }
@@ -81,7 +74,7 @@ TEST(Ply, LinesMayEndInThreeWays) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     std::string other;
     for (char c : text) c == '\n' ? other += end : other += c;
-    EXPECT_NEAR(volume(load(other)), 1.0 / 6, 1e-12) << end.size();
+    EXPECT_NEAR(shapes::volume(load(other)), 1.0 / 6, 1e-12) << end.size();
   }
 }
 
@@ -89,7 +82,7 @@ TEST(Ply, LinesMayEndInThreeWays) {
 TEST(Ply, StripsAreRead) {
   const std::string text = "ply\nformat ascii 1.0\n" + corners +
                            "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + places;
-  EXPECT_NEAR(volume(load(text + "14 0 2 1 -1 0 1 3 2 -1 3 2 0 0 -1\n")), 1.0 / 6, 1e-12);
+  EXPECT_NEAR(shapes::volume(load(text + "14 0 2 1 -1 0 1 3 2 -1 3 2 0 0 -1\n")), 1.0 / 6, 1e-12);
   const Mesh grid = load(text + "4 0 1 2 3\n");
   EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}})) << "every second triangle is turned";
 }

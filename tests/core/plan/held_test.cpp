@@ -4,17 +4,12 @@
 #include "core/material/loose_pieces.hpp"
 #include "core/trajectory/keyframe.hpp"
 #include "core/trajectory/reader.hpp"
+#include "tests/core/material/shapes.hpp"
 #include "tests/core/plan/jobs.hpp"
 #include "tests/core/plan/soundness.hpp"
 
 namespace sculpt {
 namespace {
-
-void fill(VoxelSet& set, Voxel low, Voxel high) {
-  for (int k = low.k; k <= high.k; ++k)
-    for (int j = low.j; j <= high.j; ++j)
-      for (int i = low.i; i <= high.i; ++i) set.insert({i, j, k});
-}
 
 /// Mushroom; bridge; ring on a post; two arms that nearly meet; a block in the air; the same, hollow and open below.
 VoxelSet overhang(int n, std::uint64_t number) {
@@ -22,29 +17,29 @@ VoxelSet overhang(int n, std::uint64_t number) {
   const int q = n / 4, half = n / 2, last = n - 1;
   switch (number) {
     case 0:
-      fill(target, {half, half, 0}, {half, half, half});
-      fill(target, {1, 1, half}, {last - 1, last - 1, half + q});
+      shapes::fill(target, {half, half, 0}, {half, half, half});
+      shapes::fill(target, {1, 1, half}, {last - 1, last - 1, half + q});
       break;
     case 1:
-      fill(target, {0, q, 0}, {1, half, half});
-      fill(target, {last - 1, q, 0}, {last, half, half});
-      fill(target, {0, q, half}, {last, half, half + 1});
+      shapes::fill(target, {0, q, 0}, {1, half, half});
+      shapes::fill(target, {last - 1, q, 0}, {last, half, half});
+      shapes::fill(target, {0, q, half}, {last, half, half + 1});
       break;
     case 2:
-      fill(target, {1, 1, half}, {last - 1, last - 1, half + 1});
+      shapes::fill(target, {1, 1, half}, {last - 1, last - 1, half + 1});
       for (int k = half; k <= half + 1; ++k)
         for (int j = q; j <= last - q; ++j)
           for (int i = q; i <= last - q; ++i) target.erase({i, j, k});
-      fill(target, {1, 1, 0}, {2, 2, half});
+      shapes::fill(target, {1, 1, 0}, {2, 2, half});
       break;
     case 3:
-      fill(target, {0, half, 0}, {1, half, last});
-      fill(target, {1, half, half}, {half - 1, half, half});
-      fill(target, {last, 1, 0}, {last, last - 1, half - 1});
-      fill(target, {half + 1, half, half - 1}, {last, half, half - 1});
+      shapes::fill(target, {0, half, 0}, {1, half, last});
+      shapes::fill(target, {1, half, half}, {half - 1, half, half});
+      shapes::fill(target, {last, 1, 0}, {last, last - 1, half - 1});
+      shapes::fill(target, {half + 1, half, half - 1}, {last, half, half - 1});
       break;
     default:
-      fill(target, {q, q, half}, {last - q, last - q, half + q});
+      shapes::fill(target, {q, q, half}, {last - q, last - q, half + q});
       if (number > 4)
         for (int k = half; k < half + q; ++k)
           for (int j = q + 1; j < last - q; ++j)

@@ -7,16 +7,11 @@
 
 #include "core/base/random.hpp"
 #include "core/search/voxel_search.hpp"
+#include "tests/core/material/shapes.hpp"
 #include "tests/core/search/replay.hpp"
 
 namespace sculpt {
 namespace {
-
-void fill(VoxelSet& set, Voxel low, Voxel high) {
-  for (int k = low.k; k <= high.k; ++k)
-    for (int j = low.j; j <= high.j; ++j)
-      for (int i = low.i; i <= high.i; ++i) set.insert({i, j, k});
-}
 
 /// Mushroom; bridge; a roof on four posts; a block in the air; the same around a hollow that is open below.
 VoxelSet overhang(int n, int number) {
@@ -24,23 +19,23 @@ VoxelSet overhang(int n, int number) {
   const int q = n / 4, half = n / 2, last = n - 1;
   switch (number) {
     case 0:
-      fill(target, {half, half, 0}, {half, half, half});
-      fill(target, {1, 1, half}, {last - 1, last - 1, half + q});
+      shapes::fill(target, {half, half, 0}, {half, half, half});
+      shapes::fill(target, {1, 1, half}, {last - 1, last - 1, half + q});
       break;
     case 1:
-      fill(target, {0, q, 0}, {1, half, half});
-      fill(target, {last - 1, q, 0}, {last, half, half});
-      fill(target, {0, q, half}, {last, half, half + 1});
+      shapes::fill(target, {0, q, 0}, {1, half, half});
+      shapes::fill(target, {last - 1, q, 0}, {last, half, half});
+      shapes::fill(target, {0, q, half}, {last, half, half + 1});
       break;
     case 2:
-      fill(target, {0, 0, half}, {last, last, half});
+      shapes::fill(target, {0, 0, half}, {last, last, half});
       for (int corner = 0; corner < 4; ++corner) {
         const Voxel foot{corner & 1 ? last : 0, corner & 2 ? last : 0, 0};
-        fill(target, foot, foot + Voxel{0, 0, half});
+        shapes::fill(target, foot, foot + Voxel{0, 0, half});
       }
       break;
     default:
-      fill(target, {q, q, half}, {last - q, last - q, half + q});
+      shapes::fill(target, {q, q, half}, {last - q, last - q, half + q});
       if (number > 3)
         for (int k = half; k < half + q; ++k)
           for (int j = q + 1; j < last - q; ++j)
@@ -148,7 +143,7 @@ TEST(Ground, RandomShapesAreHeldToo) {
 TEST(Ground, WhereNothingHoldsAnythingTheRunsAreTheSame) {
   for (const Search search : {by_voxels, by_blocks}) {
     VoxelSet wall(16);
-    fill(wall, {3, 5, 0}, {9, 6, 12});
+    shapes::fill(wall, {3, 5, 0}, {9, 6, 12});
     const VoxelGrid voxels{VoxelSet(16, true), wall};
     const VoxelSet may_fall(16);
     const Support support(voxels.stock, may_fall);
@@ -206,7 +201,7 @@ TEST(Ground, WhatIsBehindAClosedRingIsLeft) {
   // Three layers of stock, and a room that lets the robot in at one corner only.
   const int n = 8;
   VoxelGrid voxels{VoxelSet(n), VoxelSet(n)};
-  fill(voxels.stock, {0, 0, 0}, {n - 1, n - 1, 2});
+  shapes::fill(voxels.stock, {0, 0, 0}, {n - 1, n - 1, 2});
   for (int j = 0; j < n; ++j)
     for (int k = 0; k < n; ++k) {  // a wall across
       voxels.stock.insert({4, j, k});

@@ -53,39 +53,33 @@ bool frees_by_brute_force(const VoxelSet& standing, const VoxelSet& may_fall, Vo
                      [&](Voxel each) { return !before.contains(each) && !may_fall.contains(each); });
 }
 
-void fill(VoxelSet& set, Voxel low, Voxel high) {
-  for (int k = low.k; k <= high.k; ++k)
-    for (int j = low.j; j <= high.j; ++j)
-      for (int i = low.i; i <= high.i; ++i) set.insert({i, j, k});
-}
-
 /// Mushroom, bridge, ring on a post, block on a neck, comb, blobs, noise, a full cube.
 VoxelSet shape(int n, std::uint64_t seed) {
   VoxelSet set(n);
   const int last = n - 1, half = n / 2;
   switch (seed % 8) {
     case 0:
-      fill(set, {half, half, 0}, {half, half, last});
-      fill(set, {0, 0, half}, {last, last, half + 1});
+      shapes::fill(set, {half, half, 0}, {half, half, last});
+      shapes::fill(set, {0, 0, half}, {last, last, half + 1});
       return set;
     case 1:
-      fill(set, {0, half, 0}, {0, half, last});
-      fill(set, {last, half, 0}, {last, half, last});
-      fill(set, {0, half, last - 1}, {last, half, last - 1});
+      shapes::fill(set, {0, half, 0}, {0, half, last});
+      shapes::fill(set, {last, half, 0}, {last, half, last});
+      shapes::fill(set, {0, half, last - 1}, {last, half, last - 1});
       return set;
     case 2:
-      fill(set, {0, 0, half}, {last, last, half});
+      shapes::fill(set, {0, 0, half}, {last, last, half});
       for (int j = 1; j < last; ++j)
         for (int i = 1; i < last; ++i) set.erase({i, j, half});
-      fill(set, {0, 0, 0}, {0, 0, half});
+      shapes::fill(set, {0, 0, 0}, {0, 0, half});
       return set;
     case 3:
-      fill(set, {1, 1, half}, {last, last, last});
-      fill(set, {2, 2, 0}, {2, 2, half});
+      shapes::fill(set, {1, 1, half}, {last, last, last});
+      shapes::fill(set, {2, 2, 0}, {2, 2, half});
       return set;
     case 4:
-      fill(set, {0, 0, 0}, {last, 0, last});
-      for (int i = 0; i < n; i += 2) fill(set, {i, 0, 1}, {i, last, last});
+      shapes::fill(set, {0, 0, 0}, {last, 0, last});
+      for (int i = 0; i < n; i += 2) shapes::fill(set, {i, 0, 1}, {i, last, last});
       return set;
     case 5:
     case 6:
@@ -102,7 +96,7 @@ TEST(Support, FreesWhatAPlainFloodAfterTheRemovalSaysInAnyOrder) {
     Random random(seed);
     const int n = seed % 3 == 0 ? 8 : 4;
     VoxelSet may_fall(n);
-    if (seed % 5 == 0) fill(may_fall, {1, 0, 1}, {n - 1, n / 2, n - 1});
+    if (seed % 5 == 0) shapes::fill(may_fall, {1, 0, 1}, {n - 1, n / 2, n - 1});
     Support support(shape(n, seed), may_fall);
     std::vector<Voxel> order = members(support.standing()), removed;
     for (std::size_t at = order.size(); at > 1; --at) std::swap(order[at - 1], order[random.next() % at]);
@@ -142,8 +136,8 @@ TEST(Support, WhatIsHeldStaysHeldAllTheWayDown) {
 
 TEST(Support, ALineIsCutUpToWhatHoldsTheRest) {
   VoxelSet gallows(8);
-  fill(gallows, {2, 2, 0}, {2, 2, 4});
-  fill(gallows, {3, 2, 4}, {7, 2, 4});
+  shapes::fill(gallows, {2, 2, 0}, {2, 2, 4});
+  shapes::fill(gallows, {3, 2, 4}, {7, 2, 4});
   Support support(gallows, VoxelSet(8));
   EXPECT_EQ(support.remove(VoxelLine{{3, 2, 4}, {7, 2, 4}}), 0);
   EXPECT_EQ(support.standing(), gallows);
@@ -163,21 +157,21 @@ TEST(Support, WhatHangsOnThickPartsIsHeldAsAPlainFloodSays) {
     VoxelSet blocks(n), rods(n), may_fall(n);
     const auto within = [&](int from, int to) { return static_cast<int>(random.between(from, to + 1)); };
     for (const Voxel low : {Voxel{2, 2, 10}, Voxel{17, 2, 10}, Voxel{2, 17, 10}}) {
-      fill(blocks, low, low + Voxel{within(9, 12), within(9, 12), within(8, 20)});
+      shapes::fill(blocks, low, low + Voxel{within(9, 12), within(9, 12), within(8, 20)});
       for (int post = within(0, 1); post > 0; --post) {
         const int i = low.i + within(0, 8), j = low.j + within(0, 8);
-        fill(rods, {i, j, 0}, {i, j, 9});
+        shapes::fill(rods, {i, j, 0}, {i, j, 9});
       }
     }
     for (int rod = within(1, 2); rod > 0; --rod) {
       const int across = within(3, 10), k = within(11, 17);
-      fill(rods, {10, across, k}, {20, across, k});
+      shapes::fill(rods, {10, across, k}, {20, across, k});
     }
     for (int rod = within(1, 2); rod > 0; --rod) {
       const int across = within(3, 10), k = within(11, 17);
-      fill(rods, {across, 10, k}, {across, 20, k});
+      shapes::fill(rods, {across, 10, k}, {across, 20, k});
     }
-    if (seed % 4 == 0) fill(may_fall, {0, 0, 8}, {31, 15, 31});
+    if (seed % 4 == 0) shapes::fill(may_fall, {0, 0, 8}, {31, 15, 31});
     VoxelSet set = blocks;
     for (const Voxel voxel : members(rods)) set.insert(voxel);
     const Support support(set, may_fall);
@@ -194,22 +188,22 @@ TEST(Support, WhatHangsOnThickPartsIsHeldAsAPlainFloodSays) {
 /// Far from any column that stands on the table, and too large for anything but a flood of the whole grid.
 TEST(Support, ALargeOverhangIsFollowedToItsOnlyPost) {
   VoxelSet table(64);
-  fill(table, {0, 0, 40}, {63, 63, 43});
-  fill(table, {0, 0, 0}, {0, 0, 39});
-  fill(table, {63, 63, 30}, {63, 63, 39});
+  shapes::fill(table, {0, 0, 40}, {63, 63, 43});
+  shapes::fill(table, {0, 0, 0}, {0, 0, 39});
+  shapes::fill(table, {63, 63, 30}, {63, 63, 39});
   Support support(table, VoxelSet(64));
   EXPECT_TRUE(support.frees({63, 63, 39}));
   EXPECT_TRUE(support.frees({0, 0, 20}));
   EXPECT_FALSE(support.frees({63, 63, 30}));
   EXPECT_FALSE(support.frees({32, 32, 41}));
-  fill(table, {20, 0, 0}, {20, 0, 39});
+  shapes::fill(table, {20, 0, 0}, {20, 0, 39});
   EXPECT_FALSE(Support(table, VoxelSet(64)).frees({0, 0, 20})) << "the other post holds all";
 }
 
 TEST(Support, WhatWasInItsMemoryBeforeChangesNothing) {
   // A post of three voxels with one more hanging beside its top. Its height once made the count of what hangs zero.
   VoxelSet standing(4);
-  fill(standing, {1, 1, 0}, {1, 1, 2});
+  shapes::fill(standing, {1, 1, 0}, {1, 1, 2});
   standing.insert({2, 1, 2});
   alignas(Support) std::array<std::int64_t, (sizeof(Support) + 7) / 8> memory;
   for (std::int64_t value : {0, 3, 4, -1}) {

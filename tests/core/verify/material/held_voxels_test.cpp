@@ -23,32 +23,12 @@ bool is_inside(int n, Voxel v) {
   return Grid{n, 1, Vec3::Zero()}.contains(v);
 }
 
-VoxelSet loose_by_brute_force(const VoxelSet& standing) {
-  VoxelSet loose = standing;
-  std::vector<Voxel> queue;
-  for (Voxel voxel : members(standing))
-    if (voxel.k == 0) queue.push_back(voxel);
-  for (Voxel voxel : queue) loose.erase(voxel);
-  for (std::size_t at = 0; at < queue.size(); ++at)
-    for (Voxel step : face_steps) {
-      const Voxel next = queue[at] + step;
-      if (!is_inside(standing.n(), next) || !loose.contains(next)) continue;
-      loose.erase(next);
-      queue.push_back(next);
-    }
-  return loose;
-}
-
 Keyframe cut(Voxel first, Voxel last) {
   return {{}, true, first, last};
 }
 
 std::vector<Voxel> voxels_of(const Keyframe& line) {
-  std::vector<Voxel> all{line.first};
-  const auto sign = [](int value) { return (value > 0) - (value < 0); };
-  const Voxel way = line.last - line.first;
-  while (all.back() != line.last) all.push_back(all.back() + Voxel{sign(way.i), sign(way.j), sign(way.k)});
-  return all;
+  return shapes::row_of(line.first, line.last);
 }
 
 /// What is not keep, in random lines: in random order, where nearly everything hangs on nothing for a while, or from
@@ -97,11 +77,11 @@ TEST(HeldVoxels, WhatACutFreesIsWhatAFloodAfterEveryVoxelSays) {
     const VoxelSet may_fall = find_never_held(grid);
     const std::vector<FreedPiece> found = freed_by(grid.stock, cuts, may_fall);
     std::size_t at = 0;
-    VoxelSet standing = grid.stock, loose = loose_by_brute_force(standing);
+    VoxelSet standing = grid.stock, loose = shapes::loose_by_brute_force(standing);
     for (std::size_t line = 0; line < cuts.size(); ++line)
       for (Voxel voxel : voxels_of(cuts[line])) {
         standing.erase(voxel);
-        const VoxelSet after = loose_by_brute_force(standing);
+        const VoxelSet after = shapes::loose_by_brute_force(standing);
         std::uint64_t freed = 0, unforeseen = 0;
         for (Voxel each : members(after)) {
           if (loose.contains(each)) continue;
