@@ -6,7 +6,8 @@
 
 namespace sculpt {
 
-/// Thrown wherever input cannot be used; `code` is a word of the error catalogue (proto/PROTOCOL.md).
+/// Thrown wherever input cannot be used; `code` is one of those in README, Troubleshooting; what
+/// travels is in proto/PROTOCOL.md too.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string code, const std::string& sentence) : std::runtime_error(sentence), code_(std::move(code)) {}

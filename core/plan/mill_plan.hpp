@@ -7,7 +7,8 @@
 
 namespace sculpt {
 
-/// As run_job, of a job whose search is `mill`.
+/// As run_job, of a job whose search is `mill`. Throws also InputError `tools_invalid` for a tool that cannot be used
+/// in the cell, or for wishes of the surface that cannot be kept.
 JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& watch);
 
 }  // namespace sculpt

@@ -1,3 +1,4 @@
+// What clients ask of results: a list, a piece, a link, to be kept.
 #include "proto/crc32.hpp"
 #include "server/api/handlers.hpp"
 #include "server/base/time_stamp.hpp"

@@ -1,3 +1,4 @@
+// What clients say of uploads.
 #include "server/api/handlers.hpp"
 
 namespace sculpt::server {

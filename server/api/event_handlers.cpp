@@ -1,3 +1,4 @@
+// Who wants to hear of what happens.
 #include "server/api/handlers.hpp"
 
 namespace sculpt::server {

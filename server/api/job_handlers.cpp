@@ -1,3 +1,4 @@
+// What is asked of jobs: one, a page of them, their end, a replay.
 #include "server/api/handlers.hpp"
 #include "server/api/job_page.hpp"
 #include "server/run/isolated_replay.hpp"

@@ -1,3 +1,4 @@
+// What is asked of the daemon itself.
 #include <spdlog/spdlog.h>
 
 #include "proto/schema.hpp"

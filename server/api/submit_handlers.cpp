@@ -1,3 +1,4 @@
+// How a job comes into the queue.
 #include <spdlog/spdlog.h>
 
 #include "server/api/handlers.hpp"

@@ -1,3 +1,4 @@
+// fsck: the files of jobs and uploads against what the store says of them.
 #include <set>
 
 #include "proto/cell_bundle.hpp"

@@ -1,3 +1,4 @@
+// fsck: what the store says, against itself.
 #include <algorithm>
 #include <iterator>
 
