@@ -39,7 +39,7 @@ std::string path_of(const Endpoint& endpoint) {
   return reinterpret_cast<const sockaddr_un*>(endpoint.data())->sun_path;
 }
 
-std::size_t most_connections(const Config& config) {
+std::size_t max_connections(const Config& config) {
   rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
   const rlim_t room = files.rlim_cur > 2 * files_for_others ? files.rlim_cur - files_for_others : files_for_others;
@@ -130,7 +130,7 @@ void Listener::on_accept(const boost::system::error_code& error, Protocol::socke
   if (error) return wait_for_files(error);
   short_of_files_ = false;
   Peer peer = peer_of(socket);
-  peer.spare = context_.connections.count() >= most_connections(context_.config);
+  peer.spare = context_.connections.count() >= max_connections(context_.config);
   if (peer.spare) context_.connections.thin_spare(spare_places - 1);
   const auto door = std::make_shared<Door>(Stream(std::move(socket)), std::move(peer), tls_, context_, http_);
   context_.connections.add(door);

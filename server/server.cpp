@@ -33,7 +33,7 @@ namespace {
 constexpr std::chrono::milliseconds tick_time{250};
 constexpr std::chrono::minutes sweep_time{1};
 constexpr int ticks_per_status = 20;
-constexpr int least_checks_at_once = 4;
+constexpr int min_checks_at_once = 4;
 
 RunJob choose_run(RunJob here, RunJob isolated) {
   return [here = std::move(here), isolated = std::move(isolated)](const JobRecord& job, const Watch& watch) {
@@ -222,7 +222,7 @@ struct Server::Impl {
   Tickets tickets{link_secret(fleet), [this] { return fleet == nullptr ? unix_ms() : fleet->now_ms(); }};
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
-  CheckDesk checks{std::max(least_checks_at_once, cores())};
+  CheckDesk checks{std::max(min_checks_at_once, cores())};
   TaskQueue replays{Pace::background}, exports{Pace::background};
   Answers answers{io, reads};
   Dispatcher dispatcher;

@@ -48,8 +48,8 @@ Json follow_job(client::Client& client, const std::string& job, ProgressLine& pr
 }
 
 Json wait_job(client::Client& client, const std::string& job) {
-  constexpr int longest_wait_s = 3600;
-  while (client.call("job.wait", {{"job", job}, {"timeout_s", longest_wait_s}}).value("timed_out", false)) {
+  constexpr int max_wait_s = 3600;
+  while (client.call("job.wait", {{"job", job}, {"timeout_s", max_wait_s}}).value("timed_out", false)) {
   }
   return client.call("job.get", {{"job", job}});
 }

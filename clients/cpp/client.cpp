@@ -13,8 +13,8 @@ namespace sculpt::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t longest_page = 1000;
-constexpr std::chrono::milliseconds first_pause{100}, longest_pause{2000};  // between looks for a lost server
+constexpr std::size_t max_page = 1000;
+constexpr std::chrono::milliseconds first_pause{100}, max_pause{2000};  // between looks for a lost server
 
 [[noreturn]] void raise(const Json& error) {
   const Json data = error.value("data", Json::object());
@@ -75,7 +75,7 @@ void Client::find_again(const std::exception_ptr& lost) {
   const auto end = Clock::now() + std::chrono::duration<double>(patience_s_);
   if (patience_s_ > 0 && tell_lost_) tell_lost_("the connection to " + server_ + " broke: looking for the server");
   const std::string epoch = hello_.value("epoch", std::string());
-  for (auto pause = first_pause; Clock::now() + pause < end; pause = std::min(2 * pause, longest_pause)) {
+  for (auto pause = first_pause; Clock::now() + pause < end; pause = std::min(2 * pause, max_pause)) {
     std::this_thread::sleep_for(pause);
     try {
       open();
@@ -152,14 +152,14 @@ std::optional<Json> Client::receive(std::optional<double> timeout_s, std::string
 }
 
 Json Client::list(const ListRequest& request) {
-  Json params{{"limit", longest_page}};
+  Json params{{"limit", max_page}};
   if (!request.after.empty()) params["after"] = request.after;
   if (!request.before.empty()) params["before"] = request.before;
   if (request.newest) params["order"] = "newest";
   Json jobs = Json::array(), damaged = Json::array(), last;
   bool more = true;
   while (more && (request.limit == 0 || jobs.size() < request.limit)) {
-    if (request.limit != 0) params["limit"] = std::min(longest_page, request.limit - jobs.size());
+    if (request.limit != 0) params["limit"] = std::min(max_page, request.limit - jobs.size());
     const Json page = call("job.list", params);
     for (const Json& job : page.at("jobs")) jobs.push_back(job);
     for (const Json& job : page.value("damaged", Json::array())) damaged.push_back(job);

@@ -75,9 +75,9 @@ class CellField {
     return number_here;
   }
   /// A length in a room, m: a larger one was meant in millimetres.
-  double length_from(double least_m) const {
+  double length_from(double min_m) const {
     constexpr double max_m = 1000;
-    const double length_m = number_from(least_m);
+    const double length_m = number_from(min_m);
     if (length_m > max_m) {
       std::ostringstream limit;
       limit << length_m << " m is in no room: give metres, at most " << max_m;

@@ -43,7 +43,7 @@ class Solver {
       if (settings_.respect_limits) trial = trial.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
       linearize(trial);
       if (linear_.error.norm() <= before) {
-        damping = std::max(damping / 4, least_damping);
+        damping = std::max(damping / 4, min_damping);
         q.swap(trial);
       } else {
         damping *= 8;
@@ -61,7 +61,7 @@ class Solver {
 
  private:
   static constexpr double start_damping = 1e-3;
-  static constexpr double least_damping = 1e-6;
+  static constexpr double min_damping = 1e-6;
   static constexpr int patience = 12;
 
   bool reached() const {

@@ -10,7 +10,7 @@ namespace sculpt {
 namespace {
 
 constexpr int travel_points = 65;
-constexpr double least_share = 0.5;
+constexpr double min_share = 0.5;
 
 std::vector<LinkShape> shapes_of(const Robot& robot, int link) {
   std::vector<LinkShape> shapes;
@@ -49,7 +49,7 @@ std::vector<WideContact> find_wide_contacts(const Cell& cell, const std::vector<
     const Joint& joint = cell.robot.joints[static_cast<std::size_t>(drives.front().joint)];
     if (groups(joint.parent_link, joint.child_link) != groups(pair.links.first, pair.links.second)) continue;
     const double share = touching_share(cell, chain, pair, drives.front().coordinate);
-    if (share >= least_share) wide.push_back({pair.links, drives.front().joint, share});
+    if (share >= min_share) wide.push_back({pair.links, drives.front().joint, share});
   }
   return wide;
 }

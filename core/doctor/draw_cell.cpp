@@ -59,7 +59,7 @@ class CellDrawing {
       box_.extend(stock_pose() * Vec3(cell_.stock_origin_m + Vec3::Constant(share * cell_.stock_size_m)));
     box_.extend(at_[static_cast<std::size_t>(cell_.tool_link)] * Vec3(0, 0, cell_.tool.stickout_m));
     for (const Frame& link : at_) box_.extend(link.translation());
-    const double longest_m = 1.2 * box_.sizes().maxCoeff();
+    const double max_body_m = 1.2 * box_.sizes().maxCoeff();
     for (std::size_t link = 0; link < at_.size(); ++link)
       for (const Shape& shape : cell_.robot.links[link].shapes) {
         std::vector<Facet> facets;
@@ -67,7 +67,7 @@ class CellDrawing {
         Eigen::AlignedBox3d box;
         for (const Facet& facet : facets)
           for (const Vec3& corner : facet.corners) box.extend(corner);
-        if (!facets.empty() && box.sizes().maxCoeff() < longest_m) box_.extend(box);
+        if (!facets.empty() && box.sizes().maxCoeff() < max_body_m) box_.extend(box);
       }
     span_m_ = margin * std::max(box_.sizes().norm() * 0.85, box_.sizes().maxCoeff());
   }
@@ -98,17 +98,17 @@ class CellDrawing {
   void add_tool() {
     const Colour colour = blocks(NearBodies::tool) ? red : steel;
     const Frame& nose = at_[static_cast<std::size_t>(cell_.tool_link)];
-    const double least_m = tool_of_span * span_m_;
+    const double min_m = tool_of_span * span_m_;
     const auto in_metres = [&](double radius) {
       return cell_.tool.in_voxels ? radius * cell_.stock_size_m / 64 : radius;
     };
     Shape shank, ball;
     shank.kind = ShapeKind::cylinder;
     shank.length_m = cell_.tool.stickout_m;
-    shank.radius_m = std::max(least_m, in_metres(cell_.tool.shank_radius));
+    shank.radius_m = std::max(min_m, in_metres(cell_.tool.shank_radius));
     shank.pose.translation().z() = shank.length_m / 2;
     ball.kind = ShapeKind::sphere;
-    ball.radius_m = std::max(1.4 * least_m, in_metres(cell_.tool.ball_radius));
+    ball.radius_m = std::max(1.4 * min_m, in_metres(cell_.tool.ball_radius));
     ball.pose.translation().z() = shank.length_m;
     if (shank.length_m > 0) add_facets(shank, nose, colour, facets_);
     add_facets(ball, nose, colour, facets_);

@@ -13,9 +13,9 @@ namespace {
 
 using Weight = Fault::Weight;
 
-constexpr double largest_body_m = 20, smallest_body_m = 2e-4;
+constexpr double max_body_m = 20, min_body_m = 2e-4;
 constexpr std::size_t many_facets = 200'000, told_pairs = 2;
-constexpr double least_reach = 0.999, little_reach = 0.5;
+constexpr double min_reach = 0.999, little_reach = 0.5;
 
 std::string quoted(const std::string& name) {
   return "'" + name + "'";
@@ -58,11 +58,11 @@ std::string another_home(const CellFindings& found) {
 }
 
 void check_sizes(const BodyFinding& body, std::vector<Fault>& faults) {
-  if (body.size_m.maxCoeff() > largest_body_m)
+  if (body.size_m.maxCoeff() > max_body_m)
     faults.push_back({Weight::warning, "body_size",
                       quoted(body.link) + " is " + in_m(body.size_m.maxCoeff()) + " long: its mesh seems to be in mm",
                       "give its <mesh> scale=\"0.001 0.001 0.001\" in the URDF"});
-  if (body.size_m.maxCoeff() < smallest_body_m)
+  if (body.size_m.maxCoeff() < min_body_m)
     faults.push_back({Weight::warning, "body_size",
                       quoted(body.link) + " is no more than " + in_mm(body.size_m.maxCoeff()) + " long",
                       "look at the scale of its <mesh> in the URDF: lengths are metres"});
@@ -228,7 +228,7 @@ void find_faults_of_home(const CellDraft& draft, CellFindings& found) {
 }
 
 bool reach_is_poor(const CellFindings& found) {
-  return found.reached < least_reach ||
+  return found.reached < min_reach ||
          std::any_of(found.directions.begin(), found.directions.end(),
                      [](const DirectionFinding& d) { return d.free < little_reach * d.places; });
 }
@@ -240,7 +240,7 @@ void find_faults_of_reach(const Chain& chain, CellFindings& found) {
                             "the arm can hold the tool at no place of the stock that was tried (" +
                                 std::to_string(causes.places) + " places and directions)",
                             cure_of(causes)});
-  } else if (found.reached < least_reach) {
+  } else if (found.reached < min_reach) {
     found.faults.push_back({Weight::warning, "part_unreached",
                             "of the places in the stock that were tried the arm reaches " + in_percent(found.reached) +
                                 " along a straight direction: about the rest of the voxels will be left",

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view magic = "SCULPLAW";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t corner_bytes = 16, corners_a_piece = 4096, hash_bytes = 64;
-constexpr std::uint64_t most_keyframes = std::uint64_t{1} << 32;
+constexpr std::uint64_t max_keyframes = std::uint64_t{1} << 32;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("law_invalid", "the time law's file " + what + ": make it again with sculpt time -o");
@@ -128,7 +128,7 @@ LawFile read_law(std::istream& in) {
   const auto coordinates = source.word<std::uint32_t>();
   if (coordinates < 1 || coordinates > max_joints) refuse("names " + std::to_string(coordinates) + " joints");
   file.plan.keyframes = source.word<std::uint64_t>();
-  if (file.plan.keyframes >= most_keyframes) refuse("counts more keyframes than a plan can have");
+  if (file.plan.keyframes >= max_keyframes) refuse("counts more keyframes than a plan can have");
   file.plan.crc = source.word<std::uint32_t>();
   for (double* value : {&file.law.window_s, &file.law.feed_m_s, &file.law.rapid_m_s}) *value = source.number();
   for (std::uint32_t joint = 0; joint < coordinates; ++joint) file.law.acceleration.push_back(source.number());

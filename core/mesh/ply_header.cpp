@@ -38,7 +38,7 @@ bool is_whole(std::optional<PlyType> type) {
 }
 
 /// The least number of bytes that the values of one element take in the body.
-std::uint64_t least_size(const PlyElement& element, PlyHeader::Form form) {
+std::uint64_t min_size(const PlyElement& element, PlyHeader::Form form) {
   std::uint64_t size = 0;
   for (const PlyProperty& property : element.properties)
     size += form == PlyHeader::Form::ascii ? 2 : size_of(property.length.value_or(property.type));  // a digit, a blank
@@ -125,7 +125,7 @@ class Reader {
   void check_counts() const {
     std::uint64_t left = bytes_.size() - header_.body + 1;  // the last blank may be missing
     for (const PlyElement& element : header_.elements) {
-      const std::uint64_t size = least_size(element, header_.form);
+      const std::uint64_t size = min_size(element, header_.form);
       if (size == 0 ? element.count > 0 : element.count > left / size)
         refuse_ply("says that it has " + std::to_string(element.count) + " of element " + element.name +
                    ", more than its " + std::to_string(bytes_.size()) + " bytes can hold");

@@ -14,7 +14,7 @@ namespace {
 constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
 /// Nails: of a square of the finest stepover, but no more and no fewer than these.
 constexpr double nails_a_stepover = 2;
-constexpr std::size_t fewest_nails = 20000, most_nails = 150000;
+constexpr std::size_t fewest_nails = 20000, max_nails = 150000;
 
 double area_of(const Mesh& mesh) {
   double area = 0;
@@ -29,7 +29,7 @@ Nails make_nails(const MillJob& job, std::uint64_t seed) {
     finest_m2 = std::min(finest_m2, 8 * job.wishes.scallop_m * tool.cutter.radius_m);
   const double wanted = nails_a_stepover * area_of(job.part) / finest_m2;
   const auto count =
-      static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(fewest_nails), static_cast<double>(most_nails)));
+      static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(fewest_nails), static_cast<double>(max_nails)));
   return {job.part, job.voxels, job.grid, count, seed};
 }
 
@@ -47,9 +47,9 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
         emit(std::move(keyframes));
       }),
       arm_(job.home, job.home, emit_, run) {
-  double widest_m = 0;
-  for (const MillTool& tool : job.tools) widest_m = std::max(widest_m, tool.cutter.radius_m);
-  around_ = grid_around(job.grid, widest_m + room_around_m);
+  double max_radius_m = 0;
+  for (const MillTool& tool : job.tools) max_radius_m = std::max(max_radius_m, tool.cutter.radius_m);
+  around_ = grid_around(job.grid, max_radius_m + room_around_m);
 }
 
 void Carver::take_tool(std::size_t number) {

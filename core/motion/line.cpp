@@ -8,7 +8,7 @@ namespace {
 /// Joint steps longer than this are split: they would leave the line by too much to be worth certifying.
 constexpr double max_joint_step = 0.4;
 /// Lines shorter than this (voxel edges) are not split further.
-constexpr double shortest_piece_voxels = 0.12;
+constexpr double min_piece_voxels = 0.12;
 
 struct Tracker {
   const Scene& scene;
@@ -27,7 +27,7 @@ struct Tracker {
       }
       if (scene.contact_at(*to) != Contact::none) return false;  // however short the steps, they lead there
     }
-    if ((end - start).norm() < 2 * shortest_piece_voxels * scene.grid().voxel_m) return false;
+    if ((end - start).norm() < 2 * min_piece_voxels * scene.grid().voxel_m) return false;
     const Vec3 middle = (start + end) / 2;
     return track(start, middle) && track(middle, end);
   }

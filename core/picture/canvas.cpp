@@ -10,7 +10,7 @@ namespace {
 constexpr int finer = 2;
 constexpr Colour paper{250, 250, 248};
 constexpr double nowhere = -std::numeric_limits<double>::max();
-constexpr double least_light = 0.45, line_pixels = 2.5;
+constexpr double min_light = 0.45, line_pixels = 2.5;
 constexpr double edge_of_span = 0.012;
 
 Colour shade(const Colour& colour, double light) {
@@ -54,7 +54,7 @@ void Canvas::draw(const Facet& facet) {
   const Point a = project(facet.corners[0]), b = project(facet.corners[1]), c = project(facet.corners[2]);
   const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (std::abs(area) < 1e-9) return;
-  const Colour colour = shade(facet.colour, least_light + (1 - least_light) * light_on(facet));
+  const Colour colour = shade(facet.colour, min_light + (1 - min_light) * light_on(facet));
   const int left = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))),
             right = std::min(width_ - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x})))),
             top = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))),

@@ -12,7 +12,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_stands = 20000;
+constexpr std::size_t max_stands = 20000;
 constexpr double blocks_around = 1.5, blocks_up = 1;  // edges of the block
 constexpr double per_unit = 1e6;  // values are whole multiples of a micrometre or microradian: they read well
 constexpr int places_x = 11, places_y = 9, places_up = 5;
@@ -54,9 +54,9 @@ std::vector<Stand> list_stands(const StandRanges& ranges, const Stand& own) {
   double count = 1;
   for (const StandRange* range : {&ranges.x, &ranges.y, &ranges.z, &ranges.turn, &ranges.height, &ranges.stickout})
     count *= range->steps;
-  if (count > static_cast<double>(most_stands))
+  if (count > static_cast<double>(max_stands))
     throw InputError("cell_invalid", "the ranges make " + std::to_string(static_cast<std::uint64_t>(count)) +
-                                         " stands, more than " + std::to_string(most_stands) + ": ask for fewer steps");
+                                         " stands, more than " + std::to_string(max_stands) + ": ask for fewer steps");
   std::vector<Stand> stands;
   for (const double stickout : ranges.stickout.values())
     for (const double height : ranges.height.values())

@@ -198,7 +198,7 @@ std::string mm(double metres) {
 }
 
 /// Keyframes are rounded by a micrometre or so, and edges that may stray by less than a few would be endless.
-constexpr double least_allowance_m = 6e-6;
+constexpr double min_allowance_m = 6e-6;
 
 /// What a milling job asks for, against its tools and the cell's block.
 void check_wishes(const MillOrder& order, const std::vector<MillTool>& tools, const Cell& cell) {
@@ -210,9 +210,9 @@ void check_wishes(const MillOrder& order, const std::vector<MillTool>& tools, co
   if (!(scallop > 0) || !(allowance >= 0) || scallop + allowance > tolerance)
     refuse("scallop " + mm(scallop) + " and allowance " + mm(allowance) + " do not fit into the tolerance of " +
            mm(tolerance) + ": both together must be less");
-  if (allowance < least_allowance_m)
+  if (allowance < min_allowance_m)
     refuse("an allowance of " + mm(allowance) + " leaves the cutter less room to stray than it needs: give at least " +
-           mm(least_allowance_m) + ", or a tolerance of " + mm(least_allowance_m / 0.3) + " or more");
+           mm(min_allowance_m) + ", or a tolerance of " + mm(min_allowance_m / 0.3) + " or more");
   for (const MillTool& tool : tools) {
     if (tolerance > tool.cutter.radius_m)
       refuse("a tolerance of " + mm(tolerance) + " is more than the radius of '" + tool.name + "', " +

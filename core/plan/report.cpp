@@ -9,7 +9,7 @@ nlohmann::ordered_json json_of(const ExcessFigures& figures) {
   return {
       {"points", figures.points},
       {"within_tolerance", figures.within_tolerance},
-      {"excess_m", {{"p50", figures.p50_m}, {"p95", figures.p95_m}, {"p99", figures.p99_m}, {"max", figures.most_m}}}};
+      {"excess_m", {{"p50", figures.p50_m}, {"p95", figures.p95_m}, {"p99", figures.p99_m}, {"max", figures.max_m}}}};
 }
 
 }  // namespace

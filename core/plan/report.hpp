@@ -17,7 +17,7 @@ namespace sculpt {
 /// What stands above the surface at random points of it.
 struct ExcessFigures {
   std::uint64_t points = 0, within_tolerance = 0;
-  double p50_m = 0, p95_m = 0, p99_m = 0, most_m = 0;
+  double p50_m = 0, p95_m = 0, p99_m = 0, max_m = 0;
 };
 
 /// Of a job with milling tools.

@@ -20,7 +20,7 @@ ExcessFigures excess_figures(std::vector<double> excess, double tolerance_m) {
   figures.p50_m = share(0.5);
   figures.p95_m = share(0.95);
   figures.p99_m = share(0.99);
-  figures.most_m = excess.back();
+  figures.max_m = excess.back();
   return figures;
 }
 

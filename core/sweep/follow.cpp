@@ -14,7 +14,7 @@ namespace sculpt {
 namespace {
 
 // Edges, in voxel edges. A cut has a voxel at least.
-constexpr double max_edge = 64, shortest_move = 0.1, first_edge = 8;
+constexpr double max_edge = 64, min_move = 0.1, first_edge = 8;
 constexpr double intended_share = 0.95;  // of what the tool may tolerance
 constexpr double shorter = 0.98;         // than a refused edge; more than the root of the intended share
 
@@ -136,7 +136,7 @@ class Follower {
       for (std::size_t lane = 0; lane < pieces_.size(); ++lane) {
         const Piece& piece = pieces_[lane];
         if (!take(piece, lane)) {
-          refused_at_all = piece.length <= (piece.cuts() ? 1 : shortest_move);
+          refused_at_all = piece.length <= (piece.cuts() ? 1 : min_move);
           break;
         }
         followed.keyframes.push_back(keyframe_at_end(piece));
@@ -185,7 +185,7 @@ class Follower {
     const Stroke& stroke = place.stroke();
     const auto& known = known_[direction_of(place.along())];
     most = std::min(most, known ? known->reach(allowed(place.from(), stroke.to, stroke)) : first_edge);
-    most = stroke.count > 0 ? std::max(1.0, std::floor(most)) : std::max(shortest_move, most);
+    most = stroke.count > 0 ? std::max(1.0, std::floor(most)) : std::max(min_move, most);
     const double pieces = std::ceil(place.left() / most);
     if (pieces <= 1) return place.left();
     return stroke.count > 0 ? std::ceil(place.left() / pieces) : place.left() / pieces;

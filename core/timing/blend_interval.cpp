@@ -7,14 +7,14 @@
 namespace sculpt {
 namespace {
 
-constexpr double least_alpha = 1e-12;
+constexpr double min_alpha = 1e-12;
 constexpr double rounding = 1e-12;
-constexpr int most_steps = 40;
+constexpr int max_steps = 40;
 
 }  // namespace
 
 BlendInterval::BlendInterval(const Configuration& way, const Configuration& bend, double delta, double most)
-    : delta_(delta), most_start_(std::numeric_limits<double>::infinity()) {
+    : delta_(delta), max_start_(std::numeric_limits<double>::infinity()) {
   for (int joint = 0; joint < way.size(); ++joint) {
     add(way[joint], bend[joint], joint);
     add(way[joint] + 3 * delta * bend[joint], bend[joint], joint);  // q' + delta q'' there, and x_1 = x_0 + 2 delta s
@@ -27,8 +27,8 @@ void BlendInterval::add(double alpha, double beta, int joint) {
     alpha = -alpha;
     beta = -beta;
   }
-  if (alpha < least_alpha) {
-    if (beta != 0) most_start_ = std::min(most_start_, 1 / std::abs(beta));
+  if (alpha < min_alpha) {
+    if (beta != 0) max_start_ = std::min(max_start_, 1 / std::abs(beta));
     return;
   }
   const auto at = static_cast<std::size_t>(bands_++);
@@ -60,9 +60,9 @@ BlendInterval::Line BlendInterval::lower(double start) const {
 }
 
 /// The room between the lines above and those below is concave in x_0, and there is some at 0: Newton from above.
-double BlendInterval::largest_start(double cap, double end) const {
-  double start = std::min(cap, most_start_);
-  for (int step = 0; step < most_steps; ++step) {
+double BlendInterval::max_start(double cap, double end) const {
+  double start = std::min(cap, max_start_);
+  for (int step = 0; step < max_steps; ++step) {
     Line high = upper(start);
     if (const double s = (end - start) / (2 * delta_); s < high.value) high = {s, -1 / (2 * delta_), -1};
     Line low = lower(start);
@@ -78,7 +78,7 @@ double BlendInterval::largest_start(double cap, double end) const {
   return 0;
 }
 
-double BlendInterval::largest_end(double start, double end) const {
+double BlendInterval::max_end(double start, double end) const {
   const double s = std::max(upper(start).value, lower(start).value);
   return std::clamp(start + 2 * delta_ * s, 0.0, end);
 }

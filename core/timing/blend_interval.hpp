@@ -17,9 +17,9 @@ class BlendInterval {
   BlendInterval(const Configuration& way, const Configuration& bend, double delta, double most);
 
   /// The largest x_0 up to `cap` from which some x_1 of at most `end` can be come to.
-  double largest_start(double cap, double end) const;
-  /// The largest x_1 up to `end` that can be come to from `start`, which is no more than `largest_start`.
-  double largest_end(double start, double end) const;
+  double max_start(double cap, double end) const;
+  /// The largest x_1 up to `end` that can be come to from `start`, which is no more than `max_start`.
+  double max_end(double start, double end) const;
   /// The joint whose acceleration binds there, or -1: `most` does, or `end`.
   int binding(double start) const;
 
@@ -36,7 +36,7 @@ class BlendInterval {
   std::array<double, 2 * max_joints + 1> reach_, slope_;
   std::array<int, 2 * max_joints + 1> joint_;
   int bands_ = 0;
-  double delta_, most_start_;
+  double delta_, max_start_;
 };
 
 }  // namespace sculpt

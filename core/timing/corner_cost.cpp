@@ -37,7 +37,7 @@ CornerCost find_cost(const ToolRates& rates, const StrayBound& stray, std::size_
   const auto share_beside = [&](double turning) {
     return std::max({links, (ball + turning * travel) / rooms.ball, (top + turning * travel) / rooms.top});
   };
-  const auto wanted = [&](double share) { return std::min(longest, 4 * most_parabola_share / share); };
+  const auto wanted = [&](double share) { return std::min(longest, 4 * max_parabola_share / share); };
   const double window = std::max(first.cap, second.cap) * window_s;
   if (const Rooms most = rooms_of(edges, window); most.ball > certain && most.top > certain) {
     rooms = most;

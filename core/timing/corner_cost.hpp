@@ -7,7 +7,7 @@
 
 namespace sculpt {
 
-inline constexpr double most_parabola_share = 0.65;  ///< of what may be strayed; the rest is the moving average's
+inline constexpr double max_parabola_share = 0.65;  ///< of what may be strayed; the rest is the moving average's
 
 /// Of a displacement of the joints by w - u, the difference of the edges' directions.
 struct CornerCost {
@@ -16,10 +16,10 @@ struct CornerCost {
   double tool_m = 0;         ///< how far ball or shank's end go
   double room_m = 0;         ///< how far they may
   double turn = 0;           ///< bound of the tool's turning
-  double parabola = most_parabola_share;  ///< share of what may be strayed that is the parabola's
-  double wanted = 0;                      ///< largest half of the parabola
-  bool confined = false;                  ///< at most to the middles of both edges
-  bool straight = false;                  ///< there is no corner
+  double parabola = max_parabola_share;  ///< share of what may be strayed that is the parabola's
+  double wanted = 0;                     ///< largest half of the parabola
+  bool confined = false;                 ///< at most to the middles of both edges
+  bool straight = false;                 ///< there is no corner
 };
 
 /// One of the two edges at a corner.

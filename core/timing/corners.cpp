@@ -13,10 +13,10 @@
 namespace sculpt {
 namespace {
 
-constexpr double least_line = 0.02;       // of an edge: what parabolas leave of it
-constexpr double most_x_by_length = 100;  // so that numbers of 32 bits tell accelerations well enough
-constexpr std::size_t most_near = 64;     // corners that a window may reach, on one side
-constexpr double least_speed = 1e-9;
+constexpr double min_line = 0.02;        // of an edge: what parabolas leave of it
+constexpr double max_x_by_length = 100;  // so that numbers of 32 bits tell accelerations well enough
+constexpr std::size_t max_near = 64;     // corners that a window may reach, on one side
+constexpr double min_speed = 1e-9;
 
 /// A point, the edge that leads to it, and what is known of its corner before its neighbours are.
 struct Place {
@@ -48,7 +48,7 @@ class CornerFinder {
     for (std::size_t point = 1; point < path_.size(); ++point) {
       go_to(point);
       if (point > 1) look_at_corner(point - 1);
-      while (done + most_near + 1 < point) finish(done++, point);
+      while (done + max_near + 1 < point) finish(done++, point);
     }
     place(path_.size() - 1).rest = true;
     while (done < path_.size()) finish(done++, path_.size());
@@ -92,9 +92,9 @@ class CornerFinder {
     const double bend = (second.way - first.way).cwiseQuotient(demands_.acceleration).cwiseAbs().maxCoeff();
     const CornerCost most = cost;
     double best = -1;
-    for (const double parabola : {0.1, 0.2, 0.35, 0.5, most_parabola_share}) {
+    for (const double parabola : {0.1, 0.2, 0.35, 0.5, max_parabola_share}) {
       const double half = std::min(most.wanted, 4 * parabola / cost.share),
-                   speed = largest_speed((1 - parabola) / cost.share, half, rise);
+                   speed = max_speed((1 - parabola) / cost.share, half, rise);
       // The parabola's own acceleration is |w - u| v^2 / 2 half.
       const double least = std::min(speed, std::sqrt(2 * half / bend));
       if (least <= best) continue;
@@ -106,7 +106,7 @@ class CornerFinder {
   }
 
   /// At a corner, for the moving average to stray by no more than `left` of w - u.
-  double largest_speed(double left, double half, double acceleration) const {
+  double max_speed(double left, double half, double acceleration) const {
     const double t = window_;
     if (t == 0) return std::numeric_limits<double>::infinity();
     return std::max(8 * (left - acceleration * t * t / 48) / t, std::sqrt(48 * half * left) / t - acceleration * t);
@@ -114,7 +114,7 @@ class CornerFinder {
 
   /// To go through the parabola so fast takes less than to come to rest for a window, from a speed of `usual`.
   bool is_worth(double half, double speed, double usual, double acceleration) const {
-    return speed > least_speed && 2 * half / speed < 2 * half / usual + window_ + usual / acceleration;
+    return speed > min_speed && 2 * half / speed < 2 * half / usual + window_ + usual / acceleration;
   }
 
   /// What a window that holds a corner may hold besides.
@@ -123,7 +123,7 @@ class CornerFinder {
     double left = 1;                                          // of what may be strayed, less the parabolas' shares
     double acceleration = 0, turn_speed = 0, travel_speed = 0;
     bool crowded = false;
-    std::array<const CornerCost*, 2 * most_near + 1> corners;
+    std::array<const CornerCost*, 2 * max_near + 1> corners;
     std::size_t count = 0;
 
     void add(const CornerCost& cost) {
@@ -172,7 +172,7 @@ class CornerFinder {
       if (reached && !there.rest && !there.cost.straight) around.add(there.cost);
       gone += (edge.length - own) / speed;
       if (gone > window_) return;
-      if (count == most_near) {
+      if (count == max_near) {
         around.crowded = true;
         return;
       }
@@ -218,7 +218,7 @@ class CornerFinder {
     const PathEdge &first = here.edge, &second = place(point + 1).edge;
     const double turned = window_ * around.turn_speed;
     const auto share = [](const PathEdge& edge, double others) {
-      return (1 - least_line) * std::max(edge.length / 2, edge.length - others);
+      return (1 - min_line) * std::max(edge.length / 2, edge.length - others);
     };
     const double others_before = place(point - 1).cost.wanted, others_after = place(point + 1).cost.wanted;
     const double most = 4 * here.cost.parabola / (here.cost.share + turned * here.cost.share_by_turn);
@@ -226,8 +226,8 @@ class CornerFinder {
         rounded_down(std::min({most, share(first, others_before), share(second, others_after), here.cost.wanted}));
     if (around.crowded || !(half > 0)) return;
     const double left = around.left / around.share_of_all(turned);
-    double speed = std::min(std::max(first.cap, second.cap), largest_speed(left, half, around.acceleration));
-    speed = std::min(speed, std::sqrt(most_x_by_length * std::min(first.length, second.length)));
+    double speed = std::min(std::max(first.cap, second.cap), max_speed(left, half, around.acceleration));
+    speed = std::min(speed, std::sqrt(max_x_by_length * std::min(first.length, second.length)));
     if (!is_worth(half, speed, std::min(first.cap, second.cap), around.acceleration)) return;
     corners_.law[point].half = static_cast<float>(half);
     corners_.caps[point] = caps_at_ends(here, second, half, slower);

@@ -9,7 +9,7 @@ namespace sculpt {
 namespace {
 
 constexpr double finest_turn = 0.05;  // rad: longer edges are looked at in parts
-constexpr int most_parts = 256;
+constexpr int max_parts = 256;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
   places[2].put(rates, end);
   for (const ToolPlace& place : places) edge.ball = std::max(edge.ball, place.ball(edge.way).norm());
   const int halves =
-      static_cast<int>(std::min<double>(most_parts, std::ceil(edge.turn * edge.length / (2 * finest_turn) + 1e-9)));
+      static_cast<int>(std::min<double>(max_parts, std::ceil(edge.turn * edge.length / (2 * finest_turn) + 1e-9)));
   ToolPlace between;
   for (int part = 1; halves > 1 && part < 2 * halves; ++part) {
     if (part == halves) continue;

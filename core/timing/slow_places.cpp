@@ -10,7 +10,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_places = 10;
+constexpr std::size_t max_places = 10;
 constexpr double kept = 1 - 1e-3;  // of the feed: what is above that is as fast as was asked for
 
 std::string text(double value) {
@@ -81,9 +81,9 @@ class SlowPlaces {
     at_end(point, x_after, voxel, ends);
     if (slowest >= kept * demands_.feed_m_s) return;
     if (demands_.keep_feed && slowest < *demands_.keep_feed * demands_.feed_m_s) refuse({point, slowest});
-    if (found_.size() == most_places && slowest >= found_.back().feed_m_s) return;
+    if (found_.size() == max_places && slowest >= found_.back().feed_m_s) return;
     found_.insert(std::ranges::upper_bound(found_, slowest, {}, &Found::feed_m_s), {point, slowest});
-    if (found_.size() > most_places) found_.pop_back();
+    if (found_.size() > max_places) found_.pop_back();
   }
 
   SlowPlace describe(const Found& found) const {

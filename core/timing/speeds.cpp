@@ -10,7 +10,7 @@ namespace {
 
 constexpr double steep =
     1.25;  // ratio of speeds over an interval from which on a constant bounds better than a tangent
-constexpr double least_x = 1e-18;
+constexpr double min_x = 1e-18;
 
 float down(double value) {
   auto rounded = static_cast<float>(value);
@@ -111,8 +111,8 @@ class SpeedFinder {
         const NodeCaps caps = caps_of(point);
         const Parts parts = parts_of(corner, before, after);
         corner.x_out = down(std::min({reach, cruise, caps.out}));
-        corner.x_mid = down(parts.second.largest_start(caps.mid, static_cast<double>(corner.x_out)));
-        corner.x_in = down(parts.first.largest_start(caps.in, static_cast<double>(corner.x_mid)));
+        corner.x_mid = down(parts.second.max_start(caps.mid, static_cast<double>(corner.x_out)));
+        corner.x_in = down(parts.first.max_start(caps.in, static_cast<double>(corner.x_mid)));
       } else if (corners_.caps[point].straight) {
         corner.x_in = corner.x_mid = corner.x_out =
             down(std::min({reach, cruise, square(static_cast<double>(corner.cruise)),
@@ -147,9 +147,9 @@ class SpeedFinder {
     const double half = static_cast<double>(corner.half);
     const auto step = [&](const BlendInterval& part, float from, float& to, double cap) {
       const double start = static_cast<double>(from), most = static_cast<double>(to);
-      to = std::max(down(part.largest_end(start, most)), static_cast<float>(least_x));
+      to = std::max(down(part.max_end(start, most)), static_cast<float>(min_x));
       const double end = static_cast<double>(to), time = 2 * half / (std::sqrt(start) + std::sqrt(end));
-      account_.at_caps += half / std::sqrt(std::max(cap, least_x));
+      account_.at_caps += half / std::sqrt(std::max(cap, min_x));
       // Held down by what is possible behind it, or by what is here?
       const bool capped = end >= 0.999 * cap;
       take(time, capped ? cause_of_cap(point, before) : static_cast<std::size_t>(std::max(0, part.binding(start))));

@@ -15,7 +15,7 @@ namespace {
 
 // For numbers of 32 bits and double arithmetic.
 constexpr double share_of_acceleration = 1 - 5e-4, share_of_speed = 1 - 1e-6;
-constexpr double shortest_ladder_s = 0.008;  // a window no longer than that is taken as it is
+constexpr double min_ladder_s = 0.008;  // a window no longer than that is taken as it is
 
 void require_positive(double value, const char* what) {
   if (value > 0 && std::isfinite(value)) return;
@@ -56,7 +56,7 @@ class Timer {
   Attempt best() const {
     double window_s = 2 * limits_.acceleration.cwiseQuotient(limits_.jerk).maxCoeff();
     Attempt best = with_window(window_s);
-    while (window_s > shortest_ladder_s) {
+    while (window_s > min_ladder_s) {
       window_s /= std::sqrt(2.0);
       Attempt next = with_window(window_s);
       if (next.time.total >= best.time.total) break;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_days = 36500;
+constexpr int max_days = 36500;
 constexpr std::uint64_t day_ms = 86'400'000;
 
 void add_token(const TokenCommand& command, const fs::path& file, std::vector<Token> tokens, std::ostream& out) {
@@ -48,7 +48,7 @@ void add_token_command(CLI::App& app, TokenCommand& command) {
   add->add_option("--scope", command.scope, "read (look), submit (look and give work) or admin (everything)")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
-  add->add_option("--days", command.days, "how long it is valid, default for ever")->check(CLI::Range(1, most_days));
+  add->add_option("--days", command.days, "how long it is valid, default for ever")->check(CLI::Range(1, max_days));
   add->callback([&command] { command.verb = Verb::add; });
   CLI::App* list = token->add_subcommand("list", "print names, scopes and ends")->fallthrough();
   list->callback([&command] { command.verb = Verb::list; });

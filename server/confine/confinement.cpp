@@ -30,8 +30,8 @@ namespace {
 
 // A prediction is no bound: what is over it by less than a half is only wrong, more is a fault.
 constexpr std::uint64_t slack_bytes = 256u << 20, stack_bytes = 9u << 20, heap_reserve_bytes = 128u << 20;
-constexpr std::uint64_t most_file_bytes = 64ull << 30;
-constexpr rlim_t most_files = 64;
+constexpr std::uint64_t max_file_bytes = 64ull << 30;
+constexpr rlim_t max_files = 64;
 
 struct Size {
   std::uint64_t all = 0, written = 0;  // bytes of address space, and of that private memory that can be written
@@ -53,9 +53,9 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
 
 void set_limits(const Confinement& wanted) {
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_NOFILE, most_files);
+  limit(RLIMIT_NOFILE, max_files);
   std::signal(SIGXFSZ, SIG_IGN);  // a write that is too long is an error like a full disk
-  limit(RLIMIT_FSIZE, wanted.writes ? most_file_bytes : 0);
+  limit(RLIMIT_FSIZE, wanted.writes ? max_file_bytes : 0);
   if (wanted.cpu_s > 0) limit(RLIMIT_CPU, static_cast<rlim_t>(wanted.cpu_s));
   if (under_sanitizer) return;
   const Size now = size_now();

@@ -11,7 +11,7 @@ namespace sculpt::server {
 namespace {
 
 constexpr int events_at_once = 64;
-constexpr std::chrono::milliseconds longest_silence{900};  // ticks come every 250 ms: at least one event a second
+constexpr std::chrono::milliseconds max_silence{900};  // ticks come every 250 ms: at least one event a second
 
 bool same(const Progress& a, const Progress& b) {
   return a.stage == b.stage && a.done == b.done && a.total == b.total;
@@ -126,7 +126,7 @@ void Streams::take(const std::string& job, Subscription& subscription, const std
 void Streams::tell(const std::string& job, Subscription& subscription, const Progress& progress,
                    Clock::time_point now) {
   if (!subscription.session->writable() || !subscription.live) return;
-  const bool silent = now - subscription.told_at >= longest_silence;
+  const bool silent = now - subscription.told_at >= max_silence;
   if (subscription.told && same(*subscription.told, progress) && !silent) return;
   subscription.session->send_event({job, std::nullopt, {}, "progress", progress_view(progress)});
   subscription.told = progress;

@@ -9,7 +9,7 @@ namespace {
 
 // A connection that is half gone shows as a look that is not answered; all others of the daemon are then made anew.
 constexpr std::chrono::seconds patience{2};
-constexpr std::chrono::milliseconds shortest_look{100}, notice_time{100};
+constexpr std::chrono::milliseconds min_look{100}, notice_time{100};
 constexpr int look_ms = 1000, jitter_ms = 250;
 
 constexpr const char* progress_of =
@@ -50,7 +50,7 @@ void FleetFollower::work(const std::stop_token& stop) {
       look();
       if (!std::exchange(reachable, true)) spdlog::info("the database answers again");
       // Many changes at once are one look, and the first of them is seen at once.
-      std::this_thread::sleep_for(shortest_look);
+      std::this_thread::sleep_for(min_look);
       const auto end = std::chrono::steady_clock::now() + next_look();
       while (!stop.stop_requested() && std::chrono::steady_clock::now() < end && !database_.await_notice(notice_time)) {
       }

@@ -14,7 +14,7 @@
 namespace sculpt::server {
 namespace {
 
-constexpr std::chrono::milliseconds longest_beat{2000};
+constexpr std::chrono::milliseconds max_beat{2000};
 constexpr std::uint64_t beats_per_measure = 10;
 constexpr double long_transaction_s = 300;
 
@@ -48,7 +48,7 @@ FleetLeases::FleetLeases(const PostgresSource& source, FleetMember member, std::
     : database_(source, margin(lease)),
       member_(std::move(member)),
       lease_(lease),
-      beat_(std::min(longest_beat, lease / 10)),
+      beat_(std::min(max_beat, lease / 10)),
       ahead_ms_(static_cast<std::int64_t>(unix_ms()) - steady_ms()) {}
 
 void FleetLeases::start(const FleetHooks& hooks, const std::string& address) {

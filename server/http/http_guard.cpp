@@ -16,10 +16,10 @@ std::string lower(std::string_view text) {
 
 // Nothing, or a colon with digits or nothing behind it.
 bool is_port(std::string_view text) {
-  constexpr std::size_t most_digits = 5;
+  constexpr std::size_t max_digits = 5;
   if (text.empty()) return true;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  return text.front() == ':' && text.size() <= 1 + most_digits && std::ranges::all_of(text.substr(1), is_digit);
+  return text.front() == ':' && text.size() <= 1 + max_digits && std::ranges::all_of(text.substr(1), is_digit);
 }
 
 }  // namespace

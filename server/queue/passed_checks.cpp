@@ -14,7 +14,7 @@
 namespace sculpt::server {
 namespace {
 
-constexpr std::size_t most_kept = 1'000'000;  // 65 MB; then it begins anew
+constexpr std::size_t max_kept = 1'000'000;  // 65 MB; then it begins anew
 constexpr std::size_t key_digits = 64;
 
 bool is_key(const std::string& line) {
@@ -66,7 +66,7 @@ bool PassedChecks::has(const std::string& key) const {
 
 void PassedChecks::add(const std::string& key) {
   const std::lock_guard lock(mutex_);
-  const bool anew = keys_.size() >= most_kept;
+  const bool anew = keys_.size() >= max_kept;
   if (anew) keys_.clear();
   if (!keys_.insert(key).second) return;
   // Behind a line that a crash cut off.

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_seal_bytes = 100;
+constexpr std::uint64_t max_seal_bytes = 100;
 
 std::string seal_name(const std::string& name) {
   return name + ".seal";
@@ -20,7 +20,7 @@ std::string seal_name(const std::string& name) {
 
 std::optional<FileSeal> read_seal(const fs::path& folder, const std::string& job, const std::string& name) {
   const std::optional<StoredFile> written = StoredFile::open(folder, job, seal_name(name));
-  if (!written || written->size() > most_seal_bytes) return std::nullopt;
+  if (!written || written->size() > max_seal_bytes) return std::nullopt;
   std::istringstream words(written->read(0, written->size()));
   FileSeal seal;
   words >> seal.size >> seal.sha256;

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_every{50};
-constexpr std::size_t longest_answer = 16u << 20;
+constexpr std::size_t max_answer = 16u << 20;
 
 std::optional<Json> read_object(const std::string& heard) try {
   Json said = proto::parse_json(heard);
@@ -32,7 +32,7 @@ ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, cons
   ChildProcess child(isolation.worker, option);
   child.send(describe(stored, isolation));
   std::string heard;
-  while (heard.size() <= longest_answer) {
+  while (heard.size() <= max_answer) {
     if (stop.stop_requested()) throw Cancelled{};
     if (patience && Clock::now() - start > *patience) return {std::nullopt, {}, true};
     const std::optional<std::string> bytes = child.read(look_every);

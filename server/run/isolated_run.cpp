@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_every{50};
 constexpr std::chrono::milliseconds tell_every{100};
-constexpr std::size_t longest_line = 1 << 20;
+constexpr std::size_t max_line = 1 << 20;
 const std::string failed_sync = "exit code " + std::to_string(EX_IOERR);
 
 Json to_json(const Ending& ending) {
@@ -67,7 +67,7 @@ struct Conversation {
       if (line.contains("ending")) ending = read_ending(line["ending"]);
       if (line.contains("let_go")) let_go = true;
     }
-    if (unread.size() > longest_line) throw CrashError("the process that planned it says things that make no sense");
+    if (unread.size() > max_line) throw CrashError("the process that planned it says things that make no sense");
   }
 };
 

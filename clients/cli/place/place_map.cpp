@@ -13,11 +13,11 @@ namespace sculpt::cli {
 
 namespace {
 
-constexpr std::size_t most_maps = 24, maps_a_row = 3;
+constexpr std::size_t max_maps = 24, maps_a_row = 3;
 constexpr double cell_width = 52, cell_height = 26, left = 56, top = 44, gap = 24;  // pixels
 constexpr double head = 76;                                                         // title and scale above all maps
-constexpr double widest_caption = 376;                                              // of a map, in pixels
-constexpr double least_left = 0.01, most_left = 100;                                // % at the ends of the scale
+constexpr double max_caption = 376;                                                 // of a map, in pixels
+constexpr double min_left = 0.01, max_left = 100;                                   // % at the ends of the scale
 constexpr std::array scale{0.0, 90.0, 99.0, 99.9, 99.99};                           // % reached
 
 /// All of a stand but x and y.
@@ -40,7 +40,7 @@ Colour colour_of(double reached) {
   const double left_percent = 100 - reached;
   constexpr std::array<std::array<double, 3>, 4> stops{{{165, 0, 38}, {244, 109, 67}, {254, 224, 139}, {26, 152, 80}}};
   const double share =
-      std::log(std::clamp(left_percent, least_left, most_left) / most_left) / std::log(least_left / most_left);
+      std::log(std::clamp(left_percent, min_left, max_left) / max_left) / std::log(min_left / max_left);
   const double at = share * (stops.size() - 1);
   const auto first = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   const double part = at - static_cast<double>(first);
@@ -107,14 +107,14 @@ class Maps {
       ys_.insert(one.stand.at_m.y());
       if (std::ranges::find(best, rest_of(one.stand)) == best.end()) best.push_back(rest_of(one.stand));
     }
-    best.resize(std::min(best.size(), most_maps));
+    best.resize(std::min(best.size(), max_maps));
     for (const Rest& rest : best) maps_[rest];
     for (const RatedStand& one : report.rated)
       if (const auto at = maps_.find(rest_of(one.stand)); at != maps_.end()) at->second.push_back(&one);
   }
 
   std::string draw() const {
-    const double width = std::max(left + cell_width * static_cast<double>(xs_.size()), widest_caption) + gap;
+    const double width = std::max(left + cell_width * static_cast<double>(xs_.size()), max_caption) + gap;
     const double height = top + cell_height * static_cast<double>(ys_.size()) + gap;
     const std::size_t rows = (maps_.size() + maps_a_row - 1) / maps_a_row;
     const double columns = static_cast<double>(std::min(maps_.size(), maps_a_row));

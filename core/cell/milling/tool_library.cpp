@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_sections = 16;
 constexpr int max_number = 9999;
 /// No tool of a spindle is larger: who writes 20 means millimetres.
-constexpr double largest_diameter_m = 0.3, longest_m = 1.5, fastest_m_s = 10;
-constexpr double smallest_m = 1e-5;
+constexpr double max_diameter_m = 0.3, max_length_m = 1.5, fastest_m_s = 10;
+constexpr double min_m = 1e-5;
 /// The sum of lengths may be off by what decimals leave.
 constexpr double length_slack_m = 1e-9;
 
@@ -38,8 +38,8 @@ std::string text(double value) {
 /// A length above nothing and below `most`.
 double read_length(const CellField& field, double most) {
   const double value = field.number();
-  if (!(value >= smallest_m))
-    refuse_tool(field.pointer(), text(value) + " is too small: give metres, at least " + text(smallest_m));
+  if (!(value >= min_m))
+    refuse_tool(field.pointer(), text(value) + " is too small: give metres, at least " + text(min_m));
   if (value > most)
     refuse_tool(field.pointer(), text(value) + " m is more than any spindle holds (" + text(most) +
                                      " m): lengths are in metres, so 20 mm is 0.02");
@@ -62,11 +62,11 @@ Cutter read_cutter(const CellField& field) {
   const auto found = std::ranges::find_if(kinds, [&](CutterKind each) { return kind == name(each); });
   if (found == kinds.end()) refuse_tool(field.pointer() + "/kind", "'" + kind + "' is not ball, bull or flat");
   cutter.kind = *found;
-  cutter.radius_m = read_length(field.at("diameter_m"), largest_diameter_m) / 2;
-  cutter.flute_m = read_length(field.at("flute_m"), longest_m);
+  cutter.radius_m = read_length(field.at("diameter_m"), max_diameter_m) / 2;
+  cutter.flute_m = read_length(field.at("flute_m"), max_length_m);
   if (cutter.kind == CutterKind::ball) cutter.corner_radius_m = cutter.radius_m;
   if (cutter.kind == CutterKind::bull)
-    cutter.corner_radius_m = read_length(field.at("corner_radius_m"), largest_diameter_m);
+    cutter.corner_radius_m = read_length(field.at("corner_radius_m"), max_diameter_m);
   else if (field.has("corner_radius_m"))
     refuse_tool(field.pointer() + "/corner_radius_m", "only a bull cutter has one: leave it out");
   if (cutter.corner_radius_m > cutter.radius_m)
@@ -87,10 +87,10 @@ std::vector<HolderSection> read_body(const CellField& field) {
     refuse_tool(field.pointer(), "give 1 to " + std::to_string(max_sections) + " sections: neck, shank, holder");
   for (const CellField& section : sections) {
     section.require_object({"length_m", "radius_m", "end_radius_m"});
-    const double radius_m = read_length(section.at("radius_m"), largest_diameter_m);
+    const double radius_m = read_length(section.at("radius_m"), max_diameter_m);
     const double end_m =
-        section.has("end_radius_m") ? read_length(section.at("end_radius_m"), largest_diameter_m) : radius_m;
-    body.push_back({read_length(section.at("length_m"), longest_m), radius_m, end_m});
+        section.has("end_radius_m") ? read_length(section.at("end_radius_m"), max_diameter_m) : radius_m;
+    body.push_back({read_length(section.at("length_m"), max_length_m), radius_m, end_m});
   }
   if (body.size() > 1) {
     const HolderSection &below = body[body.size() - 2], &holder = body.back();
@@ -138,9 +138,9 @@ MillTool read_tool(const CellField& field) {
   tool.number = static_cast<int>(number);
   tool.cutter = read_cutter(field.at("cutter"));
   tool.body = read_body(field.at("body"));
-  tool.stickout_m = read_length(field.at("stickout_m"), longest_m);
-  tool.max_depth_m = read_length(field.at("max_depth_m"), longest_m);
-  tool.max_width_m = read_length(field.at("max_width_m"), largest_diameter_m);
+  tool.stickout_m = read_length(field.at("stickout_m"), max_length_m);
+  tool.max_depth_m = read_length(field.at("max_depth_m"), max_length_m);
+  tool.max_width_m = read_length(field.at("max_width_m"), max_diameter_m);
   tool.feed_m_s = read_speed(field.at("feed_m_s"));
   if (field.has("plunge_m_s")) tool.plunge_m_s = read_speed(field.at("plunge_m_s"));
   if (field.has("spindle_rpm")) tool.spindle_rpm = field.at("spindle_rpm").number_from(0);

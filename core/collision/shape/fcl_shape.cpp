@@ -5,7 +5,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double least_mm = 1e-3;
+constexpr double min_mm = 1e-3;
 
 std::shared_ptr<fcl::CollisionGeometryd> make_bvh(const Mesh& mesh) {
   std::vector<fcl::Vector3d> vertices;
@@ -25,7 +25,7 @@ std::shared_ptr<fcl::CollisionGeometryd> make_bvh(const Mesh& mesh) {
 
 std::shared_ptr<fcl::CollisionGeometryd> make_fcl_geometry(const Shape& shape, double grow_m) {
   const double grow = fcl_mm * grow_m;
-  const auto grown = [&](double length_m, double by) { return std::max(fcl_mm * length_m + by, least_mm); };
+  const auto grown = [&](double length_m, double by) { return std::max(fcl_mm * length_m + by, min_mm); };
   const Vec3& sides = shape.sides_m;
   switch (shape.kind) {
     case ShapeKind::sphere:

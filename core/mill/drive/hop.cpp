@@ -10,10 +10,10 @@ constexpr double air_stray_m = 5e-4;
 
 }  // namespace
 
-void hop(const Site& site, const Vec3& from, const Vec3& to, double least_height, double stray_m,
+void hop(const Site& site, const Vec3& from, const Vec3& to, double min_height, double stray_m,
          std::vector<MillStroke>& strokes) {
   const ToolFrame& frame = site.frame();
-  const double high = std::max({site.clear_height(from, to, air_clearance_m), from.z(), to.z(), least_height});
+  const double high = std::max({site.clear_height(from, to, air_clearance_m), from.z(), to.z(), min_height});
   const Vec3 over_from(from.x(), from.y(), high), over_to(to.x(), to.y(), high);
   // Beside what was cut the cutter may still touch it on its way up and down.
   const auto add = [&](const Vec3& at, bool cut) {

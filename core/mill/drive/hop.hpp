@@ -12,8 +12,8 @@ namespace sculpt {
 inline constexpr double air_clearance_m = 2e-3;
 
 /// Up, over and down to `to` (tool frame) as far as that is clear of everything, then on as if something could be
-/// there: so near it strays by no more than `stray_m`. Over at no less than `least_height`.
-void hop(const Site& site, const Vec3& from, const Vec3& to, double least_height, double stray_m,
+/// there: so near it strays by no more than `stray_m`. Over at no less than `min_height`.
+void hop(const Site& site, const Vec3& from, const Vec3& to, double min_height, double stray_m,
          std::vector<MillStroke>& strokes);
 
 }  // namespace sculpt

@@ -12,7 +12,7 @@ namespace sculpt {
 namespace {
 
 constexpr double intended_share = 0.9;    // of what the cutter may stray
-constexpr double shortest_edge_m = 2e-5;  // of those that a stroke is cut into
+constexpr double min_edge_m = 2e-5;       // of those that a stroke is cut into
 constexpr double first_curvature = 2e-3;  // 1/m, before an edge was seen: strays of 0.02 mm in 9 mm
 constexpr double close_m = 2e-7;          // of a posture's tip to where it should be
 
@@ -45,11 +45,11 @@ class MillFollower {
         const MillStroke& stroke = strokes[piece.stroke];
         const double length = (piece.tip - here_.tip).norm();
         if (!take(piece, lane, stroke)) {
-          stuck = length <= shortest_edge_m;
-          most_m_ = length / 2;
+          stuck = length <= min_edge_m;
+          edge_limit_m_ = length / 2;
           break;
         }
-        most_m_ = longest_m;
+        edge_limit_m_ = max_edge_m;
         Keyframe keyframe{here_.q, stroke.cut, {}, {}, MillStep{piece.quanta, direction_, -1, 0}};
         followed.keyframes.push_back(std::move(keyframe));
         place = {piece.stroke, piece.share};
@@ -66,7 +66,7 @@ class MillFollower {
   }
 
  private:
-  static constexpr double longest_m = 0.1;
+  static constexpr double max_edge_m = 0.1;
 
   struct Stop {
     Vec3 tip, cell;
@@ -104,11 +104,11 @@ class MillFollower {
   void look_ahead(const std::vector<MillStroke>& strokes, Place place, Vec3 begin) {
     pieces_.clear();
     Vec3 at = here_.tip;
-    double most = most_m_;
+    double most = edge_limit_m_;
     while (pieces_.size() < lane_count && place.stroke < strokes.size()) {
       const MillStroke& stroke = strokes[place.stroke];
       const double length = (stroke.tip_m - begin).norm(), left = (1 - place.share) * length;
-      const double edge = std::min({most, reach(stroke.stray_m), longest_m});
+      const double edge = std::min({most, reach(stroke.stray_m), max_edge_m});
       const double parts = std::max(1.0, std::ceil(left / edge - 1e-9));
       const double share = parts <= 1 ? 1 : place.share + (1 - place.share) / parts;
       Piece piece{place.stroke,
@@ -126,7 +126,7 @@ class MillFollower {
         begin = at;
         place = {place.stroke + 1, 0};
       }
-      most = longest_m;
+      most = max_edge_m;
     }
     field_.lanes().solve(ahead_, 2);
     bound_derivatives();
@@ -181,7 +181,7 @@ class MillFollower {
   Configuration speed_, turn_rates_;
   double cutter_lever_ = 0, body_lever_ = 0;
   double curvature_ = first_curvature;  ///< of the paths seen last, in effect
-  double most_m_ = longest_m;           ///< after a refusal
+  double edge_limit_m_ = max_edge_m;    ///< after a refusal
   Stop here_;
   int held_bubble_ = -1;
   std::vector<Piece> pieces_;

@@ -11,7 +11,7 @@ namespace {
 /// A way along the surface may be so many times as long as straight.
 constexpr double detour = 3;
 /// Of a chip times radius: what may stand where the cutter is let down.
-constexpr double most_plunged = 0.5;
+constexpr double max_plunged = 0.5;
 
 }  // namespace
 
@@ -37,8 +37,8 @@ void ContourStrokes::add(const Contour& contour) {
     const Vec3 &from = contour[edge], &to = contour[edge + 1];
     if (!is_down_) {
       const Vec3 above = from + Vec3(0, 0, radius_m);
-      if (stock_.volume(above, from) > most_plunged * task_.chip_m2 * radius_m) continue;
-      hop(task_.site, at_, from, std::max(from.z(), task_.least_height), task_.stray_m, strokes_);
+      if (stock_.volume(above, from) > max_plunged * task_.chip_m2 * radius_m) continue;
+      hop(task_.site, at_, from, std::max(from.z(), task_.min_height), task_.stray_m, strokes_);
       lower(above, from);
       at_ = from;
       is_down_ = true;

@@ -18,11 +18,11 @@ class ContourStrokes {
   struct Task {
     const Site& site;
     const EnvelopeTask& envelope;
-    double radius_m = 0;      ///< of the cutter
-    double chip_m2 = 0;       ///< no edge takes off more a unit of length
-    double stray_m = 0;       ///< of the cutter
-    double beside_m = 0;      ///< a contour that begins no farther away may be gone to along the surface
-    double least_height = 0;  ///< of ways over
+    double radius_m = 0;    ///< of the cutter
+    double chip_m2 = 0;     ///< no edge takes off more a unit of length
+    double stray_m = 0;     ///< of the cutter
+    double beside_m = 0;    ///< a contour that begins no farther away may be gone to along the surface
+    double min_height = 0;  ///< of ways over
   };
   /// `at`: where the tip is, in the air. `stock`: what is to come off.
   ContourStrokes(const Task& task, StockTop stock, const Vec3& at) : task_(task), stock_(std::move(stock)), at_(at) {}

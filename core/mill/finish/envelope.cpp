@@ -37,10 +37,10 @@ class Follower {
     return std::move(contours_);
   }
 
-  Contour run_whole(double longest_m) {
+  Contour run_whole(double max_length_m) {
     looks_.resize(pieces_ + 1);
     // Most that are none are found out from a few places.
-    if (!look_along(8, longest_m) || !look_along(1, longest_m)) return {};
+    if (!look_along(8, max_length_m) || !look_along(1, max_length_m)) return {};
     is_whole_ = true;
     contours_.push_back({*looks_.front()});
     go(0, pieces_);
@@ -50,13 +50,13 @@ class Follower {
 
  private:
   /// Does it rest at all of these, no farther from the first to the last?
-  bool look_along(std::size_t stride, double longest_m) {
+  bool look_along(std::size_t stride, double max_length_m) {
     double length = 0;
     for (std::size_t at = 0; at <= pieces_; at += stride) {
       if (!looks_[at]) looks_[at] = rest(share_of(at));
       if (!looks_[at]) return false;
       if (at > 0) length += (*looks_[at] - *looks_[at - stride]).norm();
-      if (length > longest_m) return false;
+      if (length > max_length_m) return false;
     }
     return true;
   }
@@ -135,8 +135,8 @@ std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& fro
   return Follower(task, from, to).run();
 }
 
-Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double longest_m) {
-  return Follower(task, from, to).run_whole(longest_m);
+Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double max_length_m) {
+  return Follower(task, from, to).run_whole(max_length_m);
 }
 
 }  // namespace sculpt

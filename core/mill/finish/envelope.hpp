@@ -25,6 +25,6 @@ using Contour = std::vector<Vec3>;
 /// From one place in plan straight to another; in pieces where it cannot go through.
 std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to);
 /// The same in one piece that is no longer than this, or nothing.
-Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double longest_m);
+Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double max_length_m);
 
 }  // namespace sculpt

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells: about so many facets each, and at most so many along a side.
-constexpr double facets_a_cell = 4, most_along = 1024;
+constexpr double facets_a_cell = 4, max_along = 1024;
 constexpr double upright = 1e-9;
 /// More than coordinates of a stock are rounded by.
 constexpr double rounding_m = 1e-9;
@@ -152,7 +152,7 @@ FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
   }
   const double u = all.sizes().x(), v = all.sizes().y();
   step_ = std::max(
-      {std::sqrt(facets_a_cell * u * v / static_cast<double>(facets_.size())), std::max(u, v) / most_along, 1e-6});
+      {std::sqrt(facets_a_cell * u * v / static_cast<double>(facets_.size())), std::max(u, v) / max_along, 1e-6});
   low_u_ = all.min().x();
   low_v_ = all.min().y();
   width_ = static_cast<int>(u / step_) + 1;

@@ -148,10 +148,10 @@ class FinishStage {
   }
 
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
-    double least_height = -std::numeric_limits<double>::infinity();
+    double min_height = -std::numeric_limits<double>::infinity();
     for (int failures = 0; !contours.empty() && failures < max_failures;) {
       ContourStrokes laid(
-          {site, task, radius_m_, chip_m2(), job_.wishes.stray_m(), beside_spacings * spacing_m_, least_height},
+          {site, task, radius_m_, chip_m2(), job_.wishes.stray_m(), beside_spacings * spacing_m_, min_height},
           see_stock(site), carver_.tip(site));
       std::vector<Laid> batch;
       while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
@@ -164,8 +164,8 @@ class FinishStage {
       ++failures;
       // What was to come after the one that failed is planned anew; the one itself once more from above.
       auto failed = std::ranges::upper_bound(batch, done, {}, &Laid::begin) - 1;
-      const bool again = !strokes[done].cut && least_height < carver_.hub().z();
-      least_height = again ? carver_.hub().z() : least_height;
+      const bool again = !strokes[done].cut && min_height < carver_.hub().z();
+      min_height = again ? carver_.hub().z() : min_height;
       if (!again) ++failed;
       for (; failed != batch.end(); ++failed) contours.push_back(std::move(failed->contour));
       carver_.draw_back(site);

@@ -22,13 +22,13 @@ class PartViews {
     }
     auto made = std::make_shared<const FacetColumns>(part_, frame);
     const std::lock_guard lock(mutex_);
-    if (part_.triangles.size() <= most_kept) kept_[direction] = made;
+    if (part_.triangles.size() <= max_kept) kept_[direction] = made;
     return made;
   }
 
  private:
   /// Triangles; each takes about 150 bytes a direction.
-  static constexpr std::size_t most_kept = 100000;
+  static constexpr std::size_t max_kept = 100000;
 
   const Mesh& part_;
   std::mutex mutex_;

@@ -81,12 +81,12 @@ Lattice lattice_over(const ToolFrame& frame, const Vec3& low, const Vec3& high, 
 /// In each cell the highest point of the plane over the cell, where that is lower than the triangle's top.
 void HeightMap::raise(const Vec3& p, const Vec3& q, const Vec3& r) {
   const double top = std::max({p.z(), q.z(), r.z()});
-  const double least_u = std::min({p.x(), q.x(), r.x()}), most_u = std::max({p.x(), q.x(), r.x()});
-  const double least_v = std::min({p.y(), q.y(), r.y()}), most_v = std::max({p.y(), q.y(), r.y()});
-  const int first_a = std::max(0, lattice.cell_u(least_u - 1e-9)),
-            last_a = std::min(lattice.width - 1, lattice.cell_u(most_u + 1e-9));
-  const int first_b = std::max(0, lattice.cell_v(least_v - 1e-9)),
-            last_b = std::min(lattice.height - 1, lattice.cell_v(most_v + 1e-9));
+  const double min_u = std::min({p.x(), q.x(), r.x()}), max_u = std::max({p.x(), q.x(), r.x()});
+  const double min_v = std::min({p.y(), q.y(), r.y()}), max_v = std::max({p.y(), q.y(), r.y()});
+  const int first_a = std::max(0, lattice.cell_u(min_u - 1e-9)),
+            last_a = std::min(lattice.width - 1, lattice.cell_u(max_u + 1e-9));
+  const int first_b = std::max(0, lattice.cell_v(min_v - 1e-9)),
+            last_b = std::min(lattice.height - 1, lattice.cell_v(max_v + 1e-9));
   if (first_a > last_a || first_b > last_b) return;
   const float whole = above(top);
   if (last_a - first_a <= 1 && last_b - first_b <= 1) {

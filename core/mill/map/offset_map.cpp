@@ -15,7 +15,7 @@ float below(double height) {
 }
 
 /// The least distance of two cells so many cells apart.
-double least_distance(int da, int db, double step) {
+double min_distance(int da, int db, double step) {
   return step * std::hypot(std::max(0, std::abs(da) - 1), std::max(0, std::abs(db) - 1));
 }
 
@@ -80,7 +80,7 @@ HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double
   grown.corner_radius_m += more_m;
   for (int db = -reach; db <= reach; ++db)
     for (int da = -reach; da <= reach; ++da) {
-      const double r = least_distance(da, db, step);
+      const double r = min_distance(da, db, step);
       if (r > grown.radius_m) continue;
       const float less = below(grown.height_m(r) - more_m);
       for (int b = std::max(0, -db); b < std::min(lattice.height, lattice.height - db); ++b)
@@ -113,7 +113,7 @@ HeightMap offset_by_disc(const HeightMap& stands, const Ring& ring, double more_
   const float less = below(ring.height_m - more_m);
   for (int db = -reach; db <= reach; ++db) {
     int half = reach;
-    while (half >= 0 && least_distance(half, db, step) > ring.radius_m + more_m) --half;
+    while (half >= 0 && min_distance(half, db, step) > ring.radius_m + more_m) --half;
     if (half < 0) continue;
     for (int b = std::max(0, -db); b < std::min(lattice.height, lattice.height - db); ++b)
       maxima.raise_row(&limit.heights[lattice.index(0, b)], b + db, half, less);

@@ -16,7 +16,7 @@ constexpr double width_share = 0.92, cap_share = 1.06;
 /// Of what may be taken off over a radius, where a pass begins.
 constexpr double little_share = 0.05;
 /// Of what may be taken off: rows that take off less are left to a smaller tool.
-constexpr double least_share = 0.15;
+constexpr double min_share = 0.15;
 /// Ways from pass to pass that are gone at this height (radii).
 constexpr double linked_radii = 8;
 /// How often half a width is laid before a place that would take off too much.
@@ -107,7 +107,7 @@ bool Clearing::is_worth_it(const LevelRow& row) const {
     sum += std::min(most, volume(from, to));
     all += most;
   }
-  return all > 0 && sum >= least_share * all;
+  return all > 0 && sum >= min_share * all;
 }
 
 /// Of those whose turn it is.

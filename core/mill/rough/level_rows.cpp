@@ -188,7 +188,7 @@ void LevelRows::add_stretches(LevelRow row, const Curve& curve, const std::vecto
 
 /// Fewer, longer edges.
 Curve LevelRows::straightened(const Curve& curve) const {
-  const double most_off = straight_cells * task_.lattice.step;
+  const double max_off = straight_cells * task_.lattice.step;
   Curve straight{curve.front()};
   for (std::size_t at = 0; at + 1 < curve.size();) {
     std::size_t next = at + 1;
@@ -198,7 +198,7 @@ Curve LevelRows::straightened(const Curve& curve) const {
       if (length > task_.step_m) break;
       const auto is_near = [&](const Point2& p) {
         const Point2 off = p - curve[at];
-        return std::abs(way.x() * off.y() - way.y() * off.x()) <= most_off * length;
+        return std::abs(way.x() * off.y() - way.y() * off.x()) <= max_off * length;
       };
       if (length > 0 && !std::all_of(curve.begin() + static_cast<std::ptrdiff_t>(at) + 1,
                                      curve.begin() + static_cast<std::ptrdiff_t>(to), is_near))

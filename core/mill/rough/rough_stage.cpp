@@ -14,7 +14,7 @@ constexpr double cells_a_radius = 12, finest_cell_m = 4e-4;
 /// Of a cutter's radius, left by roughing.
 constexpr double rough_share = 0.03;
 /// A direction is worth its while from this share of the stock's volume on.
-constexpr double least_gain_share = 1e-3;
+constexpr double min_gain_share = 1e-3;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
 constexpr int max_failures = 12;
@@ -58,7 +58,7 @@ class RoughStage {
         prospects_[number].push_back(lowest.lattice.contains(a, b) && at.z() > static_cast<double>(lowest.at(a, b)));
       }
     });
-    least_gain_ = least_gain_share * std::pow(job_.grid.n / stride, 3);
+    min_gain_ = min_gain_share * std::pow(job_.grid.n / stride, 3);
   }
 
   std::optional<std::size_t> best_direction(const std::vector<char>& used_up) const {
@@ -67,7 +67,7 @@ class RoughStage {
       for (std::size_t at = 0; at < samples_.size() && !used_up[number]; ++at)
         gains[number] += prospects_[number][at] && stock().left().contains(samples_[at]);
     const auto most = std::ranges::max_element(gains);
-    if (static_cast<double>(*most) < least_gain_) return std::nullopt;
+    if (static_cast<double>(*most) < min_gain_) return std::nullopt;
     return static_cast<std::size_t>(most - gains.begin());
   }
 
@@ -114,23 +114,22 @@ class RoughStage {
       const double left = std::max(height, static_cast<double>(lowest[at]));
       if (static_cast<double>(tops[at]) > left + cusp) volume += (static_cast<double>(tops[at]) - left) * cell;
     }
-    return volume >= least_pass_m3(tool());
+    return volume >= min_pass_m3(tool());
   }
 
   void rough_level_along(Site& site, StockTop& surface, double height) {
     if (!is_worth_it(site, surface, height)) return;
     site.see(stock().standing(), job_.grid);
     std::vector<char> free = free_cells(site, height, [this](const Vec3& at) { return carver_.reach().allows(at); });
-    double least_height = height;
+    double min_height = height;
     for (int failures = 0; failures < max_failures; ++failures) {
-      const std::vector<MillStroke> strokes =
-          rough_level(site, {tool(), height, cusp_share, free}, {carver_.tip(site), least_height, stray_m()}, surface,
-                      run_.helpers);
+      const std::vector<MillStroke> strokes = rough_level(
+          site, {tool(), height, cusp_share, free}, {carver_.tip(site), min_height, stray_m()}, surface, run_.helpers);
       if (strokes.empty()) return;
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) return surface.lower_to(tops_to_cut(site));
       // Not there, then, and what was to come after it is planned anew.
-      if (!strokes[done].cut) least_height = carver_.hub().z();
+      if (!strokes[done].cut) min_height = carver_.hub().z();
       const Vec3 refused = site.frame().of(strokes[done].tip_m);
       for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
                          [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });
@@ -145,7 +144,7 @@ class RoughStage {
   const RunContext& run_;
   std::vector<Voxel> samples_;
   std::vector<std::vector<char>> prospects_;
-  double least_gain_ = 0;
+  double min_gain_ = 0;
 };
 
 }  // namespace

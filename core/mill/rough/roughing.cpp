@@ -37,11 +37,11 @@ LevelPlan plan_level(const Site& site, const ClearingTask& level, RowLayout layo
   LevelPlan plan;
   const double height = level.height;
   Clearing clearing(level, layout, surface);
-  if (clearing.volume_to_clear() < least_pass_m3(level.tool)) return plan;
+  if (clearing.volume_to_clear() < min_pass_m3(level.tool)) return plan;
   Vec3 tip = ways.from;
   while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
     const Vec3 begin(pass->front().x(), pass->front().y(), height);
-    if (tip != begin) hop(site, tip, begin, ways.least_height, ways.stray_m, plan.strokes);
+    if (tip != begin) hop(site, tip, begin, ways.min_height, ways.stray_m, plan.strokes);
     for (std::size_t edge = 1; edge < pass->size(); ++edge)
       plan.strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, ways.stray_m});
     tip = {pass->back().x(), pass->back().y(), height};

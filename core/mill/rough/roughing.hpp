@@ -14,7 +14,7 @@ namespace sculpt {
 /// Of the depth of cut: what stands higher than this above a level is to come off, the rest are cusps.
 inline constexpr double cusp_share = 0.35;
 /// A way to a pass and back is worth its while for that of two diameters at full engagement (m^3).
-inline double least_pass_m3(const MillTool& tool) {
+inline double min_pass_m3(const MillTool& tool) {
   return 2 * 2 * tool.cutter.radius_m * tool.max_depth_m * tool.max_width_m;
 }
 
@@ -26,9 +26,9 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
 
 /// How the strokes of a level are joined.
 struct LevelWays {
-  Vec3 from;                ///< where the tip is (tool frame, in the air or anywhere at rest)
-  double least_height = 0;  ///< of ways over from pass to pass
-  double stray_m = 0;       ///< of strokes that cut
+  Vec3 from;              ///< where the tip is (tool frame, in the air or anywhere at rest)
+  double min_height = 0;  ///< of ways over from pass to pass
+  double stray_m = 0;     ///< of strokes that cut
 };
 
 /// The strokes of one level, in the layout of rows that takes off most for its length; nothing if the level has nothing

@@ -10,8 +10,8 @@ namespace sculpt {
 namespace {
 
 constexpr double edge = 0.04;  // of a cell: rad or m
-constexpr std::size_t most_axes = 2;
-constexpr double most_cells = 200000;
+constexpr std::size_t max_axes = 2;
+constexpr double max_cells = 200000;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ FreeCells::FreeCells(const Chain& chain, const Body& first, const Body& second, 
     if (speed[c] == 0) continue;
     const double count = std::ceil((chain.upper()[c] - chain.lower()[c]) / edge);
     cells *= count;
-    if (axes_.size() == most_axes || !(cells <= most_cells)) return;
+    if (axes_.size() == max_axes || !(cells <= max_cells)) return;
     axes_.push_back({c, chain.lower()[c], std::max(1, static_cast<int>(count))});
     reach_m_ += speed[c] * edge / 2;
   }

@@ -172,9 +172,9 @@ class ViewSearch {
       held += branch.holds[at] == Hold::held;
     }
     const bool is_free_above = straight_ && branch.holds[place_index(middle)] == Hold::held;
-    if (is_free_above && (held > most_held_ || !found_.above)) found_.above = branch.at[place_index(middle)];
-    if (held <= most_held_) return;
-    most_held_ = held;
+    if (is_free_above && (held > max_held_ || !found_.above)) found_.above = branch.at[place_index(middle)];
+    if (held <= max_held_) return;
+    max_held_ = held;
     found_.low = found_.high = Configuration();
     for (const auto& q : branch.at)
       if (q) {
@@ -250,7 +250,7 @@ class ViewSearch {
   NullSpaceGoal to_the_middle_;
   std::vector<Branch> branches_;
   std::vector<Voxel> above_;  ///< steps to the places through which the ball comes in
-  std::size_t most_held_ = 0, last_contact_ = 0;
+  std::size_t max_held_ = 0, last_contact_ = 0;
   std::vector<Frame> poses_;
   ViewReach found_;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int decimals = 5;
 // $VEL_AXIS and $OV_PRO are whole percent: together they say a speed in steps of a tenth of a percent and less.
-constexpr int slow_override = 10, least_override = 1;
+constexpr int slow_override = 10, min_override = 1;
 
 class KrlPart : public PartWriter {
  public:
@@ -57,7 +57,7 @@ class KrlPart : public PartWriter {
       percent = static_cast<int>(std::floor(1000 * share));
     }
     if (percent < slow_override) {
-      override_percent = least_override;
+      override_percent = min_override;
       percent = static_cast<int>(std::floor(10000 * share));
     }
     percent = std::min(percent, 100);

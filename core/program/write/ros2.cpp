@@ -9,7 +9,7 @@ namespace sculpt {
 namespace {
 
 constexpr int decimals = 8;
-constexpr double shortest_s = 1e-6;  // between points: times are whole nanoseconds and must rise
+constexpr double min_s = 1e-6;  // between points: times are whole nanoseconds and must rise
 
 void append_list(std::string& text, const char* name, const Configuration& values) {
   text += name;
@@ -32,7 +32,7 @@ ProgramReport write_ros2(const PlanPath& path, const Cell& cell, const ProgramDe
   ProgramReport report;
   double last_s = -1;
   const auto add = [&](double time_s, const Configuration& q, const Configuration& velocity) {
-    if (time_s < last_s + shortest_s) return;
+    if (time_s < last_s + min_s) return;
     last_s = time_s;
     append_list(text, "  - positions: [", q);
     append_list(text, "    velocities: [", velocity);

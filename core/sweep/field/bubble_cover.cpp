@@ -132,10 +132,10 @@ class BubbleCover::Search {
 BubbleCover::BubbleCover(const Making& making)
     : bubble_(PostureLattice::all_parts(), -1), box_(making.lattice.bounds()) {
   if (box_.low.size() > 0) pairs_ = making.scene.pairs_in(box_);
-  cover(making, largest_cubes(), PostureLattice::parts);
+  cover(making, max_cubes(), PostureLattice::parts);
 }
 
-std::vector<LatticeCube> BubbleCover::largest_cubes() const {
+std::vector<LatticeCube> BubbleCover::max_cubes() const {
   std::vector<LatticeCube> cubes;
   for (int k = 0; k < PostureLattice::fine; k += largest)
     for (int j = 0; j < PostureLattice::fine; j += largest)
@@ -148,7 +148,7 @@ void BubbleCover::refine(const Making& making) {
 }
 
 void BubbleCover::extend(const Making& making, const VoxelSet& wanted) {
-  cover(making, largest_cubes(), 1, &wanted);
+  cover(making, max_cubes(), 1, &wanted);
   holes_.clear();
 }
 

@@ -73,7 +73,7 @@ class BubbleCover {
 
  private:
   class Search;
-  std::vector<LatticeCube> largest_cubes() const;
+  std::vector<LatticeCube> max_cubes() const;
   /// `wanted`: parts; null for all.
   void cover(const Making& making, const std::vector<LatticeCube>& cubes, int smallest,
              const VoxelSet* wanted = nullptr);

@@ -13,11 +13,11 @@ namespace sculpt {
 namespace {
 
 constexpr double margin = 0.003;     // voxel edges, for the replay to prove
-constexpr double most_off = 0.02;    // of the middle of a cell
+constexpr double max_off = 0.02;     // of the middle of a cell
 constexpr double hover = 0.4;        // room above all that stands
-constexpr int most_columns = 1024;   // that a way above all is looked for over
+constexpr int max_columns = 1024;    // that a way above all is looked for over
 constexpr double touching_m = 1e-6;  // the table touches the stock
-constexpr double most_stray = 0.04;  // off the line, bow included
+constexpr double max_stray = 0.04;   // off the line, bow included
 
 Voxel cell_of(const Vec3& point) {
   return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y())),
@@ -67,7 +67,7 @@ EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Cha
       ball_radius_(path.header().tool.ball_radius_m / grid_.voxel_m),
       shank_radius_(path.header().tool.shank_radius_m / grid_.voxel_m),
       stickout_m_(path.header().tool.stickout_m),
-      tolerance_(std::min(most_stray, path.header().tolerance_m / grid_.voxel_m)),
+      tolerance_(std::min(max_stray, path.header().tolerance_m / grid_.voxel_m)),
       reserve_(reserve_m / grid_.voxel_m),
       orders_(chain.shifts() ? 3 : 1),
       all_below_(highest_beside(cell, chain, path.configuration(0)) <= grid_.origin_m.z() + touching_m),
@@ -109,7 +109,7 @@ EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) const {
     ball_off = std::max(ball_off, (ends.ball[end] - middle).norm());
     top_off = std::max(top_off, (beside - along * along.dot(beside)).norm());
   }
-  if (ball_off > most_off) return {};
+  if (ball_off > max_off) return {};
   const Voxel step = sign(gap);
   const int cells = l1(from, to);
   for (int at = 0; at <= cells; ++at)
@@ -136,7 +136,7 @@ EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) const {
   low.array() -= around;
   high.array() += around;
   if (low.z() < 0) return {};
-  if (!columns_.are_open(cell_of(low), cell_of(high), ends.direction, most_columns)) return {};
+  if (!columns_.are_open(cell_of(low), cell_of(high), ends.direction, max_columns)) return {};
   const double room = grid_.voxel_m * hover;
   return {true, {room, 0, 0}, {room, 0, 0}};
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Json = LineFields::Json;
 
-constexpr int deepest_nesting = 8;
+constexpr int max_nesting = 8;
 
 char* write_text(char* out, std::string_view text) {
   std::memcpy(out, text.data(), text.size());
@@ -49,7 +49,7 @@ bool nested_too_deep(std::string_view text) {
     } else if (c == '"') {
       quoted = !quoted;
     } else if (!quoted && (c == '[' || c == '{')) {
-      if (++depth > deepest_nesting) return true;
+      if (++depth > max_nesting) return true;
     } else if (!quoted && (c == ']' || c == '}')) {
       --depth;
     }
@@ -59,7 +59,7 @@ bool nested_too_deep(std::string_view text) {
 
 Json parse_object(std::string_view text, const std::string& where) {
   if (nested_too_deep(text))
-    refuse_line(where, "brackets are nested more than " + std::to_string(deepest_nesting) + " deep");
+    refuse_line(where, "brackets are nested more than " + std::to_string(max_nesting) + " deep");
   try {
     Json value = Json::parse(text.begin(), text.end());
     if (!value.is_object()) refuse_line(where, "not a JSON object");

@@ -10,7 +10,7 @@ namespace {
 constexpr int boxes_along = 96;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A way that climbs more is looked at in parts.
-constexpr double most_rise_mm = 0.25;
+constexpr double max_rise_mm = 0.25;
 
 double between_segments(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
   const Vec3 r = p - q;
@@ -209,7 +209,7 @@ double SurfaceGrid::depth(const Cutter& cutter, const Vec3& axis, const Vec3& fr
   const double radius = 1000 * cutter.radius_m, corner = 1000 * cutter.corner_radius_m, flute = 1000 * cutter.flute_m;
   const bool is_ball = cutter.kind == CutterKind::ball;
   const double rise = std::abs((to - from).dot(axis));
-  const int parts = is_ball ? 1 : std::max(1, static_cast<int>(std::ceil(rise / most_rise_mm)));
+  const int parts = is_ball ? 1 : std::max(1, static_cast<int>(std::ceil(rise / max_rise_mm)));
   double deepest = -enough_mm;
   for (int part = 0; part < parts; ++part) {
     const Vec3 a = from + (to - from) * part / parts, b = from + (to - from) * (part + 1) / parts;

@@ -7,7 +7,7 @@ namespace sculpt {
 namespace {
 
 /// Joints and tips are rounded, so a plan may be off by two micrometres more than the one that it may cut too deep.
-constexpr double most_gouge_mm = 3e-3, look_mm = 0.2;
+constexpr double max_gouge_mm = 3e-3, look_mm = 0.2;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ PieceFindings SurfaceJudge::take(std::vector<CutterWay> ways) {
 PieceFindings SurfaceJudge::judge(const std::vector<CutterWay>& ways) {
   PieceFindings found;
   for (const auto& [line, cutter, axis, from, to, stray] : ways) {
-    if (const double depth = surface_.depth(cutter, axis, from, to, look_mm) + stray; depth > most_gouge_mm) {
+    if (const double depth = surface_.depth(cutter, axis, from, to, look_mm) + stray; depth > max_gouge_mm) {
       std::ostringstream sentence;
       sentence << "the cutter is up to " << depth << " mm inside the part";
       found.find(line, sentence.str());

@@ -14,7 +14,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t most_findings = 100;
+constexpr std::size_t max_findings = 100;
 constexpr double slack = 1e-9;          // of a limit, for double arithmetic
 constexpr double sampled_slack = 1e-6;  // of differences over a thousandth of a second
 constexpr double mm = 1000;
@@ -151,7 +151,7 @@ class Checker {
 
  private:
   void find(std::uint64_t keyframe, std::string sentence) {
-    if (verdict_.faults++ < most_findings) verdict_.findings.push_back({keyframe, std::move(sentence)});
+    if (verdict_.faults++ < max_findings) verdict_.findings.push_back({keyframe, std::move(sentence)});
   }
   const std::string& joint(Eigen::Index at) const { return reader_.header().joints[static_cast<std::size_t>(at)]; }
 
@@ -171,9 +171,9 @@ class Checker {
 
   void look_at(const TimePolynomial& piece) {
     ++verdict_.pieces;
-    const Configuration acceleration = piece.largest_acceleration();
-    verdict_.velocity = std::max(verdict_.velocity,
-                                 share(piece.largest_velocity(), limits_.velocity, slack, piece.keyframe, "velocity"));
+    const Configuration acceleration = piece.max_acceleration();
+    verdict_.velocity =
+        std::max(verdict_.velocity, share(piece.max_velocity(), limits_.velocity, slack, piece.keyframe, "velocity"));
     verdict_.acceleration = std::max(verdict_.acceleration,
                                      share(acceleration, limits_.acceleration, slack, piece.keyframe, "acceleration"));
     verdict_.jerk = std::max(verdict_.jerk,
@@ -206,15 +206,15 @@ class Checker {
     ball_ = ball;
     cut_before_ = now.cuts;
     verdict_.links_m = std::max(verdict_.links_m, off.links / mm);
-    if (off.links / mm > check_.most_links_m)
+    if (off.links / mm > check_.max_links_m)
       find(beside_.keyframe(), "links are " + text(1e3 * off.links) + " um off the path");
     if (!now.cuts) return;
     verdict_.ball_voxels = std::max(verdict_.ball_voxels, voxels);
     const double shank = off.shank / (mm * reader_.header().grid.voxel_m);
     verdict_.shank_voxels = std::max(verdict_.shank_voxels, shank);
-    if (shank > check_.most_shank_voxels)
+    if (shank > check_.max_shank_voxels)
       find(beside_.keyframe(), "the shank's end is " + text(shank) + " voxels off the path");
-    if (voxels > check_.most_ball_voxels)
+    if (voxels > check_.max_ball_voxels)
       find(beside_.keyframe(), "the ball is " + text(voxels) + " voxels off the path");
   }
 

@@ -32,7 +32,7 @@ struct MotionVerdict {
 
 struct MotionCheck {
   double samples_hz = 1000;
-  double most_ball_voxels = 0.04, most_shank_voxels = 0.1, most_links_m = 0.15e-3;  ///< more is a fault
+  double max_ball_voxels = 0.04, max_shank_voxels = 0.1, max_links_m = 0.15e-3;  ///< more is a fault
 };
 
 /// Velocities and accelerations are looked at on every piece, exactly: they are means of those before the moving

@@ -6,7 +6,7 @@
 namespace sculpt {
 
 // At the ends, and where the acceleration is zero in between.
-Configuration TimePolynomial::largest_velocity() const {
+Configuration TimePolynomial::max_velocity() const {
   Configuration most = velocity(0).cwiseAbs().cwiseMax(velocity(seconds).cwiseAbs());
   for (Eigen::Index joint = 0; joint < most.size(); ++joint) {
     const double a = 12 * c[4][joint], b = 6 * c[3][joint], d = 2 * c[2][joint];
@@ -27,7 +27,7 @@ Configuration TimePolynomial::largest_velocity() const {
 }
 
 // At the ends, and at the parabola's vertex.
-Configuration TimePolynomial::largest_acceleration() const {
+Configuration TimePolynomial::max_acceleration() const {
   Configuration most = acceleration(0).cwiseAbs().cwiseMax(acceleration(seconds).cwiseAbs());
   for (Eigen::Index joint = 0; joint < most.size(); ++joint) {
     const double a = 12 * c[4][joint], b = 6 * c[3][joint];

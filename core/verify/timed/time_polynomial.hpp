@@ -26,8 +26,8 @@ struct TimePolynomial {
   /// Of r, from 0 to t.
   double gone_integral(double t) const { return t * (gone + t * (speed / 2 + t * rise / 6)); }
   /// Largest of each joint, either way, over the piece: exact.
-  Configuration largest_velocity() const;
-  Configuration largest_acceleration() const;
+  Configuration max_velocity() const;
+  Configuration max_acceleration() const;
 };
 
 }  // namespace sculpt

@@ -222,7 +222,7 @@ TEST(ResumedRun, DoesAgainNoMoreThanTheTrialItWasKilledIn) {
   uninterrupted(job, &told);
   const auto first = std::ranges::find(told, Stage::plan, &Progress::stage);
   const auto end = std::ranges::find(first, told.end(), Stage::verify, &Progress::stage);
-  constexpr std::uint64_t largest_block = 4 * 4 * 4;
+  constexpr std::uint64_t max_block = 4 * 4 * 4;
   for (int tenth = 2; tenth < 10; tenth += 2) {
     SCOPED_TRACE("killed after " + std::to_string(tenth) + " tenths of the planning");
     const JobFolder folder(job);
@@ -233,7 +233,7 @@ TEST(ResumedRun, DoesAgainNoMoreThanTheTrialItWasKilledIn) {
     std::uint64_t kept = 0;
     for (const BlockTrial& trial : checkpoint->trials) kept += static_cast<std::uint64_t>(trial.removed);
     EXPECT_GT(kept, 0u);
-    EXPECT_LE(last->done - kept, largest_block);
+    EXPECT_LE(last->done - kept, max_block);
   }
 }
 

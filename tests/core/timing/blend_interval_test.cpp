@@ -46,10 +46,10 @@ TEST(BlendInterval, LargestStartAndEndAreAllowedAndNothingLargerIs) {
     const BlendInterval part(one.way, one.bend, one.delta, one.most);
     const double scale = one.delta * std::pow(10, random.between(-2, 1)), end = scale * random.between(0, 1),
                  cap = scale;
-    const double start = part.largest_start(cap, end);
+    const double start = part.max_start(cap, end);
     ASSERT_GE(start, 0);
     ASSERT_LE(start, cap);
-    const double reached = part.largest_end(start, end);
+    const double reached = part.max_end(start, end);
     ASSERT_LE(reached, end);
     ASSERT_TRUE(one.allows(start, reached)) << start << " " << reached;
     if (reached < end) {

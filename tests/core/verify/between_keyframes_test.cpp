@@ -157,7 +157,7 @@ TEST(BetweenKeyframes, RandomSwingsAreFoundExactlyWhenTheyHit) {
       const Vec3 ball(0.3 * std::cos(q[0]) + 0.3 * std::cos(q[0] + q[1]),
                       0.3 * std::sin(q[0]) + 0.3 * std::sin(q[0] + q[1]), 0.05);
       const Vec3 at = (ball - cell.stock_origin_m) / voxel_m;
-      least = std::min(least, least_upright_gap(at, voxels.stock));
+      least = std::min(least, min_upright_gap(at, voxels.stock));
     }
     const Verdict verdict = swing(cell, voxels, {stop});
     if (least < -0.001) {

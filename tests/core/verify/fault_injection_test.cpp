@@ -57,7 +57,7 @@ TEST(FaultInjection, TwoRowsSwappedAreFound) {
 
 // Does the carving hit something, by sampling every motion densely? Positive: by how much it stays clear of all
 // material.
-double least_gap(const std::vector<Keyframe>& keyframes, const Configuration& home, double voxel_m, VoxelSet standing) {
+double min_gap(const std::vector<Keyframe>& keyframes, const Configuration& home, double voxel_m, VoxelSet standing) {
   double least = 1;
   Configuration from = home;
   for (const Keyframe& keyframe : keyframes) {
@@ -71,7 +71,7 @@ double least_gap(const std::vector<Keyframe>& keyframes, const Configuration& ho
                                         Voxel{run.i / (parts - 1), run.j / (parts - 1), run.k / (parts - 1)} * part);
       }
       const Vec3 at = (from + (keyframe.q - from) * s / samples) / voxel_m;
-      least = std::min(least, least_upright_gap(at, standing));
+      least = std::min(least, min_upright_gap(at, standing));
     }
     from = keyframe.q;
   }
@@ -88,8 +88,7 @@ TEST(FaultInjection, ADroppedTransitIsFoundExactlyWhenItHits) {
     const auto& keyframes = test.program.keyframes;
     const Verdict verdict = test.verdict();
     const bool home = keyframes.back().q == test.program.header().home;
-    const double least =
-        least_gap(keyframes, test.program.header().home, test.program.voxel_m(), test.land.voxels.stock);
+    const double least = min_gap(keyframes, test.program.header().home, test.program.voxel_m(), test.land.voxels.stock);
     if (least < -0.01 || !home) {
       EXPECT_FALSE(verdict.clean) << least;
     }
@@ -114,7 +113,7 @@ TEST(FaultInjection, AMoveToARandomPlaceIsFoundExactlyWhenItHits) {
                                   {test.program.q(place), false, {}, {}});
     const Verdict verdict = test.verdict();
     const double least =
-        least_gap(test.program.keyframes, test.program.header().home, test.program.voxel_m(), test.land.voxels.stock);
+        min_gap(test.program.keyframes, test.program.header().home, test.program.voxel_m(), test.land.voxels.stock);
     if (least < -0.01) {
       EXPECT_FALSE(verdict.clean) << least;
     }

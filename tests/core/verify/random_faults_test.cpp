@@ -45,8 +45,8 @@ GantryProgram carve_in_layers(const Cell& cell, const Landscape& land) {
 }
 
 struct Harm {
-  double least_gap = 1;  // of tool and material, in voxels
-  bool wrong = false;    // a voxel that was not there, missed or kept; not home
+  double min_gap = 1;  // of tool and material, in voxels
+  bool wrong = false;  // a voxel that was not there, missed or kept; not home
 };
 
 Harm sample(const GantryProgram& program, const TrajectoryHeader& header, const VoxelGrid& voxels) {
@@ -68,7 +68,7 @@ Harm sample(const GantryProgram& program, const TrajectoryHeader& header, const 
       }
       for (int s = 0; s <= 40; ++s) {
         const Vec3 at = (from + (keyframe.q - from) * (part + s / 40.0) / parts) / program.voxel_m();
-        harm.least_gap = std::min(harm.least_gap, least_upright_gap(at, standing));
+        harm.min_gap = std::min(harm.min_gap, min_upright_gap(at, standing));
       }
     }
     from = keyframe.q;
@@ -139,11 +139,11 @@ TEST(RandomFaults, AreFoundExactlyWhenTheyDoHarm) {
       const Harm harm = sample(program, program.header(), land.voxels);
       std::istringstream in(program.text());
       const Verdict verdict = verify_trajectory(in, cell, land.voxels, {}, {1 + static_cast<int>(seed % 3)});
-      if (harm.wrong || harm.least_gap < -0.01) {
-        EXPECT_FALSE(verdict.clean) << harm.least_gap;
+      if (harm.wrong || harm.min_gap < -0.01) {
+        EXPECT_FALSE(verdict.clean) << harm.min_gap;
         ++harmful[fault];
-      } else if (harm.least_gap > 0.01) {
-        EXPECT_TRUE(verdict.clean) << harm.least_gap << "\n" << sentences(verdict);
+      } else if (harm.min_gap > 0.01) {
+        EXPECT_TRUE(verdict.clean) << harm.min_gap << "\n" << sentences(verdict);
       }
     }
   for (const Fault fault : all_faults)

@@ -185,7 +185,7 @@ inline double upright_tool_gap(const Vec3& at, Voxel voxel) {
 }
 
 /// The smallest of these gaps over the standing voxels near the tool; 0.5 if there are none.
-inline double least_upright_gap(const Vec3& at, const VoxelSet& standing) {
+inline double min_upright_gap(const Vec3& at, const VoxelSet& standing) {
   double least = 0.5;
   const int n = standing.n(), i0 = static_cast<int>(std::floor(at.x())), j0 = static_cast<int>(std::floor(at.y()));
   for (int i = std::max(0, i0 - 1); i <= std::min(n - 1, i0 + 1); ++i)

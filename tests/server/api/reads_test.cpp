@@ -12,7 +12,7 @@
 namespace sculpt::server {
 namespace {
 
-constexpr int most_tries = 20;
+constexpr int max_tries = 20;
 
 // Everything that a client of scope read may ask, of a job that has ended.
 void ask_all(client::Client& client, const std::string& job) {
@@ -37,7 +37,7 @@ TEST(Reads, AreAnsweredWhileAChangeIsBeingWritten) {
   ASSERT_EQ(final_state(client, done), "succeeded");
   await_state(client, held, "running");
   bool first = false;
-  for (int attempt = 0; attempt < most_tries && !first; ++attempt) {
+  for (int attempt = 0; attempt < max_tries && !first; ++attempt) {
     Database other(live.data() / "sculptd.db");
     other.run("BEGIN IMMEDIATE");
     std::atomic<bool> changed = false;

@@ -89,7 +89,7 @@ TEST(Envelope, AsAWholeIsTheSameOrNothing) {
   const FacetColumns columns(mesh, frame);
   EnvelopeTask task = make_task(columns);
   const Vec3 from = frame.of({-0.012, 0, 0}), to = frame.of({0.012, 0, 0});
-  const auto whole = [&](double longest_m) { return follow_whole(task, from.head<2>(), to.head<2>(), longest_m); };
+  const auto whole = [&](double max_m) { return follow_whole(task, from.head<2>(), to.head<2>(), max_m); };
   const auto pieces = follow_envelope(task, from.head<2>(), to.head<2>());
   ASSERT_EQ(pieces.size(), 1U);
   double length = 0;

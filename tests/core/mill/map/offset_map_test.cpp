@@ -36,7 +36,7 @@ TEST(OffsetMap, NoPointIsInsideACutterThatItLetsStand) {
     const Cutter cutter =
         cutter_of(static_cast<CutterKind>(seed % 3), random.between(0.002, 0.012), seed % 3 == 1 ? 0.001 : 0);
     const HeightMap limit = offset_by_cutter(rubble.map, cutter, more_m);
-    double least_room = 1;
+    double min_room = 1;
     for (int n = 0; n < 3000; ++n) {
       const double u = random.between(-0.045, 0.045), v = random.between(-0.035, 0.035);
       const float lowest = limit.at(limit.lattice.cell_u(u), limit.lattice.cell_v(v));
@@ -45,11 +45,11 @@ TEST(OffsetMap, NoPointIsInsideACutterThatItLetsStand) {
         const double r = std::hypot(point.x() - u, point.y() - v);
         if (r > cutter.radius_m) continue;
         const double room = lowest + cutter.height_m(r) - point.z();
-        least_room = std::min(least_room, room);
+        min_room = std::min(min_room, room);
         EXPECT_GE(room, more_m - 1e-7);
       }
     }
-    EXPECT_LT(least_room, 0.02);  // and it is not just high everywhere
+    EXPECT_LT(min_room, 0.02);  // and it is not just high everywhere
   }
 }
 

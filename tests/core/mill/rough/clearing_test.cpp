@@ -26,7 +26,7 @@ StockTop make_block(const MillTool& tool, double step_m) {
 }
 
 struct Cleared {
-  double path_m = 0, volume_m3 = 0, largest_share = 0, in_passes_m = 0;
+  double path_m = 0, volume_m3 = 0, max_share = 0, in_passes_m = 0;
   std::size_t passes = 0, entries = 0;
 };
 
@@ -52,8 +52,7 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
       window_m += length;
       window_m3 += volume;
       if (window_m >= tool.cutter.radius_m) {
-        cleared.largest_share =
-            std::max(cleared.largest_share, window_m3 / window_m / (tool.max_depth_m * tool.max_width_m));
+        cleared.max_share = std::max(cleared.max_share, window_m3 / window_m / (tool.max_depth_m * tool.max_width_m));
         window_m = window_m3 = 0;
       }
     }
@@ -71,8 +70,8 @@ TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
     const Cleared cleared = clear_level(tool, surface, measured, -0.01 * level, free, RowLayout::along_u);
     std::cout << "level " << level << ": path " << cleared.path_m << " m (" << cleared.in_passes_m << "), volume "
               << cleared.volume_m3 * 1e6 << " cm3, ideal path " << cleared.volume_m3 / 1e-4 << ", largest "
-              << cleared.largest_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-    EXPECT_LE(cleared.largest_share, 1.06);
+              << cleared.max_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
+    EXPECT_LE(cleared.max_share, 1.06);
     volume += cleared.volume_m3;
     path += cleared.path_m;
   }
@@ -92,8 +91,8 @@ TEST_P(LaidRows, GoAroundWhatIsNotFree) {
       if (is_island(surface.lattice().u(a), surface.lattice().v(b))) free[surface.lattice().index(a, b)] = 0;
   const Cleared cleared = clear_level(tool, surface, measured, -0.006, free, GetParam());
   std::cout << "island: path " << cleared.path_m << " m, ideal " << cleared.volume_m3 / 36e-6 << ", largest "
-            << cleared.largest_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-  EXPECT_LE(cleared.largest_share, 1.06);
+            << cleared.max_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
+  EXPECT_LE(cleared.max_share, 1.06);
   EXPECT_LT(cleared.path_m, 1.8 * cleared.volume_m3 / 36e-6);
   // What stands after it: the island less what the cutter reaches of it from beside, and cusps.
   for (int b = 0; b < surface.lattice().height; ++b)
