@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/cell/cell.hpp"
-#include "core/cell/milling/mill_tool.hpp"
+#include "core/cell/milling/mounted_tool.hpp"
 
 namespace sculpt {
 
@@ -27,15 +27,8 @@ struct Assembly {
 /// Of `cell` with this tool in its spindle. Shapes fixed to the tool link count as turned about the axis.
 Assembly make_assembly(const Cell& cell, const MillTool& tool);
 
-/// The tool's body and cutter as cylinders in the tool link's frame; the cutter first.
-std::vector<Shape> tool_shapes(const MillTool& tool);
-
-/// `cell` with the tool as part of its tool link: whoever looks at links sees it whole. The controlled point is the
-/// tip.
-Cell carrying(const Cell& cell, const MillTool& tool);
-
-/// The same for fields of postures: what is fixed to the tool link is not held against the stock, nor the tool against
-/// what stands still in the stock's frame: height maps do that.
+/// `cell` with the tool in its spindle, for fields of postures: what is fixed to the tool link is not held against the
+/// stock, nor the tool against what stands still in the stock's frame: height maps do that.
 Cell guided_by_maps(const Cell& cell, const MillTool& tool);
 
 }  // namespace sculpt
