@@ -56,7 +56,15 @@ void add_motion_options(CLI::App& command, MotionOptions& options) {
       ->required();
   command.add_option("--robot", options.robot, "The cell that it was planned for; without it the one that it names")
       ->type_name("CELL");
-  command.add_option("--feed", options.feed_m_s, "Speed of the ball while it cuts")->type_name("M_S")->required();
+  command
+      .add_option_function<double>(
+          "--feed",
+          [&options](const double& feed_m_s) {
+            options.feed_m_s = feed_m_s;
+            options.has_feed = true;
+          },
+          "Speed of the ball while it cuts; milling tools go no faster than their own, and need none")
+      ->type_name("M_S");
   command.add_option("--rapid", options.rapid_m_s, "Speed of the ball on moves")
       ->type_name("M_S")
       ->capture_default_str();
@@ -73,8 +81,13 @@ void add_motion_options(CLI::App& command, MotionOptions& options) {
       ->check(CLI::NonNegativeNumber);
 }
 
-MotionDemands to_demands(const MotionOptions& options) {
-  MotionDemands demands{options.feed_m_s, options.rapid_m_s, {}, options.reserve_um * 1e-6};
+MotionDemands to_demands(const MotionOptions& options, const PlanPath& path) {
+  double feed_m_s = options.feed_m_s;
+  if (!options.has_feed) {
+    if (!path.header().mill) throw Failure(exit_usage, "usage", "--feed is required: a thin tool has none of its own");
+    for (const MillTool& tool : path.header().mill->tools) feed_m_s = std::max(feed_m_s, tool.feed_m_s);
+  }
+  MotionDemands demands{feed_m_s, options.rapid_m_s, {}, options.reserve_um * 1e-6};
   if (options.keep_feed > 0) demands.keep_feed = options.keep_feed;
   return demands;
 }

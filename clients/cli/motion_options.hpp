@@ -13,12 +13,14 @@ struct MotionOptions {
   std::string robot;    ///< empty: the cell that the plan names
   double feed_m_s = 0, rapid_m_s = 0.5, reserve_um = 0;
   double keep_feed = 0;  ///< 0: any
+  bool has_feed = false;
 };
 
 /// PLAN|JOB, --robot, --feed, --rapid, --keep-feed and --reserve-um.
 void add_motion_options(CLI::App& command, MotionOptions& options);
 
-MotionDemands to_demands(const MotionOptions& options);
+/// Without a feed that of the fastest milling tool. Throws Failure where a thin tool is given none.
+MotionDemands to_demands(const MotionOptions& options, const PlanPath& path);
 
 /// Reads the file, or the job's trajectory from the server. Throws Failure, InputError, ServerError.
 PlanPath read_path(const std::string& server, const MotionOptions& options);

@@ -28,20 +28,24 @@ Json time_report(const PlanPath& path, const TimedPlan& plan) {
                      {"joint", place.joint},
                      {"feed_m_s", place.feed_m_s}});
   const TimeAccount& time = plan.time;
+  Json tools = Json::array();
+  for (std::size_t at = 0; at < time.tools.size(); ++at)
+    tools.push_back({{"name", path.header().mill->tools[at].name}, {"seconds", time.tools[at]}});
   const Json by{{"feed", time.feed},
                 {"rapid", time.rapid},
                 {"velocity", by_joint(path, time.velocity)},
                 {"acceleration", by_joint(path, time.acceleration)},
                 {"jerk", by_joint(path, time.jerk)}};
-  return {{"time",
-           {{"total_s", time.total},
-            {"ratio", time.at_caps > 0 ? time.total / time.at_caps : 1},
-            {"window_s", plan.law.window_s},
-            {"feed_m_s", plan.law.feed_m_s},
-            {"rapid_m_s", plan.law.rapid_m_s},
-            {"keyframes", path.keyframes()},
-            {"by", by},
-            {"worst", worst}}}};
+  Json figures{{"total_s", time.total},
+               {"ratio", time.at_caps > 0 ? time.total / time.at_caps : 1},
+               {"window_s", plan.law.window_s},
+               {"feed_m_s", plan.law.feed_m_s},
+               {"rapid_m_s", plan.law.rapid_m_s},
+               {"keyframes", path.keyframes()},
+               {"by", by},
+               {"worst", worst}};
+  if (!tools.empty()) figures["tools"] = std::move(tools);
+  return {{"time", std::move(figures)}};
 }
 
 std::string time_table(const Json& report) {
@@ -52,6 +56,9 @@ std::string time_table(const Json& report) {
   std::snprintf(head, sizeof head, "%lld:%02lld:%02lld h (%.1f s), %.3f of what the caps alone would take\n",
                 seconds / 3600, seconds / 60 % 60, seconds % 60, total, time.at("ratio").get<double>());
   std::string table = head;
+  if (time.contains("tools"))
+    for (const Json& tool : time.at("tools"))
+      table += row("with " + tool.at("name").get<std::string>(), tool.at("seconds"), total);
   for (const char* cause : {"feed", "rapid"}) table += row(cause, time.at("by").at(cause), total);
   for (const char* cause : {"velocity", "acceleration", "jerk"})
     for (const auto& [joint, value] : time.at("by").at(cause).items())

@@ -46,23 +46,20 @@ class ProgramMaker {
       : path_(path),
         demands_(demands),
         take_(take),
-        chain_(chain),
-        rates_(chain),
         limits_(limits_of(cell, chain)),
         layout_(lay_out_axes(cell, chain, demands.dialect)),
-        stray_(cell, chain, path.header().grid, demands.motion.reserve_m) {
+        tools_(path, cell, demands.motion.reserve_m) {
     for (const AxisLayout::Axis& axis : layout_.axes) letters_.push_back(axis.name);
-    stray_.look_along(path);
   }
 
   ProgramReport run() {
     const DialectFacts& facts = facts_of(demands_.dialect);
-    const std::size_t size = demands_.part_keyframes.value_or(facts.part_keyframes), moves = path_.size() - 1;
-    names_ = {demands_.name, 0, size == 0 ? 1 : std::max<std::size_t>(1, (moves + size - 1) / size)};
+    const std::vector<std::size_t> seams = find_seams(demands_.part_keyframes.value_or(facts.part_keyframes));
+    names_ = {demands_.name, 0, seams.size(), {}};
     begin_part(0);
-    for_each_stop(path_, chain_, limits_, {demands_.motion.feed_m_s, demands_.motion.rapid_m_s},
+    for_each_stop(path_, tools_, limits_, {demands_.motion.feed_m_s, demands_.motion.rapid_m_s},
                   [&](std::size_t point, const StopTime& time) {
-                    if (size > 0 && point > 1 && (point - 1) % size == 0) {
+                    if (names_.part < seams.size() && seams[names_.part] == point - 1) {
                       end_part();
                       begin_part(point - 1);
                     }
@@ -77,12 +74,34 @@ class ProgramMaker {
   }
 
  private:
+  /// The points where parts begin, home the first of them: after `size` moves, unless that is 0, and where a tool is
+  /// changed.
+  std::vector<std::size_t> find_seams(std::size_t size) const {
+    std::vector<std::size_t> seams{0};
+    for (std::size_t point = 1; point + 1 < path_.size(); ++point)
+      if ((size > 0 && point - seams.back() == size) || is_changed_at(point)) seams.push_back(point);
+    return seams;
+  }
+
+  bool is_changed_at(std::size_t point) const {
+    return point > 0 && path_.edge_to(point + 1).tool != path_.edge_to(point).tool;
+  }
+
+  /// Of the part that begins there.
+  std::optional<ToolMount> mount_at(std::size_t point) const {
+    if (!path_.header().mill || (point > 0 && !is_changed_at(point))) return {};
+    const MillTool& tool = path_.header().mill->tools[path_.edge_to(point + 1).tool];
+    return ToolMount{tool.number, tool.name};
+  }
+
   void begin_part(std::size_t point) {
     first_ = point;
     ++names_.part;
+    names_.mount = mount_at(point);
     writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(path_.configuration(point)));
     times_.clear();
-    const Vec3 cell_at = (chain_.tool_pose(path_.configuration(point)).ball_m - path_.header().grid.origin_m) /
+    const Chain& chain = tools_.on_edge_to(path_, point + 1).chain;
+    const Vec3 cell_at = (chain.tool_pose(path_.configuration(point)).ball_m - path_.header().grid.origin_m) /
                          path_.header().grid.voxel_m;
     report_.seams_in_stock +=
         point > 0 && (cell_at.array() > 0).all() && (cell_at.array() < path_.header().grid.n).all();
@@ -114,10 +133,14 @@ class ProgramMaker {
       throw InputError("program_damaged",
                        "a part that was written holds other moves than the plan: this is a fault of "
                        "this program, please report it");
-    check_place(first_, joints_of(part.start, part.radians));
+    if (part.tool != (names_.mount ? names_.mount->number : 0))
+      throw InputError("program_damaged",
+                       "a part that was written mounts another tool than the plan has: this is a fault of this "
+                       "program, please report it");
+    check_place(first_, first_ + 1, joints_of(part.start, part.radians));
     for (std::size_t at = 0; at < part.moves.size(); ++at) {
       const ReadMove& move = part.moves[at];
-      check_place(first_ + 1 + at, joints_of(move.values, part.radians));
+      check_place(first_ + 1 + at, first_ + 1 + at, joints_of(move.values, part.radians));
       const StopTime& time = times_[at];
       const bool slow_enough = move.seconds > 0 ? move.seconds >= time.seconds * (1 - 1e-6) - 1e-9
                                                 : move.share > 0 && move.share <= time.share * (1 + 1e-9);
@@ -131,15 +154,17 @@ class ProgramMaker {
     }
   }
 
-  /// What the digits leave of the plan's joints: free if both ends of every edge are.
-  void check_place(std::size_t point, const Configuration& read) {
+  /// What the digits leave of the plan's joints at a point of an edge: free if both ends of every edge are.
+  void check_place(std::size_t point, std::size_t edge, const Configuration& read) {
+    const PathTool& held = tools_.on_edge_to(path_, edge);
+    const ToolRates& rates = held.rates;
     const Configuration off = read - path_.configuration(point), size = off.cwiseAbs();
-    tool_.put(rates_, path_.configuration(point));
-    const double turned = rates_.turn.dot(size), second = rates_.orders(2) * turned * rates_.travel.dot(size) / 2;
-    const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates_.stickout_m).norm()) + second;
+    tool_.put(rates, path_.configuration(point));
+    const double turned = rates.turn.dot(size), second = rates.orders(2) * turned * rates.travel.dot(size) / 2;
+    const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates.stickout_m).norm()) + second;
     report_.rounding_m = std::max(report_.rounding_m, tool_m);
-    const double tool = tool_m / stray_.tool_m(), links = stray_.links().dot(size),
-                 both = stray_.tool_and_links(point, false, size, tool_m), most = std::max({tool, links, both});
+    const double tool = tool_m / certain_m(held, point), links = held.stray.links().dot(size),
+                 both = held.stray.tool_and_links(point, false, size, tool_m), most = std::max({tool, links, both});
     if (most <= alone) return;
     std::ostringstream text;
     text.precision(3);
@@ -152,14 +177,19 @@ class ProgramMaker {
     throw InputError("rounding_too_coarse", text.str());
   }
 
+  /// How far the tool may be off an edge that it goes exactly.
+  double certain_m(const PathTool& held, std::size_t point) const {
+    if (!path_.header().mill) return held.stray.tool_m();
+    return std::min(held.room.beside(path_.edge_to(std::max<std::size_t>(point, 1))),
+                    held.room.beside(path_.edge_to(std::min(point + 1, path_.size() - 1))));
+  }
+
   const PlanPath& path_;
   const ProgramDemands& demands_;
   const std::function<void(const ProgramFile&)>& take_;
-  const Chain& chain_;
-  const ToolRates rates_;
   const MotionLimits limits_;
   const AxisLayout layout_;
-  StrayBound stray_;
+  const PathTools tools_;
   std::vector<std::string> letters_;
   ProgramNames names_;
   std::unique_ptr<PartWriter> writer_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/law/coarse.hpp"
 #include "core/timing/corner_cost.hpp"
@@ -28,13 +29,12 @@ struct Place {
 
 class CornerFinder {
  public:
-  CornerFinder(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
-               const CornerDemands& demands)
+  CornerFinder(const PlanPath& path, const PathTools& tools, const CornerDemands& demands)
       : path_(path),
-        stray_(stray),
+        tools_(tools),
         demands_(demands),
-        rates_(chain),
-        rooms_(path, cell, chain, stray.reserve_m()),
+        orders_(tools.first().rates.orders(2)),
+        rooms_(make_rooms(path, tools.first())),
         window_(demands.window_s),
         places_(ring) {}
 
@@ -42,7 +42,7 @@ class CornerFinder {
     corners_.law.resize(path_.size());
     corners_.caps.resize(path_.size());
     if (path_.size() == 1) return std::move(corners_);
-    tool_[2].put(rates_, path_.configuration(0));
+    places_at_[2].put(tools_.first().rates, path_.configuration(0));
     std::size_t done = 0;
     place(0).rest = true;
     for (std::size_t point = 1; point < path_.size(); ++point) {
@@ -58,26 +58,45 @@ class CornerFinder {
  private:
   static constexpr std::size_t ring = 256;
 
+  static std::optional<EdgeRoomFinder> make_rooms(const PlanPath& path, const PathTool& tool) {
+    if (path.header().mill) return {};
+    return EdgeRoomFinder(path, tool.cell, tool.chain, tool.stray.reserve_m());
+  }
+
   Place& place(std::size_t point) { return places_[point % ring]; }
 
   void go_to(std::size_t point) {
     Place& to = place(point) = {};
-    const PlanPath::Edge& cut = path_.edge_to(point);
-    tool_[0] = tool_[2];
-    to.edge = make_edge(rates_, {demands_.acceleration, demands_.limits.velocity}, path_.configuration(point - 1),
-                        path_.configuration(point), tool_);
-    to.edge.cut = cut.voxels > 0;
-    to.edge.feed_m_s = to.edge.cut ? demands_.feeds.feed_m_s : demands_.feeds.rapid_m_s;
+    const PlanPath::Edge& edge = path_.edge_to(point);
+    const PathTool& tool = tools_.on_edge_to(path_, point);
+    if (point > 1 && edge.tool != path_.edge_to(point - 1).tool)
+      places_at_[0].put(tool.rates, path_.configuration(point - 1));
+    else
+      places_at_[0] = places_at_[2];
+    to.edge = make_edge(tool.rates, {demands_.acceleration, demands_.limits.velocity}, path_.configuration(point - 1),
+                        path_.configuration(point), places_at_);
+    to.edge.cut = edge.cut;
+    to.edge.feed_m_s = demands_.feeds.of(edge, tool);
     to.edge.cap = 1 / std::max(to.edge.joint_rate, to.edge.ball / to.edge.feed_m_s);
-    to.room = rooms_.go_to(point, to.edge, tool_);
-    to.rest = cut.rest;
+    const EdgeBow bow = bow_of(tool.rates, to.edge, places_at_);
+    to.room = rooms_ ? rooms_->go_to(point, bow, places_at_) : room_of(edge, tool.room, bow);
+    to.rest = edge.rest;
+  }
+
+  /// Of a milling tool: what its strokes are certified with, less what they use of it themselves.
+  static EdgeRoom room_of(const PlanPath::Edge& edge, const MillRoom& room, const EdgeBow& bow) {
+    if (edge.cut && edge.placed) return {true, {room.cut_m, bow.ball, bow.more}, {room.cut_m, bow.top, bow.more}};
+    return {true, {room.beside(edge), 0, 0}, {room.beside(edge), 0, 0}};
   }
 
   /// The tool is at the point at the beginning of the last edge.
   void look_at_corner(std::size_t point) {
     Place& here = place(point);
+    if (here.rest) return;
     const Place& next = place(point + 1);
-    here.cost = find_cost(rates_, stray_, point, tool_[0], {{here.edge, here.room}, {next.edge, next.room}}, window_);
+    const PathTool& tool = tools_.on_edge_to(path_, point);
+    here.cost = find_cost(tool.rates, tool.stray, point, places_at_[0],
+                          {{here.edge, here.room}, {next.edge, next.room}}, window_);
     if (here.cost.straight) return;
     const double rise = std::max(here.edge.line_acceleration, next.edge.line_acceleration);
     if (is_worth(here.cost.wanted, divide(here.cost, here.edge, next.edge, rise),
@@ -237,9 +256,8 @@ class CornerFinder {
   /// On the parabola the ball is at most as fast as on either edge, and as J differs there.
   CornerCaps caps_at_ends(const Place& here, const PathEdge& second, double half, double slower) const {
     const PathEdge& first = here.edge;
-    const double orders = rates_.orders(2);
-    const double beside = orders * here.cost.turn * half / 4,
-                 along = orders * std::max(first.turn, second.turn) * half / 8;
+    const double beside = orders_ * here.cost.turn * half / 4,
+                 along = orders_ * std::max(first.turn, second.turn) * half / 8;
     const double more = along * std::max(first.travel, second.travel);
     double feed = std::min(first.feed_m_s, second.feed_m_s);
     if (first.cut != second.cut) {
@@ -255,22 +273,21 @@ class CornerFinder {
   }
 
   const PlanPath& path_;
-  const StrayBound& stray_;
+  const PathTools& tools_;
   const CornerDemands& demands_;
-  const ToolRates rates_;
-  EdgeRoomFinder rooms_;
+  const double orders_;
+  std::optional<EdgeRoomFinder> rooms_;  // of a thin tool
   const double window_;
   std::vector<Place> places_;
   Corners corners_;
-  EdgePlaces tool_;  // of the last edge
+  EdgePlaces places_at_;  // of the tool on the last edge
   double slower_before_ = 0;
 };
 
 }  // namespace
 
-Corners find_corners(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
-                     const CornerDemands& demands) {
-  return CornerFinder(path, cell, chain, stray, demands).run();
+Corners find_corners(const PlanPath& path, const PathTools& tools, const CornerDemands& demands) {
+  return CornerFinder(path, tools, demands).run();
 }
 
 }  // namespace sculpt

@@ -10,12 +10,13 @@
 // (turning on the way there) * (sum of R_j |c_j|) beside it, as everywhere that J is used away from the point.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/law/time_law.hpp"
 #include "core/timing/motion_limits.hpp"
+#include "core/timing/path_tool.hpp"
 #include "core/timing/plan_path.hpp"
-#include "core/timing/room/stray_bound.hpp"
 
 namespace sculpt {
 
@@ -34,6 +35,11 @@ struct Corners {
 
 struct Feeds {
   double feed_m_s = 0, rapid_m_s = 0;
+
+  /// On an edge, with this tool.
+  double of(const PlanPath::Edge& edge, const PathTool& tool) const {
+    return edge.cut ? std::min(feed_m_s, tool.feed_m_s) : rapid_m_s;
+  }
 };
 
 /// What all corners are made with.
@@ -44,8 +50,7 @@ struct CornerDemands {
   Feeds feeds;
 };
 
-/// All but x. At home and at the last point the motion is at rest. `stray` has looked along the path.
-Corners find_corners(const PlanPath& path, const Cell& cell, const Chain& chain, const StrayBound& stray,
-                     const CornerDemands& demands);
+/// All but x. At home, at the last point and where tools are changed the motion is at rest.
+Corners find_corners(const PlanPath& path, const PathTools& tools, const CornerDemands& demands);
 
 }  // namespace sculpt

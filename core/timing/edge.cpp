@@ -53,4 +53,17 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
   return edge;
 }
 
+EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places) {
+  const ToolPlace &begin = places[0], &end = places[2];
+  const Configuration step = edge.way * edge.length;
+  const Vec3 line = end.pose.ball_m - begin.pose.ball_m,
+             top_line = line + rates.stickout_m * (end.pose.axis - begin.pose.axis);
+  const auto top = [&](const ToolPlace& place) { return place.top(step, rates.stickout_m); };
+  // With the derivatives a and b of the deviation at its ends the cubic is a t (1 - t)^2 - b t^2 (1 - t).
+  const double turned = edge.turn * edge.length;
+  return {std::max((begin.ball(step) - line).norm(), (end.ball(step) - line).norm()) / 4,
+          std::max((top(begin) - top_line).norm(), (top(end) - top_line).norm()) / 4,
+          rates.orders(4) * turned * turned * turned * edge.travel * edge.length / 384};
+}
+
 }  // namespace sculpt

@@ -48,6 +48,14 @@ struct PathEdge {
 /// Where the tool is at the beginning, in the middle and at the end of an edge.
 using EdgePlaces = std::array<ToolPlace, 3>;
 
+/// How far ball and shank's end leave the straight line between where an edge begins and ends (m): at a share t of it
+/// by no more than 4 bow t (1 - t) + 16 more t^2 (1 - t)^2. By the cubic through the ends with the derivatives there,
+/// and what it leaves out, a bound of the fourth derivative over 384.
+struct EdgeBow {
+  double ball = 0, top = 0, more = 0;
+};
+EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places);
+
 /// What the joints may do, as edges are measured by.
 struct JointRates {
   const Configuration &acceleration, &velocity;

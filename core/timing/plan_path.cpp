@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.hpp"
 #include "core/trajectory/reader.hpp"
 
 namespace sculpt {
@@ -11,7 +10,8 @@ namespace {
 PlanPath::Edge edge_of(const Keyframe& keyframe, std::uint64_t number, Voxel before) {
   PlanPath::Edge edge;
   edge.keyframe = static_cast<std::uint32_t>(number);
-  if (!keyframe.cut) return edge;
+  edge.cut = keyframe.cut;
+  if (!keyframe.cut || keyframe.mill) return edge;
   edge.voxels = static_cast<std::uint16_t>(run_length(keyframe));
   edge.last = {static_cast<std::int16_t>(keyframe.last.i), static_cast<std::int16_t>(keyframe.last.j),
                static_cast<std::int16_t>(keyframe.last.k)};
@@ -26,19 +26,26 @@ PlanPath::Edge edge_of(const Keyframe& keyframe, std::uint64_t number, Voxel bef
 PlanPath::PlanPath(std::istream& in) {
   TrajectoryReader reader(in);
   header_ = reader.header();
-  if (header_.mill)
-    throw InputError(
-        "trajectory_invalid",
-        "the plan is for milling tools (format 2), of which no time law is made yet: take one of a thin tool");
   dof_ = header_.joints.size();
   add(header_.home, {});
   Configuration at = header_.home;
   Voxel cut_before{-9, -9, -9};
+  int direction = MillStep{}.direction, tool = 0;
   while (const auto keyframe = reader.next()) {
     ++keyframes_;
-    if (keyframe->q != at) add(keyframe->q, edge_of(*keyframe, keyframes_, cut_before));
+    if (keyframe->q != at) {
+      Edge edge = edge_of(*keyframe, keyframes_, cut_before);
+      edge.tool = static_cast<std::uint8_t>(tool);
+      edge.placed = keyframe->mill && keyframe->mill->is_placed() && keyframe->mill->direction == direction;
+      add(keyframe->q, edge);
+    }
     at = keyframe->q;
     if (keyframe->cut) cut_before = keyframe->last;
+    if (!keyframe->mill) continue;
+    direction = keyframe->mill->direction;
+    if (!keyframe->mill->is_change()) continue;
+    tool = keyframe->mill->tool;
+    edges_.back().rest = true;
   }
 }
 

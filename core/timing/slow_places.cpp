@@ -22,10 +22,10 @@ std::string text(double value) {
 
 class SlowPlaces {
  public:
-  SlowPlaces(const PlanPath& path, const Chain& chain, const Configuration& velocity, const TimeLaw& law,
+  SlowPlaces(const PlanPath& path, const PathTools& tools, const Configuration& velocity, const TimeLaw& law,
              const MotionDemands& demands)
       : path_(path),
-        rates_(chain),
+        tools_(tools),
         law_(law),
         demands_(demands),
         velocity_(velocity),
@@ -34,7 +34,7 @@ class SlowPlaces {
 
   std::vector<SlowPlace> run() {
     for (std::size_t point = 1; point < path_.size(); ++point)
-      if (path_.edge_to(point).voxels > 0) look_at(point);
+      if (path_.edge_to(point).cut) look_at(point);
     std::vector<SlowPlace> places;
     for (const Found& found : found_) places.push_back(describe(found));
     return places;
@@ -52,15 +52,32 @@ class SlowPlaces {
   bool goes_on(std::size_t point) const {
     if (point == 0 || point + 1 >= path_.size()) return false;
     const PlanPath::Edge &edge = path_.edge_to(point), &next = path_.edge_to(point + 1);
+    if (path_.header().mill) return edge.cut && next.cut;
     return edge.voxels > 0 && next.voxels > 0 && edge.way != 0 && edge.way == next.way;
+  }
+
+  double feed_of(std::size_t point) const {
+    return std::min(demands_.feed_m_s, tools_.on_edge_to(path_, point).feed_m_s);
+  }
+
+  Voxel voxel_at(std::size_t point) const {
+    const PlanPath::Edge& edge = path_.edge_to(point);
+    if (!path_.header().mill) return {edge.last[0], edge.last[1], edge.last[2]};
+    const Grid& grid = path_.header().grid;
+    const Vec3 tip = tools_.on_edge_to(path_, point).chain.tool_pose(path_.configuration(point)).ball_m;
+    const Vec3 at = ((tip - grid.origin_m) / grid.voxel_m).array().floor();
+    return {static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())};
   }
 
   /// The ball's slowest speed on the edge, without the voxels at the ends of a line of cuts.
   void look_at(std::size_t point) {
     const PlanPath::Edge& edge = path_.edge_to(point);
     const bool begins = !goes_on(point - 1), ends = !goes_on(point);
-    const double voxel = 1.0 / edge.voxels;
-    if (begins + ends >= edge.voxels) return;
+    const int voxels = path_.header().mill ? 1 : edge.voxels;
+    const double voxel = 1.0 / voxels;
+    if (begins + ends >= voxels) return;
+    const ToolRates& rates = tools_.on_edge_to(path_, point).rates;
+    const double feed = feed_of(point);
     const Configuration step = path_.configuration(point) - path_.configuration(point - 1);
     const double length = step.cwiseQuotient(acceleration_).norm(),
                  rise = 1 / (step / length).cwiseQuotient(acceleration_).cwiseAbs().maxCoeff();
@@ -69,18 +86,18 @@ class SlowPlaces {
     const float x_before = point > 1 ? corner(point - 1).x_mid : 0, x_after = corner(point).x_mid;
     const bool by_joints = cruise * way.cwiseAbs().cwiseQuotient(velocity_).maxCoeff() > kept;
     if (!by_joints && std::sqrt(static_cast<double>(std::min(x_before, x_after))) >= kept * cruise) return;
-    double slowest = demands_.feed_m_s;
+    double slowest = feed;
     ToolPlace tool;
     const auto at_end = [&](std::size_t end, float x, double share, bool is_line_end) {
-      tool.put(rates_, path_.configuration(end));
+      tool.put(rates, path_.configuration(end));
       // One voxel from where the line of cuts ends the motion may have risen again.
       const double there = static_cast<double>(x) + (is_line_end ? 2 * rise * share * length : 0);
       slowest = std::min(slowest, std::sqrt(std::min(there, cruise * cruise)) * tool.ball(way).norm());
     };
     at_end(point - 1, x_before, voxel, begins);
     at_end(point, x_after, voxel, ends);
-    if (slowest >= kept * demands_.feed_m_s) return;
-    if (demands_.keep_feed && slowest < *demands_.keep_feed * demands_.feed_m_s) refuse({point, slowest});
+    if (slowest >= kept * feed) return;
+    if (demands_.keep_feed && slowest < *demands_.keep_feed * feed) refuse({point, slowest});
     if (found_.size() == max_places && slowest >= found_.back().feed_m_s) return;
     found_.insert(std::ranges::upper_bound(found_, slowest, {}, &Found::feed_m_s), {point, slowest});
     if (found_.size() > max_places) found_.pop_back();
@@ -96,9 +113,7 @@ class SlowPlaces {
       turn -= next.cwiseQuotient(acceleration_).normalized();
     }
     turn.cwiseAbs().maxCoeff(&joint);
-    return {edge.keyframe,
-            {edge.last[0], edge.last[1], edge.last[2]},
-            path_.header().joints[static_cast<std::size_t>(joint)],
+    return {edge.keyframe, voxel_at(found.point), path_.header().joints[static_cast<std::size_t>(joint)],
             found.feed_m_s};
   }
 
@@ -107,13 +122,13 @@ class SlowPlaces {
     throw InputError("feed_not_kept", "at keyframe " + std::to_string(place.keyframe) + ", voxel (" +
                                           std::to_string(place.voxel.i) + ", " + std::to_string(place.voxel.j) + ", " +
                                           std::to_string(place.voxel.k) + "), joint '" + place.joint + "' lets only " +
-                                          text(place.feed_m_s) + " m/s be kept of the " + text(demands_.feed_m_s) +
+                                          text(place.feed_m_s) + " m/s be kept of the " + text(feed_of(found.point)) +
                                           " asked for: ask for --feed " + text(place.feed_m_s / *demands_.keep_feed) +
                                           " at most, or for a smaller --keep-feed than " + text(*demands_.keep_feed));
   }
 
   const PlanPath& path_;
-  const ToolRates rates_;
+  const PathTools& tools_;
   const TimeLaw& law_;
   const MotionDemands& demands_;
   const Configuration velocity_, acceleration_;
@@ -122,9 +137,9 @@ class SlowPlaces {
 
 }  // namespace
 
-std::vector<SlowPlace> find_slow_places(const PlanPath& path, const Chain& chain, const Configuration& velocity,
+std::vector<SlowPlace> find_slow_places(const PlanPath& path, const PathTools& tools, const Configuration& velocity,
                                         const TimeLaw& law, const MotionDemands& demands) {
-  return SlowPlaces(path, chain, velocity, law, demands).run();
+  return SlowPlaces(path, tools, velocity, law, demands).run();
 }
 
 }  // namespace sculpt

@@ -45,6 +45,7 @@ class SpeedFinder {
     account_.velocity.assign(dof, 0);
     account_.acceleration.assign(dof, 0);
     account_.jerk.assign(dof, 0);
+    if (path.header().mill) account_.tools.assign(path.header().mill->tools.size(), 0);
   }
 
   TimeAccount run() {
@@ -128,6 +129,7 @@ class SpeedFinder {
       LawCorner& corner = corners_.law[point];
       const double x = static_cast<double>(corners_.law[point - 1].x_out), length = line_of(point, before.length);
       corner.x_in = down(std::min(static_cast<double>(corner.x_in), x + 2 * before.acceleration * length));
+      tool_ = path_.edge_to(point).tool;
       take_line(point, before, length);
       if (point + 1 == path_.size()) break;
       after = edge_to(point + 1);
@@ -186,11 +188,12 @@ class SpeedFinder {
     const double rate = edge.way.cwiseAbs().cwiseProduct(acceleration_by_velocity_).maxCoeff(&joint);
     if (rate * static_cast<double>(corners_.law[point].cruise) > 0.999)
       return by_velocity + static_cast<std::size_t>(joint);
-    return path_.edge_to(point).voxels > 0 ? by_feed : by_rapid;
+    return path_.edge_to(point).cut ? by_feed : by_rapid;
   }
 
   void take(double seconds, std::size_t cause) {
     account_.total += seconds;
+    if (!account_.tools.empty()) account_.tools[tool_] += seconds;
     if (cause == by_feed) {
       account_.feed += seconds;
     } else if (cause == by_rapid) {
@@ -209,6 +212,7 @@ class SpeedFinder {
   Corners& corners_;
   const Configuration acceleration_by_velocity_ = demands_.acceleration.cwiseQuotient(demands_.limits.velocity);
   TimeAccount account_;
+  std::size_t tool_ = 0;
 };
 
 }  // namespace

@@ -7,18 +7,20 @@
 
 namespace sculpt {
 
-void for_each_stop(const PlanPath& path, const Chain& chain, const MotionLimits& limits, const Feeds& feeds,
+void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const Feeds& feeds,
                    const std::function<void(std::size_t point, const StopTime&)>& take) {
-  const ToolRates rates(chain);
   EdgePlaces places;
-  places[2].put(rates, path.configuration(0));
   for (std::size_t point = 1; point < path.size(); ++point) {
-    places[0] = places[2];
-    const PathEdge edge = make_edge(rates, {limits.acceleration, limits.velocity}, path.configuration(point - 1),
+    const PathTool& tool = tools.on_edge_to(path, point);
+    const bool is_same = point > 1 && path.edge_to(point).tool == path.edge_to(point - 1).tool;
+    if (is_same)
+      places[0] = places[2];
+    else
+      places[0].put(tool.rates, path.configuration(point - 1));
+    const PathEdge edge = make_edge(tool.rates, {limits.acceleration, limits.velocity}, path.configuration(point - 1),
                                     path.configuration(point), places);
-    const double feed = path.edge_to(point).voxels > 0 ? feeds.feed_m_s : feeds.rapid_m_s,
-                 cap = 1 / std::max(edge.joint_rate, edge.ball / feed), a = edge.line_acceleration,
-                 peak = std::min(cap, std::sqrt(a * edge.length));
+    const double feed = feeds.of(path.edge_to(point), tool), cap = 1 / std::max(edge.joint_rate, edge.ball / feed),
+                 a = edge.line_acceleration, peak = std::min(cap, std::sqrt(a * edge.length));
     take(point, {edge.length / peak + peak / a, peak * edge.joint_rate});
   }
 }

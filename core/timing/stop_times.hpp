@@ -14,7 +14,7 @@ struct StopTime {
 
 /// `take` is called for each point but home, in order. Keeps velocity, acceleration and the feed; a controller has
 /// ramps of its own for the jerk.
-void for_each_stop(const PlanPath& path, const Chain& chain, const MotionLimits& limits, const Feeds& feeds,
+void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const Feeds& feeds,
                    const std::function<void(std::size_t point, const StopTime&)>& take);
 
 }  // namespace sculpt

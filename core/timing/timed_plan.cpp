@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/timing/corners.hpp"
-#include "core/timing/room/stray_bound.hpp"
+#include "core/timing/path_tool.hpp"
 #include "core/timing/slow_places.hpp"
 #include "core/timing/speeds.hpp"
 
@@ -33,9 +33,8 @@ struct Attempt {
 
 class Timer {
  public:
-  Timer(const PlanPath& path, const Cell& cell, const Chain& chain, const MotionLimits& limits, const StrayBound& stray,
-        const MotionDemands& demands)
-      : path_(path), cell_(cell), chain_(chain), limits_(limits), stray_(stray), demands_(demands) {}
+  Timer(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const MotionDemands& demands)
+      : path_(path), tools_(tools), limits_(limits), demands_(demands) {}
 
   /// The mean over a window T of a motion with |q''| <= a has |q'''| <= 2 a / T.
   Attempt with_window(double window_s) const {
@@ -47,7 +46,7 @@ class Timer {
                                attempt.acceleration,
                                window_s,
                                {share_of_speed * demands_.feed_m_s, share_of_speed * demands_.rapid_m_s}};
-    attempt.corners = find_corners(path_, cell_, chain_, stray_, wanted);
+    attempt.corners = find_corners(path_, tools_, wanted);
     attempt.time = find_speeds(path_, wanted, attempt.corners);
     return attempt;
   }
@@ -67,10 +66,8 @@ class Timer {
 
  private:
   const PlanPath& path_;
-  const Cell& cell_;
-  const Chain& chain_;
+  const PathTools& tools_;
   const MotionLimits& limits_;
-  const StrayBound& stray_;
   const MotionDemands& demands_;
 };
 
@@ -108,12 +105,11 @@ TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands&
   const Chain chain = cell.chain();
   check_cell(path, chain, cell);
   const MotionLimits limits = limits_of(cell, chain);
-  StrayBound stray(cell, chain, path.header().grid, demands.reserve_m);
-  stray.look_along(path);
-  Attempt attempt = Timer(path, cell, chain, limits, stray, demands).best();
+  const PathTools tools(path, cell, demands.reserve_m);
+  Attempt attempt = Timer(path, tools, limits, demands).best();
   TimedPlan plan{{}, std::move(attempt.time), {}};
   plan.law = law_of(path, std::move(attempt), demands);
-  plan.worst = find_slow_places(path, chain, limits.velocity, plan.law, demands);
+  plan.worst = find_slow_places(path, tools, limits.velocity, plan.law, demands);
   return plan;
 }
 

@@ -29,7 +29,7 @@ int run_program(const std::string& server, const ProgramOptions& options) {
   demands.dialect = parse_dialect(options.dialect);
   const fs::path folder = fs::path(options.output).lexically_normal();
   demands.name = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
-  demands.motion = to_demands(options.motion);
+  demands.motion = to_demands(options.motion, path);
   if (options.has_parts) demands.part_keyframes = options.part_keyframes;
   std::error_code failed;
   fs::create_directories(folder, failed);

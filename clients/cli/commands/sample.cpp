@@ -43,7 +43,7 @@ void write_row(std::ostream& out, double time_s, const MotionSample& sample) {
 int run_sample(const std::string& server, const SampleOptions& options) {
   const PlanPath path = read_path(server, options.motion);
   const Cell cell = read_cell_of(path, options.motion);
-  const TimedPlan plan = time_plan(path, cell, to_demands(options.motion));
+  const TimedPlan plan = time_plan(path, cell, to_demands(options.motion, path));
   MotionSampler sampler(path, plan.law);
   const double end_s = options.to_s < 0 ? sampler.duration_s() : options.to_s;
   if (options.from_s > end_s || options.from_s > sampler.duration_s())

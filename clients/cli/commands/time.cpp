@@ -54,6 +54,7 @@ Json check(const LawFile& law, const Cell& cell, const TimeOptions& options) {
           {"jerk", verdict.jerk},
           {"feed_m_s", verdict.feed_m_s},
           {"ball_voxels", verdict.ball_voxels},
+          {"cutter_m", verdict.cutter_m},
           {"links_m", verdict.links_m}};
 }
 
@@ -61,8 +62,8 @@ void print_check(const Json& check) {
   std::cout << "check: " << (check.at("clean").get<bool>() ? "clean" : "NOT CLEAN") << ", " << check.at("pieces")
             << " pieces, " << check.at("samples") << " samples; at most " << check.at("velocity") << " of a velocity, "
             << check.at("acceleration") << " of an acceleration, " << check.at("jerk") << " of a jerk, "
-            << check.at("feed_m_s") << " m/s on cuts; ball " << check.at("ball_voxels") << " voxels and links "
-            << check.at("links_m") << " m off the path\n";
+            << check.at("feed_m_s") << " m/s on cuts; ball " << check.at("ball_voxels") << " voxels, cutter "
+            << check.at("cutter_m") << " m and links " << check.at("links_m") << " m off the path\n";
   for (const Json& finding : check.at("findings"))
     std::cout << "  keyframe " << finding.at("keyframe") << ": " << finding.at("sentence").get<std::string>() << "\n";
 }
@@ -74,7 +75,7 @@ int run_time(const std::string& server, const TimeOptions& options) {
                   "--check reads the plan twice: fetch " + options.motion.subject + " first, and name the file");
   const PlanPath path = read_path(server, options.motion);
   const Cell cell = read_cell_of(path, options.motion);
-  TimedPlan plan = time_plan(path, cell, to_demands(options.motion));
+  TimedPlan plan = time_plan(path, cell, to_demands(options.motion, path));
   Json report = time_report(path, plan);
   LawFile law{std::move(plan.law), {}};
   if (options.check || !options.output.empty()) law.plan = mark_of(path);

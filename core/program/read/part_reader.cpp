@@ -1,76 +1,29 @@
 #include "core/program/read/part_reader.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "core/base/error.hpp"
+#include "core/program/read/program_line.hpp"
 
 namespace sculpt {
 namespace {
 
-/// One line of a program, taken off piece by piece.
-class Line {
- public:
-  Line(std::string_view text, std::size_t number) : rest_(text), number_(number) {}
+/// Of "MOUNT TOOL 2 D12", which stands before the first move.
+int mounted(ProgramLine& line, const ReadPart& part) {
+  line.need("MOUNT TOOL ");
+  const double number = line.number();
+  if (!(number >= 1) || number != std::floor(number)) line.refuse("a tool has no number");
+  if (part.tool != 0 || !part.start.empty() || !part.moves.empty()) line.refuse("a tool is mounted after the start");
+  return static_cast<int>(number);
+}
 
-  void blanks() {
-    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
-  }
-  bool take(std::string_view word) {
-    blanks();
-    if (!rest_.starts_with(word)) return false;
-    rest_.remove_prefix(word.size());
-    return true;
-  }
-  void need(std::string_view word) {
-    if (!take(word)) refuse("'" + std::string(word) + "' is missing");
-  }
-  double number() {
-    blanks();
-    double value = 0;
-    const auto [end, failed] =
-        std::from_chars(rest_.data(), rest_.data() + rest_.size(), value, std::chars_format::fixed);
-    if (failed != std::errc() || !std::isfinite(value)) refuse("a number is missing");
-    const std::string_view written = rest_.substr(0, static_cast<std::size_t>(end - rest_.data()));
-    if (written.starts_with('-') && value == 0) refuse("-0 is written");
-    rest_.remove_prefix(written.size());
-    if (rest_.starts_with('e') || rest_.starts_with("E-") || rest_.starts_with("E+"))
-      refuse("a number has an exponent");
-    return value;
-  }
-  bool empty() {
-    blanks();
-    return rest_.empty();
-  }
-  std::string_view rest() const { return rest_; }
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError("program_damaged",
-                     "line " + std::to_string(number_) + " of a program: " + what + ": write it again");
-  }
-
- private:
-  std::string_view rest_;
-  std::size_t number_;
-};
-
-/// Calls `take` for each line, without its end.
-template <typename Take>
-void for_lines(std::string_view text, bool carriage_returns, Take&& take) {
-  std::size_t number = 0;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    if (end == std::string_view::npos) Line(line, number + 1).refuse("the last line has no end");
-    text.remove_prefix(end + 1);
-    const bool returned = line.ends_with('\r');
-    if (returned) line.remove_suffix(1);
-    Line at(line, ++number);
-    if (returned != carriage_returns) at.refuse("the line's end is not that of the dialect");
-    for (const char c : line)
-      if ((c < ' ' && c != '\t') || c > '~') at.refuse("a character is not ASCII");
-    take(at);
-  }
+/// The statement behind it, that the controller waits at, must be in the very next line.
+void need_stop(ProgramLine& line, bool& awaited, std::string_view word) {
+  if (!awaited) return;
+  awaited = false;
+  line.blanks();
+  if (line.rest() != word) line.refuse("it goes on before the tool is mounted");
 }
 
 double as_float(double value) {
@@ -80,9 +33,14 @@ double as_float(double value) {
 ReadPart read_krl(std::string_view text, std::size_t axes) {
   ReadPart part;
   double override_percent = 100, percent = 0;
-  bool ended = false;
-  for_lines(text, true, [&](Line& line) {
-    if (line.take("$OV_PRO=")) {
+  bool ended = false, awaited = false;
+  for_lines(text, true, [&](ProgramLine& line) {
+    need_stop(line, awaited, "HALT");
+    if (line.rest().starts_with("; MOUNT")) {
+      line.need("; ");
+      part.tool = mounted(line, part);
+      awaited = true;
+    } else if (line.take("$OV_PRO=")) {
       override_percent = line.number();
     } else if (line.take("$VEL_AXIS[I]=")) {
       percent = line.number();
@@ -117,9 +75,13 @@ ReadPart read_krl(std::string_view text, std::size_t axes) {
 
 ReadPart read_rapid(std::string_view text, std::size_t axes) {
   ReadPart part;
-  bool ended = false;
-  for_lines(text, true, [&](Line& line) {
-    if (line.take("IF Abs(here.")) {
+  bool ended = false, awaited = false;
+  for_lines(text, true, [&](ProgramLine& line) {
+    need_stop(line, awaited, "Stop;");
+    if (line.take("TPWrite \"")) {
+      part.tool = mounted(line, part);
+      awaited = true;
+    } else if (line.take("IF Abs(here.")) {
       if (!line.take("robax.rax_")) line.need("extax.eax_");
       const std::string_view rest = line.rest();
       const std::size_t at = rest.find("-(");
@@ -155,9 +117,14 @@ ReadPart read_urscript(std::string_view text) {
   ReadPart part;
   part.radians = true;
   bool ended = false;
-  for_lines(text, false, [&](Line& line) {
+  for_lines(text, false, [&](ProgramLine& line) {
     const bool is_outer_end = line.rest() == "end";  // others are indented
-    if (line.take("if norm(here[")) {
+    line.blanks();
+    if (line.rest().starts_with("popup(\"MOUNT")) {
+      line.need("popup(\"");
+      part.tool = mounted(line, part);
+      if (!line.rest().ends_with("blocking=True)")) line.refuse("it goes on before the tool is mounted");
+    } else if (line.take("if norm(here[")) {
       line.number();
       line.need("] - (");
       part.start.push_back(line.number());
@@ -185,8 +152,8 @@ ReadPart read_fanuc(std::string_view text, std::size_t axes) {
   std::vector<std::pair<int, double>> moves;  // position, seconds
   std::map<int, std::vector<double>> positions;
   int position = 0, lines = 0;
-  bool ended = false;
-  for_lines(text, true, [&](Line& line) {
+  bool ended = false, awaited = false;
+  for_lines(text, true, [&](ProgramLine& line) {
     if (line.take("P[")) {
       position = static_cast<int>(line.number());
       line.need("]{");
@@ -205,7 +172,13 @@ ReadPart read_fanuc(std::string_view text, std::size_t axes) {
     } else if (position == 0 && !line.empty() && line.rest().front() >= '0' && line.rest().front() <= '9') {
       if (static_cast<int>(line.number()) != ++lines) line.refuse("the lines are not numbered one after the other");
       line.need(":");
-      if (line.take("J P[")) {
+      if (awaited) {
+        awaited = false;
+        line.need("PAUSE");
+      } else if (line.take("!")) {
+        awaited = line.rest().starts_with("MOUNT");
+        if (awaited) part.tool = mounted(line, part);
+      } else if (line.take("J P[")) {
         const int wanted = static_cast<int>(line.number());
         line.need("]");
         moves.emplace_back(wanted, line.number() / 1000);
@@ -233,15 +206,20 @@ ReadPart read_fanuc(std::string_view text, std::size_t axes) {
 ReadPart read_gcode(std::string_view text, const std::vector<std::string>& letters) {
   ReadPart part;
   bool ended = false, by_time = false;
-  for_lines(text, false, [&](Line& line) {
-    if (line.rest() == "G93") {
+  for_lines(text, false, [&](ProgramLine& line) {
+    if (line.take("T")) {
+      const double number = line.number();
+      line.need("M6 ; ");
+      part.tool = mounted(line, part);
+      if (part.tool != number) line.refuse("two numbers of a tool");
+    } else if (line.rest() == "G93") {
       by_time = true;
     } else if (line.rest() == "G94") {
       by_time = false;
     } else if (line.take("o1") && line.rest().find("if [ABS[#54") != std::string_view::npos) {
       const std::size_t at = line.rest().find("- [");
       if (at == std::string_view::npos) line.refuse("a check of the start is damaged");
-      Line value(line.rest().substr(at + 3), 0);
+      ProgramLine value(line.rest().substr(at + 3), 0);
       part.start.push_back(value.number());
     } else if (line.take("G1 ")) {
       if (!by_time) line.refuse("a move is not by time");

@@ -18,6 +18,7 @@ struct ReadMove {
 };
 
 struct ReadPart {
+  int tool = 0;  ///< number of the one that it has mounted before anything moves; 0: it does not stop for that
   std::vector<double> start;  ///< that the part checks before it moves
   std::vector<ReadMove> moves;
   bool radians = false;  ///< values are rad and m

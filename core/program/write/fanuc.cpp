@@ -14,6 +14,10 @@ class FanucPart : public PartWriter {
   FanucPart(const AxisLayout& layout, const ProgramNames& names, const Configuration& start)
       : layout_(layout), names_(names) {
     add_line("  !PART " + std::to_string(names.part) + " OF " + std::to_string(names.parts));
+    if (names.mount) {
+      add_line("  !" + names.mount->text());
+      add_line("  PAUSE");
+    }
     add_line("  !IT MUST BEGIN WHERE IT BEGINS");
     add_line("  PR[90]=JPOS   ");
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {

@@ -14,7 +14,9 @@ class GcodePart : public PartWriter {
     const std::string name = names.part_name();
     text_ = "; part " + std::to_string(names.part) + " of " + std::to_string(names.parts) +
             "; mm and degrees; joint by joint, so trivial kinematics\n" + "o<" + name +
-            "> sub\nG21 G90 G61 G40 G49 G80\nG93\n; it must begin where it begins, within 0.01\n";
+            "> sub\nG21 G90 G61 G40 G49 G80\n";
+    if (names.mount) text_ += "T" + std::to_string(names.mount->number) + " M6 ; " + names.mount->text() + "\n";
+    text_ += "G93\n; it must begin where it begins, within 0.01\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
       // What is written is where the machine stands in its own coordinates, without offsets.
       const std::size_t parameter = 5420 + std::string("XYZABCUVW").find(layout.axes[at].name[0]);

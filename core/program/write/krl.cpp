@@ -20,6 +20,7 @@ class KrlPart : public PartWriter {
     text_ = "&ACCESS RVP\r\n&REL 1\r\nDEF " + name + "()\r\n; part " + std::to_string(names.part) + " of " +
             std::to_string(names.parts) + "; angles in degrees, lengths in mm; every PTP ends with an exact stop\r\n" +
             "INT I\r\nBAS(#INITMOV,0)\r\n";
+    if (names.mount) text_ += "; " + names.mount->text() + "\r\nHALT\r\n";
     text_ += "$ADVANCE=1\r\nFOR I=1 TO 6\r\n  $ACC_AXIS[I]=100\r\nENDFOR\r\n";
     text_ += "; it must begin where it begins, within 0.01 degree or mm\r\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {

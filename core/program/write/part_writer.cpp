@@ -66,6 +66,15 @@ std::string gcode_main(const std::string& name, std::size_t parts) {
 
 }  // namespace
 
+std::string ToolMount::text() const {
+  std::string text = "MOUNT TOOL " + std::to_string(number) + " ";
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    text += plain ? c : ' ';
+  }
+  return text;
+}
+
 std::string ProgramNames::part_name() const {
   return numbered(program, part);
 }

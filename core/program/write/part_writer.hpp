@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,19 @@ struct ProgramFile {
   std::string name, text;
 };
 
+/// A tool that a hand or a changer puts into the spindle.
+struct ToolMount {
+  int number = 0;
+  std::string name;
+  /// ASCII letters, digits and blanks.
+  std::string text() const;
+};
+
 /// What the texts of a program's parts share.
 struct ProgramNames {
   std::string program;              ///< a word: letters, digits, _; begins with a letter
   std::size_t part = 0, parts = 0;  ///< from 1 on
+  std::optional<ToolMount> mount;   ///< that the part stops for before anything moves
   std::string part_name() const;
 };
 

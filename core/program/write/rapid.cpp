@@ -14,8 +14,9 @@ class RapidPart : public PartWriter {
     const std::string name = names.part_name();
     text_ = "MODULE " + name + "\r\n  ! part " + std::to_string(names.part) + " of " + std::to_string(names.parts) +
             "; angles in degrees, lengths in mm; every move ends in a fine point\r\n  PROC " + name +
-            "_run()\r\n    VAR jointtarget here;\r\n    here:=CJointT();\r\n    ! it must begin where it begins, "
-            "within 0.01 degree or mm\r\n";
+            "_run()\r\n    VAR jointtarget here;\r\n";
+    if (names.mount) text_ += "    TPWrite \"" + names.mount->text() + "\";\r\n    Stop;\r\n";
+    text_ += "    here:=CJointT();\r\n    ! it must begin where it begins, within 0.01 degree or mm\r\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
       const bool robot = at < layout.robot_axes;
       text_ += std::string("    IF Abs(here.") +

@@ -1,4 +1,4 @@
-// A whole plan as one ROS 2 JointTrajectory.
+// A plan as ROS 2 JointTrajectories: one, or one for each milling tool.
 #pragma once
 
 #include <functional>

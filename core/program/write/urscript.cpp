@@ -12,10 +12,9 @@ class UrPart : public PartWriter {
   UrPart(const AxisLayout& layout, const ProgramNames& names, const Configuration& start)
       : layout_(layout), names_(names) {
     text_ = "def " + names.part_name() + "():\n  # part " + std::to_string(names.part) + " of " +
-            std::to_string(names.parts) +
-            "; angles in rad; every move ends at rest\n  # it must begin where it begins, within 0.01 degree\n  local "
-            "here = "
-            "get_actual_joint_positions()\n";
+            std::to_string(names.parts) + "; angles in rad; every move ends at rest\n";
+    if (names.mount) text_ += "  popup(\"" + names.mount->text() + "\", title=\"sculpt\", blocking=True)\n";
+    text_ += "  # it must begin where it begins, within 0.01 degree\n  local here = get_actual_joint_positions()\n";
     for (std::size_t at = 0; at < 6; ++at) {
       text_ += "  if norm(here[" + std::to_string(at) + "] - (";
       append_fixed(text_, start[static_cast<Eigen::Index>(at)], decimals);

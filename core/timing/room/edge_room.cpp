@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/collision/link_pairs.hpp"
 #include "core/timing/room/highest_point.hpp"
@@ -54,11 +53,7 @@ double highest_beside(const Cell& cell, const Chain& chain, const Configuration&
 struct EdgeRoomFinder::Ends {
   std::array<Vec3, 3> ball, top;
   std::size_t direction;
-  double third;  ///< bound of the third derivatives over the edge
-
-  /// Of a quadratic through the three points, from the straight line, and how far the curve may be from that.
-  static double bow(const std::array<Vec3, 3>& at) { return (at[1] - (at[0] + at[2]) / 2).norm(); }
-  double more() const { return third / (72 * std::numbers::sqrt3); }
+  EdgeBow bow;  ///< m
 };
 
 EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m)
@@ -69,11 +64,10 @@ EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Cha
       stickout_m_(path.header().tool.stickout_m),
       tolerance_(std::min(max_stray, path.header().tolerance_m / grid_.voxel_m)),
       reserve_(reserve_m / grid_.voxel_m),
-      orders_(chain.shifts() ? 3 : 1),
       all_below_(highest_beside(cell, chain, path.configuration(0)) <= grid_.origin_m.z() + touching_m),
       columns_(grid_.n) {}
 
-EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const PathEdge& edge, const EdgePlaces& places) {
+EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeBow& bow, const EdgePlaces& places) {
   if (!all_below_) return {};
   Ends ends;
   for (std::size_t at = 0; at < 3; ++at) {
@@ -82,8 +76,7 @@ EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const PathEdge& edge, const Ed
     ends.top[at] = ends.ball[at] + stickout_m_ / grid_.voxel_m * pose.axis;
   }
   ends.direction = nearest_direction(places[1].pose.axis);
-  const double turned = edge.turn * edge.length;
-  ends.third = orders_ * turned * turned * edge.travel * edge.length / grid_.voxel_m;
+  ends.bow = bow;
   const int voxels = path_.edge_to(point).voxels;
   EdgeRoom room;
   if (face_steps[ends.direction].k >= 0) {
@@ -116,10 +109,10 @@ EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) const {
     if (!columns_.is_open(from + step * at, ends.direction, at > cells - voxels)) return {};
   const double h = grid_.voxel_m;
   const auto room = [&](double radius, double off, double most, double bow) {
-    return EndRoom{h * (std::min(most, 0.5 - radius - margin) - off - reserve_), h * bow, h * ends.more()};
+    return EndRoom{h * (std::min(most, 0.5 - radius - margin) - off - reserve_), bow, ends.bow.more};
   };
-  return {true, room(ball_radius_, ball_off, tolerance_, Ends::bow(ends.ball)),
-          room(shank_radius_, std::max(ball_off, top_off), 0.5, Ends::bow(ends.top))};
+  return {true, room(ball_radius_, ball_off, tolerance_, ends.bow.ball),
+          room(shank_radius_, std::max(ball_off, top_off), 0.5, ends.bow.top)};
 }
 
 EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) const {
@@ -129,7 +122,7 @@ EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) const {
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
     }
-  const double bow = std::max(Ends::bow(ends.ball), Ends::bow(ends.top)) + ends.more();
+  const double bow = (std::max(ends.bow.ball, ends.bow.top) + ends.bow.more) / grid_.voxel_m;
   const Voxel axis = face_steps[ends.direction];
   const Vec3 along(axis.i, axis.j, axis.k);
   const double around = std::max(ball_radius_, shank_radius_) + hover + margin + reserve_ + bow;

@@ -27,37 +27,53 @@ Configuration approach_speed(const Chain& chain, const Body& first, const Body& 
 }  // namespace
 
 StrayBound::StrayBound(const Cell& cell, const Chain& chain, const Grid& grid, double reserve_m)
-    : cell_(cell),
-      chain_(chain),
-      bodies_(make_bodies(cell, make_tool(cell.tool, grid.voxel_m))),
-      bottom_m_(grid.origin_m.z()),
-      reserve_m_(reserve_m),
-      tool_m_(share_of_tool_margin * tool_margin_voxels * grid.voxel_m - reserve_m),
-      links_(Configuration::Zero(chain.dof())) {
-  beside_.most = below_.most = Configuration::Zero(chain.dof());
-  const Configuration home = cell.home(chain);
+    : StrayBound(cell, chain, make_bodies(cell, make_tool(cell.tool, grid.voxel_m)), reserve_m) {
+  bottom_m_ = grid.origin_m.z();
+  tool_m_ = share_of_tool_margin * tool_margin_voxels * grid.voxel_m - reserve_m;
   if (!(reserve_m >= 0) || !(tool_m_ > 0)) {
     std::ostringstream text;
     text << "a reserve of " << 1e6 * reserve_m << " um leaves nothing of the " << 1e6 * (tool_m_ + reserve_m)
          << " um that the tool may stray in this plan: reserve less, or plan with a coarser resolution";
     throw InputError("reserve_invalid", text.str());
   }
+  add_others();
+}
+
+StrayBound StrayBound::of_links(const Cell& cell, const Chain& chain, double reserve_m) {
+  return {cell, chain, make_bodies(cell, make_tool(cell.tool, 1)), reserve_m};
+}
+
+StrayBound::StrayBound(const Cell& cell, const Chain& chain, std::vector<Body> bodies, double reserve_m)
+    : cell_(cell),
+      chain_(chain),
+      bodies_(std::move(bodies)),
+      reserve_m_(reserve_m),
+      links_(Configuration::Zero(chain.dof())) {
+  beside_.most = below_.most = Configuration::Zero(chain.dof());
   const std::vector<int> group = rigid_groups(cell.robot);
+  const double room_m = share_of_link_margin * link_margin_m - reserve_m;
+  for (std::size_t at = 0; at + 1 < bodies_.size(); ++at) {
+    const Body& body = bodies_[at];
+    if (group[static_cast<std::size_t>(body.link)] == group[static_cast<std::size_t>(cell.stock_link)]) continue;
+    links_ = links_.cwiseMax(motion_bound(chain, cell.stock_link, body.link, body.extent_m) / room_m);
+  }
+  add_link_pairs(cell);
+}
+
+void StrayBound::add_others() {
+  const Configuration home = cell_.home(chain_);
+  const std::vector<int> group = rigid_groups(cell_.robot);
   const auto group_of = [&](int link) { return group[static_cast<std::size_t>(link)]; };
   const Body& tool = bodies_.back();
   for (std::size_t at = 0; at + 1 < bodies_.size(); ++at) {
     const Body& body = bodies_[at];
-    if (group_of(body.link) == group_of(cell.stock_link)) continue;  // to these the tool's own straying counts
-    if (group_of(body.link) != group_of(cell.tool_link)) {
-      Others& others = stays_below(body, home) ? below_ : beside_;
-      others.all.push_back(
-          {at, approach_speed(chain, tool, body), motion_bound(chain, cell.stock_link, body.link, body.extent_m)});
-      others.most = others.most.cwiseMax(others.all.back().speed);
-    }
-    const double room_m = share_of_link_margin * link_margin_m - reserve_m;
-    links_ = links_.cwiseMax(motion_bound(chain, cell.stock_link, body.link, body.extent_m) / room_m);
+    // To those of the stock the tool's own straying counts.
+    if (group_of(body.link) == group_of(cell_.stock_link) || group_of(body.link) == group_of(cell_.tool_link)) continue;
+    Others& others = stays_below(body, home) ? below_ : beside_;
+    others.all.push_back(
+        {at, approach_speed(chain_, tool, body), motion_bound(chain_, cell_.stock_link, body.link, body.extent_m)});
+    others.most = others.most.cwiseMax(others.all.back().speed);
   }
-  add_link_pairs(cell);
 }
 
 void StrayBound::add_link_pairs(const Cell& cell) {

@@ -22,6 +22,9 @@ class StrayBound {
   /// `reserve_invalid` where nothing is left.
   StrayBound(const Cell& cell, const Chain& chain, const Grid& grid, double reserve_m);
 
+  /// Where the tool is one of the links, and room for it is known of each edge: tool_m() is next to nothing.
+  static StrayBound of_links(const Cell& cell, const Chain& chain, double reserve_m);
+
   double reserve_m() const { return reserve_m_; }
   /// Ball and shank's end may stray that far from where the path has them (m), on every certified edge.
   double tool_m() const { return tool_m_; }
@@ -36,6 +39,8 @@ class StrayBound {
   void look_along(const PlanPath& path);
 
  private:
+  StrayBound(const Cell& cell, const Chain& chain, std::vector<Body> bodies, double reserve_m);
+  void add_others();
   static constexpr double far_m = 1e-3;
   static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
   void add_link_pairs(const Cell& cell);
@@ -57,7 +62,7 @@ class StrayBound {
   const Cell& cell_;
   const Chain& chain_;
   std::vector<Body> bodies_;
-  double bottom_m_, reserve_m_, tool_m_;
+  double bottom_m_ = 0, reserve_m_, tool_m_ = 1e-9;
   Configuration links_;
   Others beside_, below_;  ///< the latter are always below the stock's bottom
 };

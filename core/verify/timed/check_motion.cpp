@@ -18,6 +18,7 @@ constexpr std::size_t max_findings = 100;
 constexpr double slack = 1e-9;          // of a limit, for double arithmetic
 constexpr double sampled_slack = 1e-6;  // of differences over a thousandth of a second
 constexpr double mm = 1000;
+constexpr double quantum_m = 3e-7;  // of tips as the file has them, and of the planner's posture
 
 std::string text(double value) {
   std::ostringstream out;
@@ -76,6 +77,7 @@ class Window {
 
   State mean(double from_s, double to_s) const {
     State state{home_ * std::max(0.0, -from_s), {}, {}};
+    bool moves = false;
     for (const TimePolynomial& piece : pieces_) {
       const double begin = std::max(from_s, piece.begin_s) - piece.begin_s,
                    end = std::min(to_s, piece.end_s()) - piece.begin_s;
@@ -83,7 +85,9 @@ class Window {
       state.q += piece.integral(end) - piece.integral(begin);
       state.gone += piece.gone_integral(end) - piece.gone_integral(begin);
       state.cuts = state.cuts && piece.cut;
+      moves = true;
     }
+    state.cuts = state.cuts && moves;
     const TimePolynomial& last = pieces_.back();
     if (const double rest = to_s - std::max(from_s, last.end_s()); rest > 0) {
       state.q += last.place(last.seconds) * rest;
@@ -125,7 +129,7 @@ class Checker {
         limits_(read_limits(cell, reader_.header().joints)),
         replay_(reader_, law,
                 [this](std::uint64_t keyframe, std::string sentence) { find(keyframe, std::move(sentence)); }),
-        beside_(cell, reader_.header().joints, reader_.header().tool.stickout_m, replay_) {}
+        beside_(cell, reader_.header(), replay_) {}
 
   MotionVerdict run() {
     const double step = 1 / check_.samples_hz, window = law_.law.window_s;
@@ -192,22 +196,27 @@ class Checker {
   }
 
   void look_beside(const Window::State& now) {
-    const Vec3 ball = beside_.ball(now.q);
     const PathBeside::Off off = beside_.off(now.q, now.gone);
     const double voxels = off.ball / (mm * reader_.header().grid.voxel_m),
-                 speed = ball_ ? (ball - *ball_).norm() / mm * check_.samples_hz : 0;
+                 speed = before_ ? (beside_.ball(now.q) - beside_.ball(*before_)).norm() / mm * check_.samples_hz : 0;
     const bool cuts = now.cuts && cut_before_;
+    const MillTool* milling = beside_.milling();
+    const double feed = milling ? std::min(law_.law.feed_m_s, milling->feed_m_s) : law_.law.feed_m_s;
     double& fastest = cuts ? verdict_.feed_m_s : verdict_.rapid_m_s;
     fastest = std::max(fastest, speed);
-    const double most = cuts ? law_.law.feed_m_s : std::max(law_.law.feed_m_s, law_.law.rapid_m_s);
+    const double most = cuts ? feed : std::max(feed, law_.law.rapid_m_s);
     if (!(speed <= most * (1 + sampled_slack)))
       find(beside_.keyframe(), std::string("the ball moves at ") + text(speed) + " m/s, more than the " +
                                    (cuts ? "feed" : "rapid rate") + " of " + text(most));
-    ball_ = ball;
+    before_ = now.q;
     cut_before_ = now.cuts;
     verdict_.links_m = std::max(verdict_.links_m, off.links / mm);
     if (off.links / mm > check_.max_links_m)
       find(beside_.keyframe(), "links are " + text(1e3 * off.links) + " um off the path");
+    if (milling) {
+      look_at_cutter(now, off);
+      return;
+    }
     if (!now.cuts) return;
     verdict_.ball_voxels = std::max(verdict_.ball_voxels, voxels);
     const double shank = off.shank / (mm * reader_.header().grid.voxel_m);
@@ -216,6 +225,19 @@ class Checker {
       find(beside_.keyframe(), "the shank's end is " + text(shank) + " voxels off the path");
     if (voxels > check_.max_ball_voxels)
       find(beside_.keyframe(), "the ball is " + text(voxels) + " voxels off the path");
+  }
+
+  void look_at_cutter(const Window::State& now, const PathBeside::Off& off) {
+    if (!now.cuts) {
+      if (off.ball / mm > check_.max_links_m)
+        find(beside_.keyframe(), "the tip is " + text(1e3 * off.ball) + " um off the path of a move");
+      return;
+    }
+    const double cutter_m = beside_.cutter_off(now.q) / mm;
+    verdict_.cutter_m = std::max(verdict_.cutter_m, cutter_m);
+    if (!(cutter_m <= reader_.header().mill->stray_m + quantum_m))
+      find(beside_.keyframe(), "the cutter is " + text(1e6 * cutter_m) + " um off its straight way, the plan allows " +
+                                   text(1e6 * reader_.header().mill->stray_m));
   }
 
   TrajectoryReader reader_;
@@ -227,7 +249,7 @@ class Checker {
   LawReplay replay_;
   PathBeside beside_;
   std::optional<Configuration> end_;
-  std::optional<Vec3> ball_;
+  std::optional<Configuration> before_;
   bool cut_before_ = false;
 };
 

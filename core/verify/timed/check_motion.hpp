@@ -28,6 +28,8 @@ struct MotionVerdict {
   /// How far from the plan's edges it comes at the samples: on cuts ball and shank's end (voxel edges), links always
   /// (m).
   double ball_voxels = 0, shank_voxels = 0, links_m = 0;
+  /// Of milling tools instead: points of the cutter from where the straight ways of the tip would have them.
+  double cutter_m = 0;
 };
 
 struct MotionCheck {

@@ -36,6 +36,7 @@ LawReplay::LawReplay(TrajectoryReader& plan, const LawFile& law, Find find)
   points_.push_back(at_);
   gone_.push_back(0);
   numbers_.push_back(0);
+  mill_.emplace_back();
 }
 
 std::optional<LawReplay::Step> LawReplay::read_step() {
@@ -46,8 +47,10 @@ std::optional<LawReplay::Step> LawReplay::read_step() {
       broken_ = true;
       return std::nullopt;
     }
+    const int tool = tool_;
+    if (keyframe->mill && keyframe->mill->tool >= 0) tool_ = keyframe->mill->tool;
     if (keyframe->q == points_.back()) continue;
-    Step step{mark_.keyframes, keyframe->q, keyframe->q - points_.back(), 0, 0, keyframe->cut};
+    Step step{mark_.keyframes, keyframe->q, keyframe->q - points_.back(), 0, 0, keyframe->cut, tool};
     double sum = 0, most = 0;
     for (Eigen::Index joint = 0; joint < weights_.size(); ++joint) {
       const double share = std::abs(step.way[joint]) / weights_[joint];
@@ -60,6 +63,12 @@ std::optional<LawReplay::Step> LawReplay::read_step() {
     points_.push_back(step.to);
     gone_.push_back(gone_.back() + step.length);
     numbers_.push_back(step.keyframe);
+    if (keyframe->mill) {
+      const auto& tip = keyframe->mill->tip;  // of 1e-7 m
+      mill_.push_back(
+          {1e-4 * Vec3(static_cast<double>(tip[0]), static_cast<double>(tip[1]), static_cast<double>(tip[2])),
+           keyframe->mill->direction, tool, keyframe->cut});
+    }
     return step;
   }
   if (!(mark_ == law_.plan)) find_(mark_.keyframes, "the law was made for other keyframes than the plan has");
@@ -136,6 +145,8 @@ void LawReplay::lay_out(const Step& step, const std::optional<Step>& next) {
     if (to.x_in != 0) find_(step.keyframe, "the motion does not come to rest at the end");
     return;
   }
+  if (next->tool != step.tool && (half != 0 || to.x_mid != 0))
+    find_(step.keyframe, "the tool is changed while the robot moves");
   if (half == 0 && to.x_mid == 0) {
     if (to.x_in != 0 || to.x_out != 0) find_(step.keyframe, "the motion does not come to rest where it should");
     if (law_.law.window_s == 0) return;

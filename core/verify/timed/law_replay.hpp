@@ -29,6 +29,15 @@ class LawReplay {
   /// Of these, where they lie by r, and their keyframes.
   const std::vector<double>& gone() const { return gone_; }
   const std::vector<std::uint64_t>& numbers() const { return numbers_; }
+  /// Of a plan with milling tools: what each of them says of its tip, with the tool that is in the spindle on the way
+  /// there.
+  struct MillPoint {
+    Vec3 tip_mm;         ///< stock frame
+    int direction = -1;  ///< none: nothing is said
+    int tool = 0;
+    bool cut = false;
+  };
+  const std::vector<MillPoint>& mill() const { return mill_; }
 
  private:
   struct Step {
@@ -36,6 +45,7 @@ class LawReplay {
     Configuration to, way;
     double length, acceleration;
     bool cut;
+    int tool;
   };
   std::optional<Step> read_step();
   void lay_out(const Step& step, const std::optional<Step>& next);
@@ -56,6 +66,8 @@ class LawReplay {
   std::vector<Configuration> points_;
   std::vector<double> gone_;
   std::vector<std::uint64_t> numbers_;
+  std::vector<MillPoint> mill_;
+  int tool_ = 0;
 };
 
 }  // namespace sculpt

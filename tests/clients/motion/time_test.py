@@ -31,6 +31,24 @@ class Time(ClientTest):
         self.assertLess(faster["total_s"], time["total_s"])
         self.assertRegex(self.fine("time", "bust.sct", "--feed", 0.05), r"^\d+:\d\d:\d\d h ")
 
+    def test_a_plan_with_milling_tools_has_a_feed_of_its_own(self):
+        cell = json.loads((SOURCE / "config/cells/studio.json").read_text())
+        cell["urdf"] = str(SOURCE / "config/robots/studio.urdf")
+        cell["stock"].update(size_m=0.05, origin_m=[-0.025, -0.025, 0.3])
+        (pathlib.Path(self.scratch) / "small.json").write_text(json.dumps(cell))
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "./small.json", "--tools", "D20,D12",
+                  "--tolerance", 0.001, "-o", "bust.sct")
+        time = json.loads(self.fine("time", "bust.sct", "--robot", "./small.json", "--json", "--check"))
+        self.assertTrue(time["check"]["clean"])
+        self.assertLess(0, time["check"]["cutter_m"])
+        time = time["time"]
+        self.assertEqual([tool["name"] for tool in time["tools"]], ["D20", "D12"])
+        self.assertAlmostEqual(sum(tool["seconds"] for tool in time["tools"]) + time["window_s"], time["total_s"], places=3)
+        slower = json.loads(self.fine("time", "bust.sct", "--robot", "./small.json", "--feed", 0.01, "--json"))["time"]
+        self.assertGreater(slower["total_s"], time["total_s"])
+        self.fine("program", "bust.sct", "--robot", "./small.json", "--dialect", "krl", "-o", "bust")
+        self.assertIn("MOUNT TOOL 2 D12", "".join(path.read_text() for path in (pathlib.Path(self.scratch) / "bust").iterdir()))
+
     def test_what_cannot_be_timed_is_refused(self):
         self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "gantry", "-o", "bust.ndjson")
         self.refused(2, "usage", "time", "bust.ndjson")

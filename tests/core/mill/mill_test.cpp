@@ -3,45 +3,21 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/base/error.hpp"
-#include "core/plan/plan.hpp"
 #include "core/trajectory/reader.hpp"
 #include "core/trajectory/writer.hpp"
+#include "tests/core/mill/milled_plan.hpp"
 
 namespace sculpt {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
-}
-
-Job make_job(const std::string& mesh, int n, const std::vector<std::string>& tools) {
-  Job job;
-  job.mesh = {read(SOURCE_DIR "/config/samples/" + mesh + ".stl"), "stl", mesh + ".stl"};
-  job.cell = read_cell_files(SOURCE_DIR "/config/cells/studio.json");
-  // A block of 50 mm: there is less to be done.
-  auto cell = nlohmann::json::parse(job.cell.cell_json);
-  cell["stock"]["size_m"] = 0.05;
-  cell["stock"]["origin_m"] = {-0.025, -0.025, 0.3};
-  job.cell.cell_json = cell.dump();
-  job.resolution = n;
-  job.search = Search::mill;
-  job.mill = MillOrder{read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), tools};
-  return job;
-}
-
-fs::path scratch(const std::string& name) {
-  return fs::temp_directory_path() / ("sculpt-mill-" + std::to_string(getpid()) + "-" + name);
-}
+using milled::make_job;
+using milled::read;
+using milled::scratch;
 
 /// Planned once for all tests that only look at it.
 struct Planned {

@@ -80,7 +80,7 @@ TEST(Program, EveryPartSaysWhatThePlanSays) {
       std::size_t point = 0;
       for (std::size_t part = 1; part <= made.report.parts; ++part) {
         const std::string name =
-            ProgramNames{"bust", part, made.report.parts}.part_name() + facts_of(one.dialect).extension;
+            ProgramNames{"bust", part, made.report.parts, {}}.part_name() + facts_of(one.dialect).extension;
         const ReadPart read = read_part(one.dialect, made.files.at(name), one.letters);
         const auto expect_at = [&](std::size_t at, const std::vector<double>& values) {
           const auto names = joints_of(one);
