@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/program/read/part_reader.hpp"
+#include "core/program/seams.hpp"
 #include "core/program/write/ros2.hpp"
 #include "core/timing/edge.hpp"
 #include "core/timing/motion_limits.hpp"
@@ -44,6 +45,7 @@ class ProgramMaker {
   ProgramMaker(const PlanPath& path, const Cell& cell, const Chain& chain, const ProgramDemands& demands,
                const std::function<void(const ProgramFile&)>& take)
       : path_(path),
+        cell_(cell),
         demands_(demands),
         take_(take),
         limits_(limits_of(cell, chain)),
@@ -54,18 +56,21 @@ class ProgramMaker {
 
   ProgramReport run() {
     const DialectFacts& facts = facts_of(demands_.dialect);
-    const std::vector<std::size_t> seams = find_seams(demands_.part_keyframes.value_or(facts.part_keyframes));
-    names_ = {demands_.name, 0, seams.size(), {}};
-    begin_part(0);
-    for_each_stop(path_, tools_, limits_, {demands_.motion.feed_m_s, demands_.motion.rapid_m_s},
-                  [&](std::size_t point, const StopTime& time) {
-                    if (names_.part < seams.size() && seams[names_.part] == point - 1) {
-                      end_part();
-                      begin_part(point - 1);
-                    }
-                    writer_->add({layout_.to_axes(path_.configuration(point)), time.seconds, time.share});
-                    times_.push_back(time);
-                  });
+    const std::vector<Seam> seams = find_seams(
+        path_, cell_, tools_, {demands_.part_keyframes.value_or(facts.part_keyframes), demands_.seams_in_stock});
+    names_ = {demands_.name, 0, seams.size() + 1, {}};
+    begin_part({});
+    const Feeds feeds{demands_.motion.feed_m_s, demands_.motion.rapid_m_s};
+    for_each_stop(path_, tools_, limits_, feeds, [&](std::size_t point, const StopTime& time) {
+      if (names_.part <= seams.size() && seams[names_.part - 1].point == point - 1) {
+        const Seam& seam = seams[names_.part - 1];
+        retreat(seam);
+        end_part();
+        begin_part(seam);
+        come_back(seam);
+      }
+      add({path_.configuration(point), point, tools_.on_edge_to(path_, point), true}, time);
+    });
     end_part();
     if (facts.has_main)
       for (const ProgramFile& file : write_main(demands_.dialect, demands_.name, names_.parts)) hand_out(file);
@@ -74,14 +79,13 @@ class ProgramMaker {
   }
 
  private:
-  /// The points where parts begin, home the first of them: after `size` moves, unless that is 0, and where a tool is
-  /// changed.
-  std::vector<std::size_t> find_seams(std::size_t size) const {
-    std::vector<std::size_t> seams{0};
-    for (std::size_t point = 1; point + 1 < path_.size(); ++point)
-      if ((size > 0 && point - seams.back() == size) || is_changed_at(point)) seams.push_back(point);
-    return seams;
-  }
+  /// Of the program, as it is planned.
+  struct Place {
+    Configuration q;
+    std::size_t point;  ///< of the path: there, or where its retreat begins
+    const PathTool& tool;
+    bool on_path;
+  };
 
   bool is_changed_at(std::size_t point) const {
     return point > 0 && path_.edge_to(point + 1).tool != path_.edge_to(point).tool;
@@ -94,17 +98,40 @@ class ProgramMaker {
     return ToolMount{tool.number, tool.name};
   }
 
-  void begin_part(std::size_t point) {
-    first_ = point;
+  void begin_part(const Seam& seam) {
     ++names_.part;
-    names_.mount = mount_at(point);
-    writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(path_.configuration(point)));
+    names_.mount = mount_at(seam.point);
+    const Configuration q = seam.retreat.empty() ? path_.configuration(seam.point) : seam.retreat.back();
+    writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(q));
+    places_.clear();
     times_.clear();
-    const Chain& chain = tools_.on_edge_to(path_, point + 1).chain;
-    const Vec3 cell_at = (chain.tool_pose(path_.configuration(point)).ball_m - path_.header().grid.origin_m) /
-                         path_.header().grid.voxel_m;
-    report_.seams_in_stock +=
-        point > 0 && (cell_at.array() > 0).all() && (cell_at.array() < path_.header().grid.n).all();
+    places_.push_back({q, seam.point, tools_.on_edge_to(path_, seam.point + 1), seam.retreat.empty()});
+  }
+
+  void add(Place place, const StopTime& time) {
+    writer_->add({layout_.to_axes(place.q), time.seconds, time.share});
+    times_.push_back(time);
+    places_.push_back(std::move(place));
+  }
+
+  void retreat(const Seam& seam) {
+    for (const Configuration& q : seam.retreat) add_rapid({q, seam.point, tools_.on_edge_to(path_, seam.point), false});
+  }
+
+  void come_back(const Seam& seam) {
+    const PathTool& tool = tools_.on_edge_to(path_, seam.point + 1);
+    for (std::size_t at = seam.retreat.size(); at-- > 0;)
+      add_rapid(at > 0 ? Place{seam.retreat[at - 1], seam.point, tool, false}
+                       : Place{path_.configuration(seam.point), seam.point, tool, true});
+  }
+
+  void add_rapid(Place place) {
+    EdgePlaces places;
+    const Configuration from = places_.back().q;
+    places[0].put(place.tool.rates, from);
+    const StopTime time = stop_time(place.tool, limits_, demands_.motion.rapid_m_s, from, place.q, places);
+    ++report_.retreat_moves;
+    add(std::move(place), time);
   }
 
   void end_part() {
@@ -137,34 +164,36 @@ class ProgramMaker {
       throw InputError("program_damaged",
                        "a part that was written mounts another tool than the plan has: this is a fault of this "
                        "program, please report it");
-    check_place(first_, first_ + 1, joints_of(part.start, part.radians));
+    check_place(places_.front(), joints_of(part.start, part.radians));
     for (std::size_t at = 0; at < part.moves.size(); ++at) {
       const ReadMove& move = part.moves[at];
-      check_place(first_ + 1 + at, first_ + 1 + at, joints_of(move.values, part.radians));
+      check_place(places_[at + 1], joints_of(move.values, part.radians));
       const StopTime& time = times_[at];
       const bool slow_enough = move.seconds > 0 ? move.seconds >= time.seconds * (1 - 1e-6) - 1e-9
                                                 : move.share > 0 && move.share <= time.share * (1 + 1e-9);
       if (!slow_enough)
-        throw InputError("program_damaged",
-                         "the move to keyframe " + std::to_string(path_.edge_to(first_ + 1 + at).keyframe) +
-                             " was written faster than it may be: this is a fault of this program, please "
-                             "report it");
+        throw InputError("program_damaged", "the move to keyframe " +
+                                                std::to_string(path_.edge_to(places_[at + 1].point).keyframe) +
+                                                " was written faster than it may be: this is a fault of this program, "
+                                                "please report it");
       report_.seconds += move.seconds > 0 ? move.seconds : time.seconds * time.share / move.share;
       ++report_.moves;
     }
   }
 
-  /// What the digits leave of the plan's joints at a point of an edge: free if both ends of every edge are.
-  void check_place(std::size_t point, std::size_t edge, const Configuration& read) {
-    const PathTool& held = tools_.on_edge_to(path_, edge);
-    const ToolRates& rates = held.rates;
-    const Configuration off = read - path_.configuration(point), size = off.cwiseAbs();
-    tool_.put(rates, path_.configuration(point));
+  /// What the digits leave of the plan's joints at a place: free if both ends of every edge are.
+  void check_place(const Place& place, const Configuration& read) {
+    const ToolRates& rates = place.tool.rates;
+    const StrayBound& stray = place.tool.stray;
+    const Configuration off = read - place.q, size = off.cwiseAbs();
+    tool_.put(rates, place.q);
     const double turned = rates.turn.dot(size), second = rates.orders(2) * turned * rates.travel.dot(size) / 2;
     const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates.stickout_m).norm()) + second;
     report_.rounding_m = std::max(report_.rounding_m, tool_m);
-    const double tool = tool_m / certain_m(held, point), links = held.stray.links().dot(size),
-                 both = held.stray.tool_and_links(point, false, size, tool_m), most = std::max({tool, links, both});
+    const double tool = tool_m / certain_m(place.tool, place.point), links = stray.links().dot(size),
+                 both = place.on_path ? stray.tool_and_links(place.point, false, size, tool_m)
+                                      : stray.tool_and_links(size, tool_m),
+                 most = std::max({tool, links, both});
     if (most <= alone) return;
     std::ostringstream text;
     text.precision(3);
@@ -173,7 +202,8 @@ class ProgramMaker {
              : most == links ? "a link"
                              : "the tool, to a link,")
          << ' ' << most / alone << " times as far beside the plan as its certificates leave, at keyframe "
-         << path_.edge_to(point).keyframe << ": plan with a coarser resolution, or take a dialect with more digits";
+         << path_.edge_to(place.point).keyframe
+         << ": plan with a coarser resolution, or take a dialect with more digits";
     throw InputError("rounding_too_coarse", text.str());
   }
 
@@ -185,6 +215,7 @@ class ProgramMaker {
   }
 
   const PlanPath& path_;
+  const Cell& cell_;
   const ProgramDemands& demands_;
   const std::function<void(const ProgramFile&)>& take_;
   const MotionLimits limits_;
@@ -193,8 +224,8 @@ class ProgramMaker {
   std::vector<std::string> letters_;
   ProgramNames names_;
   std::unique_ptr<PartWriter> writer_;
-  std::vector<StopTime> times_;
-  std::size_t first_ = 0;
+  std::vector<Place> places_;    // of the part, its start first
+  std::vector<StopTime> times_;  // of the moves to the others
   ToolPlace tool_;
   ProgramReport report_;
 };

@@ -14,15 +14,16 @@ struct ProgramDemands {
   Dialect dialect = Dialect::krl;
   std::string name;                           ///< of the program: letters, digits and _, beginning with a letter
   std::optional<std::size_t> part_keyframes;  ///< without it what the dialect takes
+  bool seams_in_stock = false;                ///< parts may begin and end with the tool in the material
   MotionDemands motion;
 };
 
 struct ProgramReport {
   std::size_t parts = 0, files = 0;
   std::uint64_t moves = 0, bytes = 0;
-  double seconds = 0;                ///< of all moves, by the numbers that are written
-  double rounding_m = 0;             ///< that ball or shank's end are off at most, because of the digits of the dialect
-  std::uint64_t seams_in_stock = 0;  ///< parts that begin with the ball inside the stock's cube
+  double seconds = 0;               ///< of all moves, by the numbers that are written
+  double rounding_m = 0;            ///< that ball or shank's end are off at most, because of the digits of the dialect
+  std::uint64_t retreat_moves = 0;  ///< that leave the material at the end of parts, or come back
 };
 
 }  // namespace sculpt

@@ -7,6 +7,14 @@
 
 namespace sculpt {
 
+StopTime stop_time(const PathTool& tool, const MotionLimits& limits, double feed_m_s, const Configuration& from,
+                   const Configuration& to, EdgePlaces& places) {
+  const PathEdge edge = make_edge(tool.rates, {limits.acceleration, limits.velocity}, from, to, places);
+  const double cap = 1 / std::max(edge.joint_rate, edge.ball / feed_m_s), a = edge.line_acceleration,
+               peak = std::min(cap, std::sqrt(a * edge.length));
+  return {edge.length / peak + peak / a, peak * edge.joint_rate};
+}
+
 void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const Feeds& feeds,
                    const std::function<void(std::size_t point, const StopTime&)>& take) {
   EdgePlaces places;
@@ -17,11 +25,8 @@ void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLim
       places[0] = places[2];
     else
       places[0].put(tool.rates, path.configuration(point - 1));
-    const PathEdge edge = make_edge(tool.rates, {limits.acceleration, limits.velocity}, path.configuration(point - 1),
-                                    path.configuration(point), places);
-    const double feed = feeds.of(path.edge_to(point), tool), cap = 1 / std::max(edge.joint_rate, edge.ball / feed),
-                 a = edge.line_acceleration, peak = std::min(cap, std::sqrt(a * edge.length));
-    take(point, {edge.length / peak + peak / a, peak * edge.joint_rate});
+    take(point, stop_time(tool, limits, feeds.of(path.edge_to(point), tool), path.configuration(point - 1),
+                          path.configuration(point), places));
   }
 }
 

@@ -12,6 +12,10 @@ struct StopTime {
   double share = 0;  ///< of the velocity of the joint that is nearest to its own, at the largest speed
 };
 
+/// Of one edge, `tool` in the spindle, the ball no faster than `feed_m_s`. places[0] is at `from`, the others are set.
+StopTime stop_time(const PathTool& tool, const MotionLimits& limits, double feed_m_s, const Configuration& from,
+                   const Configuration& to, EdgePlaces& places);
+
 /// `take` is called for each point but home, in order. Keeps velocity, acceleration and the feed; a controller has
 /// ramps of its own for the jerk.
 void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const Feeds& feeds,

@@ -19,7 +19,7 @@ struct ProgramOptions {
   MotionOptions motion;
   std::string dialect, output;
   std::size_t part_keyframes = 0;
-  bool has_parts = false, json = false;
+  bool has_parts = false, in_stock = false, json = false;
 };
 
 int run_program(const std::string& server, const ProgramOptions& options) {
@@ -30,6 +30,7 @@ int run_program(const std::string& server, const ProgramOptions& options) {
   const fs::path folder = fs::path(options.output).lexically_normal();
   demands.name = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   demands.motion = to_demands(options.motion, path);
+  demands.seams_in_stock = options.in_stock;
   if (options.has_parts) demands.part_keyframes = options.part_keyframes;
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -44,17 +45,12 @@ int run_program(const std::string& server, const ProgramOptions& options) {
   const Json json{{"dialect", options.dialect},      {"parts", report.parts},
                   {"files", report.files},           {"moves", report.moves},
                   {"bytes", report.bytes},           {"seconds", report.seconds},
-                  {"rounding_m", report.rounding_m}, {"seams_in_stock", report.seams_in_stock}};
+                  {"rounding_m", report.rounding_m}, {"retreat_moves", report.retreat_moves}};
   if (options.json) {
     std::cout << proto::write_json(json) << "\n";
   } else {
     std::cout << report.files << " files in " << folder.string() << ": " << report.parts << " parts, " << report.moves
               << " moves, " << report.bytes << " bytes; " << static_cast<long long>(report.seconds) << " s of motion\n";
-    if (report.seams_in_stock > 0)
-      std::cout
-          << "note: " << report.seams_in_stock
-          << " parts begin with the tool in the stock: come to their start by jogging back along the plan, or run "
-             "from the first part on\n";
   }
   return exit_fine;
 }
@@ -81,6 +77,8 @@ void add_program(CLI::App& app, Invocation& invocation) {
           },
           "Keyframes in a part at most; without it what the controller takes")
       ->type_name("M");
+  command.add_flag("--seams-in-stock", options->in_stock,
+                   "Let parts begin and end with the tool in the material: such a part cannot simply be run again");
   command.add_flag("--json", options->json, "Print the figures as one JSON document");
   command.add_option("-o,--output", options->output, "A folder; its name is that of the program")
       ->type_name("FOLDER")

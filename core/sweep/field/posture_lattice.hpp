@@ -35,7 +35,10 @@ class PostureLattice {
   static constexpr int parts = 2;   ///< of a cell along each edge
   static constexpr int fine = cells * parts;
   static constexpr std::size_t all_parts() { return static_cast<std::size_t>(fine) * fine * fine; }
-  static std::size_t index_of(Voxel part) { return static_cast<std::size_t>((part.k * fine + part.j) * fine + part.i); }
+  static std::size_t index_of(Voxel part) {
+    const int index = (part.k * fine + part.j) * fine + part.i;
+    return static_cast<std::size_t>(index);
+  }
 
   /// Where a lattice begins to grow.
   struct Start {

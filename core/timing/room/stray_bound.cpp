@@ -160,6 +160,10 @@ bool StrayBound::is_far(const Others& others, const Configuration& low, const Co
 
 double StrayBound::share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const {
   if (!others.near.empty() && !others.near[point / points_a_stretch]) return others.most.dot(size) / far_m;
+  return share(others, size, tool_m);
+}
+
+double StrayBound::share(const Others& others, const Configuration& size, double tool_m) const {
   double most = 0;
   for (const Others::One& other : others.all)
     most = std::max(most, std::min(other.speed.dot(size), tool_m + other.own.dot(size)));
@@ -169,6 +173,10 @@ double StrayBound::share(const Others& others, std::size_t point, const Configur
 double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size, double tool_m) const {
   const double beside = share(beside_, point, size, tool_m);
   return above ? beside : std::max(beside, share(below_, point, size, tool_m));
+}
+
+double StrayBound::tool_and_links(const Configuration& size, double tool_m) const {
+  return std::max(share(beside_, size, tool_m), share(below_, size, tool_m));
 }
 
 }  // namespace sculpt

@@ -35,6 +35,8 @@ class StrayBound {
   /// how far ball and shank are displaced in the stock's frame, where that is known.
   double tool_and_links(std::size_t point, bool above, const Configuration& size,
                         double tool_m = std::numeric_limits<double>::infinity()) const;
+  /// The same anywhere.
+  double tool_and_links(const Configuration& size, double tool_m) const;
   /// Finds out where on the path the tool is far from all links that can move against the stock. To be called once.
   void look_along(const PlanPath& path);
 
@@ -58,6 +60,7 @@ class StrayBound {
   void look_at(const PlanPath& path, Others& others, std::size_t first, std::size_t end) const;
   bool is_far(const Others& others, const Configuration& low, const Configuration& high) const;
   double share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const;
+  double share(const Others& others, const Configuration& size, double tool_m) const;
 
   const Cell& cell_;
   const Chain& chain_;

@@ -8,6 +8,7 @@
 #include "core/collision/scene.hpp"
 #include "core/plan/intake.hpp"
 #include "core/program/make_program.hpp"
+#include "core/program/seams.hpp"
 #include "core/timing/motion/sampler.hpp"
 #include "core/timing/timed_plan.hpp"
 #include "core/trajectory/reader.hpp"
@@ -162,6 +163,39 @@ TEST(MilledMotion, TheCheckerAgreesAndFindsWhatWasPlanted) {
     if (keyframe->mill->is_change()) restless.law.corners[at - 1] = {1e-6F, 1, 1e-6F, 1e-6F, 1e-6F};
   const MotionVerdict found = check(one.text, restless);
   EXPECT_NE(said(found).find("the tool is changed while the robot moves"), std::string::npos) << said(found);
+}
+
+TEST(MilledMotion, PartsEndWhereTheToolIsFree) {
+  const Timed& one = timed();
+  CheckedJob checked = check_job(one.job, {});
+  const Mesh part = checked.shapes.place_part(checked.grid, {});
+  const PathTools tools(one.path, one.cell, 0);
+  constexpr std::size_t moves = 60;
+  std::size_t begin = 0, returning = 0, climbs = 0;
+  const std::vector<Seam> seams = find_seams(one.path, one.cell, tools, {moves, false});
+  EXPECT_GT(seams.size(), one.path.size() / moves);
+  for (const Seam& seam : seams) {
+    EXPECT_LE(returning + seam.point - begin + seam.retreat.size(), moves);
+    begin = seam.point;
+    returning = seam.retreat.size();
+    if (seam.retreat.empty()) {
+      const bool is_change = one.path.edge_to(seam.point).rest;
+      EXPECT_TRUE(is_change || (!one.path.edge_to(seam.point).cut && !one.path.edge_to(seam.point + 1).cut));
+      continue;
+    }
+    const PathTool& tool = tools.on_edge_to(one.path, seam.point);
+    const double radius_m = one.path.header().mill->tools[one.path.edge_to(seam.point).tool].cutter.radius_m;
+    Configuration from = one.path.configuration(seam.point);
+    for (const Configuration& to : seam.retreat) {
+      for (double share = 0; share <= 1; share += 0.1) {
+        const ToolPose pose = tool.chain.tool_pose(from + share * (to - from));
+        ASSERT_GE(distance_to(part, pose.ball_m + radius_m * pose.axis, radius_m), radius_m - 1e-6);
+      }
+      from = to;
+    }
+    ++climbs;
+  }
+  EXPECT_GT(climbs, 3U);
 }
 
 TEST(MilledMotion, ProgramsStopForEachTool) {

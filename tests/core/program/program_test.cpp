@@ -54,6 +54,7 @@ ProgramDemands demands_of(Dialect dialect) {
   demands.dialect = dialect;
   demands.name = "bust";
   demands.motion = {0.05, 0.5, {}, 0};
+  demands.seams_in_stock = true;  // these paths are certified by nobody
   return demands;
 }
 
