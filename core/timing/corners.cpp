@@ -85,7 +85,7 @@ class CornerFinder {
 
   /// Of a milling tool: what its strokes are certified with, less what they use of it themselves.
   static EdgeRoom room_of(const PlanPath::Edge& edge, const MillRoom& room, const EdgeBow& bow) {
-    if (edge.cut && edge.placed) return {true, {room.cut_m, bow.ball, bow.more}, {room.cut_m, bow.top, bow.more}};
+    if (edge.cut) return {true, {room.cut_m, bow.ball, bow.more}, {room.cut_m, bow.top, bow.more}};
     return {true, {room.beside(edge), 0, 0}, {room.beside(edge), 0, 0}};
   }
 

@@ -21,7 +21,7 @@ struct MillRoom {
   double transit_m = 0;  ///< else: certified as a link is
 
   /// On an edge, besides what the edge itself strays.
-  double beside(const PlanPath::Edge& edge) const { return !edge.placed ? transit_m : edge.cut ? digits_m : move_m; }
+  double beside(const PlanPath::Edge& edge) const { return edge.cut ? digits_m : edge.placed ? move_m : transit_m; }
 };
 
 /// Not copied: its parts refer to one another.
