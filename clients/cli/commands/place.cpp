@@ -185,6 +185,7 @@ int run_place(const PlaceOptions& options) {
   const RunContext run{options.job.seed, helpers, watch};
   const VoxelGrid voxels = make_voxels(job, cell.grid(study_resolution), watch);
   std::vector<double> stickouts;
+  stickouts.reserve(stands.size());
   for (const Stand& stand : stands) stickouts.push_back(stand.stickout_m);
   const Access access = access_of(cell.chain());
   const ReachStudy study(cell, joint, stock_box(voxels), study_resolution, stickouts);

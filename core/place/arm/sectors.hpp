@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/sweep/reach/tool_view.hpp"
@@ -20,7 +21,8 @@ inline constexpr int all_sectors = sectors_along * sectors_along * sectors_along
 
 /// Of a sector, by its place among the sectors of the grid (or of a view).
 inline std::size_t sector_index(Voxel sector) {
-  return static_cast<std::size_t>(sector.i + sectors_along * (sector.j + sectors_along * sector.k));
+  const int index = sector.i + sectors_along * (sector.j + sectors_along * sector.k);
+  return static_cast<std::size_t>(index);
 }
 inline bool is_sector(Voxel sector) {
   return Grid{sectors_along, 1, Vec3::Zero()}.contains(sector);
@@ -33,7 +35,7 @@ inline double sector_middle(int sector, int n) {
 inline Voxel sector_of(const Vec3& place, int n) {
   const auto nearest = [n](double at) {
     const double share = at * (sectors_along - 1) / (n - 1);
-    return static_cast<int>(std::clamp(share, 0.0, sectors_along - 1.0) + 0.5);
+    return static_cast<int>(std::lround(std::clamp(share, 0.0, sectors_along - 1.0)));
   };
   return {nearest(place.x()), nearest(place.y()), nearest(place.z())};
 }
