@@ -75,6 +75,11 @@ void FleetLeases::let_go_all() {
   held_.clear();
 }
 
+bool FleetLeases::holds(const std::string& job) const {
+  const std::lock_guard lock(mutex_);
+  return held_.contains(job);
+}
+
 AtWork FleetLeases::at_work() const {
   const std::lock_guard lock(mutex_);
   AtWork sum;

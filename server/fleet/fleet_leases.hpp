@@ -36,6 +36,8 @@ class FleetLeases {
   void hold(const JobRecord& job, Clock::time_point since);
   void let_go(const std::string& job, int attempt);
   void let_go_all();
+  /// Whether any attempt at it is held.
+  bool holds(const std::string& job) const;
   AtWork at_work() const;
 
   /// This daemon is the one that removes what is old.

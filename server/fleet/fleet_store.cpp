@@ -72,13 +72,19 @@ class PostgresFleetStore : public FleetStore {
   }
 
   std::optional<JobRecord> claim() override {
+    if (unknown_claim_) give_back_unheld();
     const auto since = FleetLeases::Clock::now();
     Change change(*this);
     std::optional<JobRow> next = next_job(change.part, {leases_.at_work(), feed_.tally()}, rules_, newer_schema_);
     if (!next) return std::nullopt;
     JobRow& row = *next;
     start_run(change.jobs, rules_, row);
-    change.commit();
+    try {
+      change.commit();
+    } catch (const CommitUnknown&) {
+      unknown_claim_ = true;
+      throw;
+    }
     leases_.hold(row.job, since);
     row.job.folder = attempt_folder(row.job);
     return row.job;
@@ -94,9 +100,7 @@ class PostgresFleetStore : public FleetStore {
 
   int recover() override {
     Change change(*this);
-    std::vector<JobRow> left = change.rows.select(
-        "JOIN sculptd.lease ON lease.job = job.number WHERE daemon=$1 ORDER BY number FOR UPDATE OF job, lease",
-        {sql_value(fleet_.member.id)});
+    std::vector<JobRow> left = own_jobs(change);
     for (JobRow& row : left) abandon_run(change.jobs, row);
     change.commit();
     leases_.let_go_all();
@@ -215,6 +219,23 @@ class PostgresFleetStore : public FleetStore {
     return database_.ask(question).changed();
   }
 
+  // That the database says this daemon runs, each locked.
+  std::vector<JobRow> own_jobs(Change& change) {
+    return change.rows.select(
+        "JOIN sculptd.lease ON lease.job = job.number WHERE daemon=$1 ORDER BY number FOR UPDATE OF job, lease",
+        {sql_value(fleet_.member.id)});
+  }
+
+  // Nobody runs a job whose claim was committed and never answered; others would wait for the end of its lease. One
+  // whose commit is not done yet is not seen here, and does wait for it.
+  void give_back_unheld() {
+    Change change(*this);
+    for (JobRow& row : own_jobs(change))
+      if (!leases_.holds(row.job.id)) stop_run(change.jobs, row);
+    change.commit();
+    unknown_claim_ = false;
+  }
+
   // The run of this attempt has ended. A commit whose answer was lost is looked for when it is tried again.
   template <typename Act>
   bool end(const std::string& id, int attempt, Act act) {
@@ -261,6 +282,7 @@ class PostgresFleetStore : public FleetStore {
   std::string epoch_;
   std::int64_t last_rank_ms_ = 0;
   std::set<std::pair<std::string, int>> unknown_ends_;
+  std::atomic<bool> unknown_claim_ = false;
   std::atomic<std::uint64_t> late_ends_ = 0;
   std::atomic<std::int64_t> newer_schema_ = 0;
 };

@@ -39,6 +39,45 @@ TEST_F(FleetStoreTest, ADaemonThatIsStartedAgainReleasesItsOwnJobsAndNoOthers) {
   EXPECT_EQ(first->find(others)->state, running);
 }
 
+// A commit waits for a standby that is not there: the database has stored it, and its answer is cut off.
+TEST_F(FleetStoreTest, AClaimThatWasStoredAndNotAnsweredIsGivenBackAtTheNext) {
+  const std::string job = add(*first), next = add(*first);
+  const std::string others = second->claim()->id;
+  ASSERT_EQ(others, job);
+  const auto set_standby = [&](const std::string& names) {
+    other->ask({"ALTER SYSTEM SET synchronous_standby_names='" + names + "'"});
+    other->ask({"SELECT pg_reload_conf()"});
+  };
+  set_standby("nobody");
+  await([&] { return other->ask({"SHOW synchronous_standby_names"}).text(0, 0) == "nobody"; });
+  bool unanswered = false;
+  std::thread claiming([&] {
+    try {
+      first->claim();
+    } catch (const DatabaseUnavailable&) {
+      unanswered = true;
+    }
+  });
+  const auto cut_off = [&] {
+    return other
+               ->ask({"SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE wait_event='SyncRep' AND "
+                      "datname=current_database()"})
+               .rows() > 0;
+  };
+  await(cut_off);
+  set_standby("");
+  claiming.join();
+  ASSERT_TRUE(unanswered);
+  ASSERT_EQ(second->find(next)->state, running) << "the commit itself was done";
+  const std::optional<JobRecord> again = first->claim();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->id, next);
+  EXPECT_EQ(again->attempt, 2);
+  EXPECT_FALSE(again->isolated) << "it is not suspected: nothing crashed";
+  EXPECT_EQ(first->find(others)->state, running) << "another daemon's is left alone";
+  EXPECT_TRUE(first->finish(next, 2, success));
+}
+
 TEST_F(FleetStoreTest, ALeaseIsRenewedWhileItsDaemonLives) {
   first = open("third", {}, std::chrono::seconds(3));
   const std::string job = add(*first);
