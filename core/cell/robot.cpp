@@ -77,9 +77,10 @@ Frame to_frame(const urdf::Pose& pose, const std::string& owner) {
 }
 
 void require_size(double value, const char* what, const std::string& owner) {
-  if (std::isfinite(value) && value > 0) return;
+  if (std::isfinite(value) && value > 0 && value <= max_body_m) return;
   std::ostringstream text;
   text << "the " << what << " of a collision shape of " << owner << " is " << value << ": it must be above 0 m";
+  if (value > max_body_m) text << ", and at most " << max_body_m << " m: lengths in a URDF are metres, not millimetres";
   refuse(text.str());
 }
 
@@ -135,6 +136,8 @@ void set_limits(Joint& joint, const urdf::Joint& source) {
     joint.upper = source.limits->upper;
   }
   if (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || joint.lower >= joint.upper) {
+    if (joint.lower > joint.upper)
+      refuse(joint_named(joint.name) + " has a lower limit above its upper one: swap them");
     refuse(joint_named(joint.name) +
            " has no range to move in: give it <limit lower=... upper=.../> with lower below upper, or make it fixed");
   }

@@ -20,8 +20,9 @@ constexpr std::size_t max_urdf_bytes = 2u << 20;
 /// and may have its source in comments.)
 class Guard : public tinyxml2::XMLVisitor {
  public:
-  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* first) override {
     if (++depth_ > deepest) refuse_nesting();
+    for (const auto* attribute = first; attribute != nullptr; attribute = attribute->Next()) refuse_control(*attribute);
     if (std::string_view(element.Name()).starts_with("xacro:"))
       refuse(
           "the file is a xacro source, not a URDF: write it out with `xacro robot.urdf.xacro > robot.urdf`, and name "
@@ -31,6 +32,14 @@ class Guard : public tinyxml2::XMLVisitor {
   bool VisitExit(const tinyxml2::XMLElement&) override {
     --depth_;
     return true;
+  }
+
+  /// They would garble terminals and logs, and two names would look alike.
+  static void refuse_control(const tinyxml2::XMLAttribute& attribute) {
+    for (const unsigned char c : std::string_view(attribute.Value()))
+      if (c < ' ' && c != '\t' && c != '\n' && c != '\r')
+        refuse("line " + std::to_string(attribute.GetLineNum()) + ": '" + attribute.Name() +
+               "' has the control character " + std::to_string(c) + " in it: remove that");
   }
 
   [[noreturn]] static void refuse_nesting() {
@@ -48,6 +57,8 @@ class Guard : public tinyxml2::XMLVisitor {
 void check_urdf(const std::string& xml) {
   if (xml.size() > max_urdf_bytes)
     refuse("the URDF has " + std::to_string(xml.size()) + " bytes, the limit is " + std::to_string(max_urdf_bytes));
+  if (xml.find("<!DOCTYPE") != std::string::npos)
+    refuse("the URDF has a <!DOCTYPE>, of which no reader of URDF knows anything: remove it");
   tinyxml2::XMLDocument document;
   const tinyxml2::XMLError error = document.Parse(xml.data(), xml.size());
   if (error == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) Guard::refuse_nesting();

@@ -6,7 +6,7 @@
 namespace sculpt {
 
 /// Throws InputError `urdf_invalid` for a text that is too large, is no XML, nests so deep that a recursive parser runs
-/// out of stack, or is a xacro source.
+/// out of stack, has a document type or control characters in its names, or is a xacro source.
 void check_urdf(const std::string& xml);
 
 }  // namespace sculpt

@@ -170,7 +170,7 @@ TEST(Robot, JointsThatCannotBePlannedAreRefused) {
   expect_refused(with_joint("revolute", "<axis xyz='0 0 1'/>"), "j]");
   expect_refused(with_joint("prismatic", "<axis xyz='0 0 1'/><limit velocity='1' effort='1'/>"), "range");
   expect_refused(with_joint("revolute", "<axis xyz='0 0 1'/><limit lower='1' upper='-1' velocity='1' effort='1'/>"),
-                 "range");
+                 "swap");
   expect_refused(with_joint("revolute", "<axis xyz='0 0 1'/><limit lower='nan' upper='1' velocity='1' effort='1'/>"),
                  "j]");
   expect_refused(
@@ -220,6 +220,17 @@ TEST(Robot, ShapesWithoutASizeAreRefused) {
   expect_refused(with_shape(""), "[a]");
 }
 
+TEST(Robot, BodiesInMillimetresAreRefused) {
+  expect_refused(with_shape("<cylinder radius='60' length='316'/>"), "metres, not millimetres");
+  expect_refused(with_shape("<box size='400 300 1e300'/>"), "metres, not millimetres");
+  expect_refused(with_shape("<sphere radius='101'/>"), "'a'");
+}
+
+TEST(Robot, NamesThatATerminalWouldSwallowAreRefused) {
+  expect_refused("<robot name='r'><link name='a\x1b[2J'/></robot>", "control character 27");
+  expect_refused("<!DOCTYPE robot [<!ENTITY a 'b'>]><robot name='r'><link name='&a;'/></robot>", "DOCTYPE");
+}
+
 TEST(Robot, VisualThatHidesTheCollisionShapesIsRefused) {
   expect_refused(
       "<robot name='r'><link name='a'><visual><geometry><capsule/></geometry></visual>"
@@ -263,6 +274,16 @@ TEST(Robot, MeshThatCannotBeUsedIsRefused) {
   const auto give = [](const std::string& bytes) { return [bytes](const std::string&) { return bytes; }; };
   EXPECT_THROW(parse_urdf(urdf("1 0 1"), give(tetrahedron)), InputError);
   EXPECT_THROW(parse_urdf(urdf("1 1 1"), give("this is no mesh")), InputError);
+  const auto sentence = [&](const std::string& xml) {
+    try {
+      parse_urdf(xml, give(tetrahedron));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(sentence(urdf("1 1 101")).find("scale=\"0.001 0.001 0.001\""), std::string::npos);
+  EXPECT_NE(sentence(with_shape("<mesh filename='http://robots.example/m.obj'/>")).find("save it"), std::string::npos);
 }
 
 }  // namespace
