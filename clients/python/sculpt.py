@@ -553,11 +553,14 @@ def run_submit(options):
         raise Failure(USAGE, "usage", f"--continue excludes --{placed[0].replace('_', '-')}: the mesh stands as in job {options.continued}, in what that one left")
     read_input(options.mesh, "mesh")
     check_cell_files(options.robot)
+    mill = mill_order_of(options) if options.tools else None
     with Client(options.server) as client:
         spec = {"mesh": client.upload_file(options.mesh), "resolution": options.resolution, "seed": options.seed,
                 "robot": robot_of(client, options.robot)}
         if options.search:
             spec["search"] = options.search
+        if mill:
+            spec["mill"] = mill
         if options.allow_freed:
             spec["allow_freed"] = True
         if options.continued:
@@ -621,6 +624,20 @@ def placement_of(client, options):
     if options.stock_box:
         return {"placement": placement, "stock": {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}}
     return {"placement": placement, **({"stock": {"mesh": client.upload_file(options.stock)}} if options.stock else {})}
+
+
+def mill_order_of(options):
+    """The field of a spec that names milling tools and brings the library that they are in."""
+    if not options.tool_library:
+        raise Failure(USAGE, "usage", "--tools names tools of a library: give its file with --tool-library")
+    try:
+        library = json.loads(read_input(options.tool_library, "tool library"))
+    except ValueError as error:
+        raise Failure(REFUSED, "tools_invalid", f"{options.tool_library} is no tool library: {error}") from None
+    if not isinstance(library, dict):
+        raise Failure(REFUSED, "tools_invalid", f'{options.tool_library} is no tool library: write {{"tools": [...]}}')
+    lengths = {f"{name}_m": getattr(options, name) for name in ("tolerance", "scallop", "allowance") if getattr(options, name) is not None}
+    return {"tools": options.tools, "library": library, **lengths}
 
 
 def run_list(options):
@@ -894,6 +911,12 @@ def add_submit_options(submit):
     submit.add_argument("--search", metavar="NAME", help="the planner; default is the server's")
     submit.add_argument("--seed", type=int, default=0, metavar="K")
     submit.add_argument("--allow-freed", action="store_true", help="let pieces come loose while a translating robot carves")
+    submit.add_argument("--tools", type=lambda text: text.split(","), metavar="NAME,...",
+                        help="carve with these milling tools, in this order; search is then 'mill'")
+    submit.add_argument("--tool-library", metavar="FILE", help="the file that they are in")
+    submit.add_argument("--tolerance", type=float, metavar="METRES", help="what may stand above the surface where these tools come to it")
+    submit.add_argument("--scallop", type=float, metavar="METRES", help="of that, between rows")
+    submit.add_argument("--allowance", type=float, metavar="METRES", help="of that, left on purpose")
     submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
     submit.add_argument("--queue", metavar="NAME", help="let only daemons plan it that serve this queue")
     submit.add_argument("--not-before", metavar="TIME", help="hold it until then, UTC: 2026-01-31T12:00:00Z")
