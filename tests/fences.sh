@@ -28,7 +28,7 @@ forbid "clients never include the server" "$(include 'server/')" -- clients
 forbid "the server never includes a client" "$(include 'clients/')" -- server
 
 # The data flow inside core: a folder sees only what stands before it, and search and collision nothing of some of that.
-core_folders=(base mesh material solid cell trajectory law picture collision search motion sweep mill doctor place timing program verify plan)
+core_folders=(base mesh material solid cell trajectory law verify picture collision search motion sweep mill doctor place timing program plan)
 for ((i = 0; i + 1 < ${#core_folders[@]}; ++i)); do
   above=$(IFS='|' && echo "${core_folders[*]:i+1}")
   forbid "core/${core_folders[i]} stands before ${above//|/, }" "$(include "core/($above)/")" -- "core/${core_folders[i]}"
@@ -41,6 +41,7 @@ forbid "planners know keyframes, not how a file of them is read or written" \
 forbid "time laws need no planner" "$(include 'core/(picture|search|motion|sweep|mill|doctor|place)/')" -- core/timing
 forbid "what reads programs back shares nothing with what writes them" "$(include 'core/(program/(write|axis|make|program_move)|timing|cell)')" -- core/program/read
 forbid "what writes programs knows no reader" "$(include 'core/program/read')" -- core/program/write
+forbid "planners know nothing of the replay" "$(include 'core/verify/')" -- core/{picture,collision,search,motion,sweep,mill,place,timing,program}
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
 forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/(cell_(file|motion)|milling/tool_library)\.[ch]pp')" -- core server clients
 forbid "verify shares nothing with the planners" "$(include 'core/(solid|picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/swept_voxels|core/material/(loose_pieces|support|flood|cavities|clamping|octree|block_graph)|core/cell/(chain|link_poses|ik)\.')" -- core/verify
@@ -72,13 +73,13 @@ for ((i = 0; i < ${#server_folders[@]}; ++i)); do
 done
 
 # One door per heavy library. FCL takes several files in two folders; the headers that they share among themselves leave neither folder.
-fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/material/(standing_voxels|material_tree|convex_probe)|verify/tool_replay'
+fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/robot/cover_tree|verify/material/(standing_voxels|material_tree|convex_probe)|verify/tool_replay'
 forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'mesh/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
 forbid "TinyXML-2 only in mesh/collada.cpp, cell/urdf_guard.cpp and verify/robot/urdf_text.cpp" "$(include 'tinyxml2')" "$(door '(mesh/collada|cell/urdf_guard|verify/robot/urdf_text)\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_/]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/shape/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_/]+\.[ch]pp')" -- core server clients
-forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/solid_body|material/(standing_voxels|material_tree|convex_probe)|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
+forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/(solid_body|cover_tree)|material/(standing_voxels|material_tree|convex_probe)|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients
 forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/field/posture_lanes\.cpp')" -- core server proto clients
 forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients

@@ -13,6 +13,7 @@
 #include "core/doctor/probe_reach.hpp"
 #include "core/doctor/suggest_move.hpp"
 #include "core/sweep/directions.hpp"
+#include "core/verify/home_contacts.hpp"
 
 namespace sculpt {
 namespace {
@@ -53,6 +54,8 @@ void describe_pairs(const Cell& cell, CellFindings& found) {
     found.unchecked_pairs.push_back(name_bodies(cell.robot, unchecked.links.first, unchecked.links.second));
     found.unchecked_pairs.back().why = unchecked.why;
   }
+  for (const LinkPair& contact : find_home_contacts(cell, cell.chain().joints()))
+    found.home_contacts.push_back(name_bodies(cell.robot, contact.first, contact.second));
   for (const WideContact& wide : find_wide_contacts(cell, pairs.checked)) {
     found.wide_pairs.push_back(name_bodies(cell.robot, wide.links.first, wide.links.second));
     found.wide_pairs.back().why = describe(wide, cell.robot);

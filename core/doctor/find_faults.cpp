@@ -127,6 +127,12 @@ std::string blocking_text(const HomeFinding& home) {
   return text;
 }
 
+bool names_pair(const std::vector<PairFinding>& pairs, const PairFinding& sought) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const PairFinding& pair) {
+    return std::minmax(pair.first, pair.second) == std::minmax(sought.first, sought.second);
+  });
+}
+
 bool is_below_top(const CellFindings& found) {
   const Vec3& ball = found.home.ball_m;
   return ball.z() < found.stock_size_m;
@@ -201,7 +207,7 @@ void find_faults_of_files(const CellDraft& draft, CellFindings& found) {
                             "if their shapes are thicker than the arm, which does not touch itself there, add [\"" +
                                 pair.first + "\", \"" + pair.second + "\"] to \"ignore_pairs\""});
   for (const PairFinding& pair : found.unchecked_pairs)
-    if (pair.why == "touch at home and in every configuration tried")
+    if (pair.why == "touch at home and in every configuration tried" && !names_pair(found.home_contacts, pair))
       found.faults.push_back(
           {Weight::note, "unproved_pair",
            quoted(pair.first) + " and " + quoted(pair.second) + " touch wherever it was tried, and are not kept apart",
@@ -218,6 +224,15 @@ void find_faults_of_home(const CellDraft& draft, CellFindings& found) {
   if (!found.home.blocking.empty())
     found.faults.push_back({Weight::error, "home_blocked", "at home " + blocking_text(found.home),
                             another_home(found) + idle_in_the_way(found)});
+  for (const PairFinding& pair : found.home_contacts) {
+    if (names_pair(found.home.blocking, pair)) continue;
+    found.faults.push_back({Weight::error, "home_contact",
+                            quoted(pair.first) + " and " + quoted(pair.second) +
+                                " touch at home, and not where a joint holds them together: the replay would find them",
+                            "if their shapes are thicker than the arm, which does not touch itself there, add [\"" +
+                                pair.first + "\", \"" + pair.second +
+                                "\"] to \"ignore_pairs\"; if they can really touch, make them smaller or move them"});
+  }
   if (!found.home.blocking.empty() || !is_below_top(found)) return;
   const bool inside = is_in_the_cube(found);
   found.faults.push_back({Weight::warning, "home_low",

@@ -84,6 +84,7 @@ struct CellFindings {
   std::vector<IdleJoint> idle_joints;
   std::vector<BodyFinding> bodies;
   std::vector<PairFinding> checked_pairs, unchecked_pairs;
+  std::vector<PairFinding> home_contacts;  ///< that a replay finds in contact at home
   std::vector<PairFinding> wide_pairs;  ///< of the checked ones, neighbours that leave their joint little room, and why
   double stock_size_m = 0, stickout_m = 0, free_length_m = 0, ball_radius_m = 0;
   HomeFinding home;

@@ -11,6 +11,7 @@
 #include "core/plan/intake.hpp"
 #include "core/plan/report_figures.hpp"
 #include "core/trajectory/quantum.hpp"
+#include "core/verify/home_contacts.hpp"
 #include "core/verify/mill/verify_milled.hpp"
 
 namespace sculpt {
@@ -67,6 +68,9 @@ void check_home(const Cell& cell, const std::vector<MillTool>& tools, const Grid
     if (const std::string contact = scene.describe_contact(cell.home(scene.chain())); !contact.empty())
       throw InputError("tools_invalid", "with tool '" + tool.name + "' at home " + contact +
                                             ": choose a home farther from the stock, or a shorter tool");
+    if (const auto contacts = find_home_contacts(carried, scene.chain().joints()); !contacts.empty())
+      throw InputError("cell_invalid", "cell '" + cell.name + "' with tool '" + tool.name +
+                                           "': " + describe_home_contact(carried.robot, contacts.front()));
   }
 }
 

@@ -22,6 +22,7 @@
 #include "core/sweep/follow.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/reader.hpp"
+#include "core/verify/home_contacts.hpp"
 #include "core/verify/mill/verify_milled.hpp"
 #include "core/verify/verify.hpp"
 
@@ -112,10 +113,14 @@ Inputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
   return {std::move(checked.cell), std::move(octree)};
 }
 
+/// Home must be free for the planner and for the replay, which find out by themselves what may touch.
 void check_home(const Scene& scene, const Cell& cell, const Configuration& home) {
   if (const std::string contact = scene.describe_contact(home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
+  if (const auto contacts = find_home_contacts(cell, scene.chain().joints()); !contacts.empty())
+    throw InputError("cell_invalid",
+                     "cell '" + cell.name + "': " + describe_home_contact(cell.robot, contacts.front()));
 }
 
 /// Fields depend on the material where it is not the whole grid: those are not kept.

@@ -14,6 +14,7 @@
 
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/reader.hpp"
+#include "core/verify/home_contacts.hpp"
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
 #include "core/verify/robot/urdf_differences.hpp"
@@ -239,7 +240,7 @@ class Replay {
   void replay_keyframes() {
     const ReplayScene scene(cell_, voxels_, header(), joints_, settings_.thorough);
     verdict_.exempt_pairs = scene.pairs.exempt;
-    for (const std::string& contact : scene.pairs.contacts) find(contact);
+    for (const LinkPair& contact : scene.pairs.contacts) find(describe_home_contact(cell_.robot, contact));
     find_broken_limits(scene, header().home, reader_.line(), found_);
     Crew crew(reader_, scene, watch_, settings_, std::move(done_), note_);
     crew.run();

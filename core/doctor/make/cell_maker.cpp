@@ -8,10 +8,12 @@
 #include "core/base/error.hpp"
 #include "core/cell/link_poses.hpp"
 #include "core/collision/link_pairs.hpp"
+#include "core/collision/shape/motion_bound.hpp"
 #include "core/collision/wide_contacts.hpp"
 #include "core/doctor/describe_cell.hpp"
 #include "core/doctor/make/find_tool.hpp"
 #include "core/doctor/make/urdf_text.hpp"
+#include "core/verify/home_contacts.hpp"
 
 namespace sculpt {
 namespace {
@@ -20,6 +22,9 @@ namespace {
 constexpr double stock_of_arm = 1.0 / 7, stickout_of_stock = 1.1, spindle_radius_of_stock = 0.16,
                  spindle_length_of_stock = 0.7, table_radius_of_stock = 0.5;
 constexpr std::array far_of_arm{0.4, 0.5, 0.6, 0.7}, high_of_arm{0.05, 0.2, 0.35, 0.5};
+// Of an arm that hangs: the table stands below it, on a floor that is so far down.
+constexpr std::array far_of_hanging_arm{0.0, 0.2, 0.4, 0.55};
+constexpr double floor_below_hanging_arm = 1.15;
 
 std::string in_m(double metres) {
   char text[32];
@@ -46,6 +51,15 @@ int link_named(const Robot& robot, const std::string& name) {
   throw InputError("cell_invalid", "the URDF has no link '" + name + "'; its links are: " + names);
 }
 
+/// Of the pairs that the planner lets touch, those that the replay would find in contact.
+std::vector<LinkPair> everywhere_in_contact(const Cell& cell, const std::vector<UncheckedLinks>& unchecked) {
+  std::vector<LinkPair> found = find_home_contacts(cell, cell.chain().joints());
+  std::erase_if(found, [&](const LinkPair& links) {
+    return std::ranges::find(unchecked, links, &UncheckedLinks::links) == unchecked.end();
+  });
+  return found;
+}
+
 std::vector<double> rest_of(const Robot& robot) {
   std::vector<double> rest;
   for (const Joint& joint : robot.joints)
@@ -68,7 +82,29 @@ CellMaker::CellMaker(const MakersRobot& source, const CellWishes& wishes)
   stickout_m_ = wishes.stickout_m.value_or(stickout_of_stock * stock_m_);
   spindle_radius_m_ = wishes.spindle_radius_m.value_or(spindle_radius_of_stock * stock_m_);
   spindle_length_m_ = wishes.spindle_length_m.value_or(spindle_length_of_stock * stock_m_);
-  floor_m_ = find_floor();
+  const double lowest_m = find_lowest();
+  hangs_ = find_mean_place(robot_, flange_).z() < lowest_m;
+  floor_m_ = hangs_ ? std::round((lowest_m - floor_below_hanging_arm * arm_m_) * 1000) / 1000 : lowest_m;
+  if (!wishes.spindle_radius_m && spindle_length_m_ > 0) slim_spindle();
+}
+
+/// Until it is in no link that two joints or more are between, wherever they stand: a flange may be in a fork that is
+/// narrower than the spindle which the stock asks for.
+void CellMaker::slim_spindle() {
+  constexpr double slimmer = 0.75, least_of_stock = 0.02;
+  const auto is_stuck = [&](const Cell& cell, const Chain& chain, const LinkPair& links) {
+    const auto is_added = [&](int link) {
+      return robot_.find_link(cell.robot.links[static_cast<std::size_t>(link)].name) < 0;
+    };
+    return is_added(links.first) != is_added(links.second) && find_drives(chain, links.first, links.second).size() > 1;
+  };
+  for (; spindle_radius_m_ > least_of_stock * stock_m_; spindle_radius_m_ *= slimmer) {
+    const Cell cell = make(places().front()).cell;
+    const Chain chain = cell.chain();
+    if (std::ranges::none_of(find_link_pairs(cell).unchecked,
+                             [&](const UncheckedLinks& pair) { return is_stuck(cell, chain, pair.links); }))
+      return;
+  }
 }
 
 std::vector<Vec3> CellMaker::places() const {
@@ -79,7 +115,7 @@ std::vector<Vec3> CellMaker::places() const {
   ahead.z() = 0;
   ahead = ahead.norm() < 0.1 * arm_m_ ? Vec3::UnitX() : Vec3(ahead.normalized());
   std::vector<Vec3> places;
-  for (const double far : far_of_arm)
+  for (const double far : hangs_ ? far_of_hanging_arm : far_of_arm)
     for (const double high : high_of_arm) {
       const Vec3 place = far * arm_m_ * ahead + (floor_m_ + high * arm_m_) * Vec3::UnitZ();
       places.emplace_back((place * 100).array().round() / 100 + 0.0);
@@ -152,7 +188,7 @@ bool CellMaker::is_beside(const Joint& joint) const {
 }
 
 /// The lowest point of what stands still with the root.
-double CellMaker::find_floor() const {
+double CellMaker::find_lowest() const {
   const std::vector<int> group = rigid_groups(robot_);
   const std::vector<Frame> at = link_poses(robot_, rest_of(robot_));
   double lowest = 1e9;
@@ -195,9 +231,16 @@ Cell CellMaker::cell_of(const std::string& urdf, const std::string& stock, const
   return cell;
 }
 
-bool CellMaker::ignore_neighbours(const Cell& cell) {
+bool CellMaker::ignore_contacts(const Cell& cell) {
   const std::size_t known = ignored_.size();
-  for (const WideContact& contact : find_wide_contacts(cell, find_link_pairs(cell).checked)) {
+  const LinkPairs pairs = find_link_pairs(cell);
+  for (const LinkPair& contact : everywhere_in_contact(cell, pairs.unchecked)) {
+    const std::string& first = cell.robot.links[static_cast<std::size_t>(contact.first)].name;
+    const std::string& second = cell.robot.links[static_cast<std::size_t>(contact.second)].name;
+    if (robot_.find_link(first) >= 0 && robot_.find_link(second) >= 0)
+      ignored_.push_back({first, second, "touch wherever the joints were tried, and not at a joint's axis"});
+  }
+  for (const WideContact& contact : find_wide_contacts(cell, pairs.checked)) {
     const std::string& first = cell.robot.links[static_cast<std::size_t>(contact.links.first)].name;
     const std::string& second = cell.robot.links[static_cast<std::size_t>(contact.links.second)].name;
     // Of a spindle or a table that was added here all is known.

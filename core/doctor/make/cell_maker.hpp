@@ -30,9 +30,9 @@ class CellMaker {
   Made make(const Vec3& table_m) const;
 
   /// Lets links of the robot touch in all cells that are made from now on: neighbours of whose shapes nobody can tell
-  /// whether the arm itself is in its own way. `cell`: one that was made, with the home by which that is found out.
-  /// False if there are none that were not known.
-  bool ignore_neighbours(const Cell& cell);
+  /// whether the arm itself is in its own way, and links that are in contact wherever the joints stand. `cell`: one
+  /// that was made, with the home by which that is found out. False if there are none that were not known.
+  bool ignore_contacts(const Cell& cell);
 
   /// What a person did not say, in sentences.
   std::vector<std::string> remarks(const Vec3& table_m) const;
@@ -44,7 +44,8 @@ class CellMaker {
 
   bool is_beside(const Joint& joint) const;
   bool needs_nose() const { return spindle_length_m_ > 0 || std::abs(out_.z() - 1) > 1e-6; }
-  double find_floor() const;
+  double find_lowest() const;
+  void slim_spindle();
   TableWish wish(const Vec3& table_m) const;
   Cell cell_of(const std::string& urdf, const std::string& stock, const std::string& tool) const;
 
@@ -54,6 +55,7 @@ class CellMaker {
   std::vector<IgnoredPair> ignored_;
   int flange_ = -1;
   Vec3 out_;
+  bool hangs_ = false;  ///< the arm, from what stands still
   double arm_m_ = 0, stock_m_ = 0, stickout_m_ = 0, spindle_radius_m_ = 0, spindle_length_m_ = 0, floor_m_ = 0;
 };
 

@@ -43,6 +43,15 @@ std::vector<double> middle_values(const Robot& robot) {
   return values;
 }
 
+/// Joints that turn stand anywhere, others at 0 or the end of their travel that is nearest to it.
+std::vector<double> random_values(const Robot& robot, Random& random) {
+  std::vector<double> values = middle_values(robot);
+  for (std::size_t at = 0; at < values.size(); ++at)
+    if (const Joint& joint = robot.joints[at]; joint.kind == JointKind::revolute)
+      values[at] = random.between(joint.lower, joint.upper);
+  return values;
+}
+
 bool is_below(const Robot& robot, int link, int ancestor) {
   for (const Joint* joint = joint_above(robot, link); joint != nullptr; joint = joint_above(robot, joint->parent_link))
     if (joint->parent_link == ancestor) return true;
@@ -95,6 +104,8 @@ Vec3 find_way_out(const Robot& robot, int flange) {
   const Frame& turned = at[static_cast<std::size_t>(joint->child_link)];
   const Vec3 axis = (here.linear().transpose() * turned.linear() * joint->axis).normalized();
   double along = axis.dot(here.linear().transpose() * (here.translation() - turned.translation()));
+  const bool named = robot.links[static_cast<std::size_t>(flange)].name.find("tool0") != std::string::npos;
+  if (std::abs(along) < 1e-3 && named && std::abs(axis.z()) > 0.999) return Vec3::UnitZ();
   if (std::abs(along) < 1e-3)
     if (const auto middle = middle_of(robot.links[static_cast<std::size_t>(joint->child_link)]))
       along = axis.dot(here.linear().transpose() * (here.translation() - turned * *middle));
@@ -110,6 +121,14 @@ std::vector<int> find_occupants(const Robot& robot, int flange) {
   return found;
 }
 
+Vec3 find_mean_place(const Robot& robot, int flange) {
+  Random random(1);
+  Vec3 sum = Vec3::Zero();
+  for (int sample = 0; sample < length_samples; ++sample)
+    sum += link_poses(robot, random_values(robot, random))[static_cast<std::size_t>(flange)].translation();
+  return sum / length_samples;
+}
+
 double find_arm_length(const Robot& robot, int flange) {
   Random random(1);
   int first = flange;
@@ -118,10 +137,7 @@ double find_arm_length(const Robot& robot, int flange) {
     if (joint->kind == JointKind::revolute) first = joint->child_link;
   double longest = 0;
   for (int sample = 0; sample < length_samples; ++sample) {
-    std::vector<double> values;
-    for (const Joint& joint : robot.joints)
-      values.push_back(joint.kind == JointKind::revolute ? random.between(joint.lower, joint.upper) : 0);
-    const std::vector<Frame> at = link_poses(robot, values);
+    const std::vector<Frame> at = link_poses(robot, random_values(robot, random));
     longest = std::max(longest, (at[static_cast<std::size_t>(flange)].translation() -
                                  at[static_cast<std::size_t>(first)].translation())
                                     .norm());

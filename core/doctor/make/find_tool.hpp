@@ -19,6 +19,9 @@ Vec3 find_way_out(const Robot& robot, int flange);
 /// Links with shapes below the flange: a gripper, say, where the spindle would be.
 std::vector<int> find_occupants(const Robot& robot, int flange);
 
+/// Where the link's origin is on the average of configurations at random (m, frame of the root).
+Vec3 find_mean_place(const Robot& robot, int flange);
+
 /// How far from the middle of the robot's first moving joint the link's origin comes, by samples (m).
 double find_arm_length(const Robot& robot, int flange);
 

@@ -89,12 +89,12 @@ bool settle(Cell& cell, const RunContext& run) {
 
 NewCell make_cell(const MakersRobot& robot, const CellWishes& wishes, const RunContext& run) {
   CellMaker maker(robot, wishes);
-  maker.ignore_neighbours(maker.make(maker.places().front()).cell);
+  maker.ignore_contacts(maker.make(maker.places().front()).cell);
   const Vec3 table_m = best_place(maker, run);
   auto [urdf, cell] = maker.make(table_m);
   NewCell made{std::move(urdf), std::move(cell), {}, false};
   made.has_home = settle(made.cell, run);
-  if (maker.ignore_neighbours(made.cell)) {
+  if (maker.ignore_contacts(made.cell)) {
     made.cell = maker.make(table_m).cell;
     made.has_home = settle(made.cell, run);
   }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/trajectory/reader.hpp"
+#include "core/verify/home_contacts.hpp"
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/mill/chip_scale.hpp"
 #include "core/verify/mill/cutter_sweep.hpp"
@@ -113,7 +114,8 @@ class MilledReplay {
         find("the header's home of joint " + header().joints[at] + " is not the cell's");
     take_tool(0);
     verdict_.exempt_pairs = scene_->whole_pairs.exempt;
-    for (const std::string& contact : scene_->whole_pairs.contacts) find(contact);
+    for (const LinkPair& contact : scene_->whole_pairs.contacts)
+      find(describe_home_contact(scene_->cell.robot, contact));
     return true;
   }
 

@@ -110,13 +110,14 @@ CheckedPairs choose_pairs(const Cell& cell, const std::vector<int>& joints, cons
         continue;
       }
       pairs.checked.emplace_back(&first, &second);
-      if (in_doubt)
-        pairs.contacts.push_back("link " + name + " and link " + other +
-                                 " touch at home, and not where a joint holds them together: if they may, name them in "
-                                 "the cell's ignore_pairs");
+      if (in_doubt) pairs.contacts.emplace_back(std::minmax(first.link, second.link));
     }
-  std::sort(pairs.exempt.begin(), pairs.exempt.end());
-  pairs.exempt.erase(std::unique(pairs.exempt.begin(), pairs.exempt.end()), pairs.exempt.end());
+  const auto sort = [](auto& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  sort(pairs.exempt);
+  sort(pairs.contacts);
   return pairs;
 }
 

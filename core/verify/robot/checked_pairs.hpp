@@ -13,8 +13,8 @@ namespace sculpt {
 
 struct CheckedPairs {
   std::vector<std::pair<const SolidBody*, const SolidBody*>> checked;
-  std::vector<ExemptPair> exempt;     ///< sorted, none twice
-  std::vector<std::string> contacts;  ///< a sentence for each that is checked though it touches at home
+  std::vector<ExemptPair> exempt;  ///< sorted, none twice
+  std::vector<LinkPair> contacts;  ///< links with bodies that are checked though they touch at home; sorted, none twice
 };
 
 /// Every two bodies that move against each other are checked, unless

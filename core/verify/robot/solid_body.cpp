@@ -7,55 +7,25 @@ namespace sculpt {
 namespace {
 
 constexpr double mm = 1000;
-// Triangles a cover box may hold: fewer make tighter boxes, more of them.
-constexpr std::size_t cover_triangles = 24;
-
-using Triangle = std::array<Vec3, 3>;
-
-fcl::AABBd box_around(const std::vector<Triangle>& triangles, std::size_t begin, std::size_t end) {
-  fcl::AABBd box;
-  for (std::size_t at = begin; at < end; ++at)
-    for (const Vec3& corner : triangles[at]) box += corner;
-  return box;
-}
-
-// Splits at the median of the longest side until boxes hold few triangles.
-void cover_triangles_below(std::vector<Triangle>& triangles, std::size_t begin, std::size_t end,
-                           std::vector<fcl::AABBd>& cover) {
-  const fcl::AABBd box = box_around(triangles, begin, end);
-  if (end - begin <= cover_triangles) {
-    cover.push_back(box);
-    return;
-  }
-  Eigen::Index axis = 0;
-  (box.max_ - box.min_).maxCoeff(&axis);
-  const auto first = triangles.begin();
-  const std::size_t middle = begin + (end - begin) / 2;
-  std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
-                   first + static_cast<std::ptrdiff_t>(end), [axis](const Triangle& a, const Triangle& b) {
-                     return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
-                   });
-  cover_triangles_below(triangles, begin, middle, cover);
-  cover_triangles_below(triangles, middle, end, cover);
-}
-
 void add_mesh(const Mesh& source, SolidBody& body) {
-  std::vector<Triangle> triangles;
-  for (const auto& corners : source.triangles)
+  std::vector<CoverTree::Triangle> triangles;
+  fcl::AABBd box;
+  for (const auto& corners : source.triangles) {
     triangles.push_back(
         {mm * source.vertices[corners[0]], mm * source.vertices[corners[1]], mm * source.vertices[corners[2]]});
-  const fcl::AABBd box = box_around(triangles, 0, triangles.size());
+    for (const Vec3& corner : triangles.back()) box += corner;
+  }
   const Vec3 centre = box.center();
   body.pose.translate(centre);
   body.half = (box.max_ - box.min_) / 2;
-  for (Triangle& triangle : triangles)
+  for (CoverTree::Triangle& triangle : triangles)
     for (Vec3& corner : triangle) corner -= centre;
   const auto mesh = std::make_shared<SolidMesh>();
   mesh->beginModel(static_cast<int>(triangles.size()));
-  for (const Triangle& triangle : triangles) mesh->addTriangle(triangle[0], triangle[1], triangle[2]);
+  for (const CoverTree::Triangle& triangle : triangles) mesh->addTriangle(triangle[0], triangle[1], triangle[2]);
   mesh->endModel();
   body.mesh = mesh;
-  cover_triangles_below(triangles, 0, triangles.size(), body.cover);
+  body.cover = CoverTree(std::move(triangles));
 }
 
 SolidBody make_solid_body(const Shape& shape, int link) {

@@ -4,10 +4,12 @@
 
 #include <fcl/fcl.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "core/cell/robot.hpp"
+#include "core/verify/robot/cover_tree.hpp"
 
 namespace sculpt {
 
@@ -21,13 +23,19 @@ struct SolidBody {
   Vec3 half = Vec3::Zero();        ///< half sides of the box around the shape, in the shape's frame
   double radius = 0;               ///< of the sphere around that box or shape
   std::shared_ptr<const SolidMesh> mesh;
-  std::vector<fcl::AABBd> cover;  ///< mesh: boxes that hold all triangles, in the shape's frame
+  CoverTree cover;  ///< of a mesh, in the shape's frame
 };
 
 std::vector<SolidBody> make_solid_bodies(const Robot& robot);
 
 bool solids_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,
                   const Frame& pose_b);
+
+/// Calls `use(geometry, pose)` for a box that is grown to all sides.
+template <typename Use>
+bool use_box(const fcl::AABBd& box, double grow, Use&& use) {
+  return use(fcl::Boxd(box.max_ - box.min_ + Vec3::Constant(2 * grow)), Frame(Eigen::Translation3d(box.center())));
+}
 
 /// Calls `use(geometry, pose in the shape's frame)` for geometry that holds all points within `grow` of the body, until
 /// it returns true; returns whether it did. Meshes are themselves if `grow` is 0, else their cover.
@@ -45,10 +53,7 @@ bool any_part(const SolidBody& body, double grow, Use&& use) {
       break;
   }
   if (grow == 0) return use(*body.mesh, here);
-  for (const fcl::AABBd& box : body.cover)
-    if (use(fcl::Boxd(box.max_ - box.min_ + Vec3::Constant(2 * grow)), Frame(Eigen::Translation3d(box.center()))))
-      return true;
-  return false;
+  return std::ranges::any_of(body.cover.boxes(), [&](const fcl::AABBd& box) { return use_box(box, grow, use); });
 }
 
 }  // namespace sculpt

@@ -8,6 +8,7 @@
 #include "core/doctor/examine.hpp"
 #include "core/doctor/make/find_tool.hpp"
 #include "core/doctor/make/urdf_text.hpp"
+#include "core/verify/home_contacts.hpp"
 #include "tests/core/cell/sample_robots.hpp"
 #include "tests/core/doctor/doctor_cells.hpp"
 
@@ -131,6 +132,81 @@ TEST(NewCell, TheDoctorNamesNeighboursThatLeaveTheirJointLittleRoom) {
   ASSERT_NE(fault, found.faults.end());
   EXPECT_NE(fault->sentence.find("'l4' and 'l5' touch along "), std::string::npos) << fault->sentence;
   EXPECT_NE(fault->cure.find("[\"l4\", \"l5\"] to \"ignore_pairs\""), std::string::npos) << fault->cure;
+}
+
+/// The arm with a plate on its forearm that is in a bar of its wrist along 60 % of the travel, away from the joint's
+/// axis.
+std::string bumped_arm() {
+  std::string urdf = without_branch(makers_arm, "hand");
+  urdf.insert(urdf.find("</link>\n  <joint name=\"j4\""),
+              "<collision><origin xyz='0.14 0.1 0'/><geometry><box size='0.06 0.03 0.24'/></geometry></collision>");
+  const std::string bare = "<link name=\"l5\"/>";
+  urdf.replace(urdf.find(bare), bare.size(),
+               "<link name='l5'><collision><origin xyz='0.05 0.1 0'/><geometry><box size='0.1 0.03 0.03'/></geometry>"
+               "</collision></link>");
+  return urdf;
+}
+
+TEST(NewCell, WhatTheReplayWouldFindInContactAtHomeMayTouchOrIsAnError) {
+  const Cell cell = read_back(make({}, maker(bumped_arm())));
+  EXPECT_TRUE(find_home_contacts(cell, cell.chain().joints()).empty());
+  const LinkPair bumped = std::minmax(cell.robot.find_link("l4"), cell.robot.find_link("l5"));
+  EXPECT_EQ(cell.ignore_pairs, std::vector{bumped});
+
+  Cell strict = cell;
+  strict.ignore_pairs.clear();
+  strict.rest[static_cast<std::size_t>(strict.robot.find_joint("j5"))] = 0;
+  EXPECT_EQ(find_home_contacts(strict, strict.chain().joints()), std::vector{bumped});
+  const QuietRun run;
+  const CellFindings found = examine_cell({strict, {}}, {16, 3, false}, run.context());
+  EXPECT_FALSE(found.plannable());
+  const auto fault = std::ranges::find(found.faults, "home_contact", &Fault::code);
+  ASSERT_NE(fault, found.faults.end());
+  EXPECT_NE(fault->cure.find("[\"l4\", \"l5\"] to \"ignore_pairs\""), std::string::npos) << fault->cure;
+}
+
+TEST(NewCell, ASpindleThatTheForkOfTheWristHasNoRoomForIsMadeSlimmer) {
+  std::string urdf = without_branch(makers_arm, "hand");
+  urdf.insert(urdf.find("</link>\n  <joint name=\"j4\""),
+              "<collision><origin xyz='0.08 0.08 0'/><geometry><box size='0.4 0.03 0.4'/></geometry></collision>"
+              "<collision><origin xyz='0.08 -0.08 0'/><geometry><box size='0.4 0.03 0.4'/></geometry></collision>");
+  CellWishes wishes;
+  wishes.stock_size_m = 0.5;
+  const Cell cell = read_back(make(wishes, maker(urdf)));
+  const Link& spindle = cell.robot.links[static_cast<std::size_t>(cell.robot.find_link("spindle"))];
+  EXPECT_LT(spindle.shapes.front().radius_m, 0.065) << "half of the room between the cheeks";
+  EXPECT_GT(spindle.shapes.front().radius_m, 0.03);
+}
+
+TEST(NewCell, Tool0PointsOutAlongItsZ) {
+  std::string urdf = without_branch(makers_arm, "hand");
+  const std::string flange = "<link name=\"flange\"/>", at = "<child link=\"flange\"/><origin xyz=\"0.07 0 0\"/>";
+  urdf.replace(urdf.find(at), at.size(), "<child link=\"tool0\"/><origin xyz=\"0 0 0\" rpy=\"0 1.570796 0\"/>");
+  urdf.replace(urdf.find(flange), flange.size(), "<link name=\"tool0\"/>");
+  const Robot robot = parse_plain(urdf);
+  EXPECT_EQ(find_way_out(robot, robot.find_link("tool0")), Vec3::UnitZ())
+      << "though the flange's shape lies ahead of it";
+}
+
+TEST(NewCell, AnArmThatHangsGetsItsTableBelowIt) {
+  std::string urdf = without_branch(makers_arm, "hand");
+  const std::string base = "  <link name=\"base\">";
+  urdf.insert(urdf.find(base),
+              "<link name=\"ceiling\"/><joint name=\"mount\" type=\"fixed\"><parent link=\"ceiling\"/><child "
+              "link=\"base\"/><origin xyz=\"0 0 2.5\" rpy=\"3.14159265 0 0\"/></joint>\n");
+  const NewCell made = make({}, maker(urdf));
+  EXPECT_TRUE(made.has_home);
+  const Cell cell = read_back(made);
+  expect_free_home(cell);
+  std::vector<Frame> at;
+  const Chain chain = cell.chain();
+  chain.link_poses(cell.home(chain), at);
+  const auto height = [&](const char* link) {
+    return at[static_cast<std::size_t>(cell.robot.find_link(link))].translation().z();
+  };
+  EXPECT_LT(height("stock"), height("flange"));
+  const QuietRun run;
+  EXPECT_GT(examine_cell({cell, {}}, {16, 5, false}, run.context()).reached, 0.99);
 }
 
 TEST(NewCell, NeighboursWithRoomAreKeptApart) {

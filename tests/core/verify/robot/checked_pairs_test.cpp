@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/verify/home_contacts.hpp"
 #include "core/verify/robot/bearing.hpp"
 #include "core/verify/robot/joint_range.hpp"
 #include "tests/core/verify/small_cells.hpp"
@@ -100,7 +101,9 @@ TEST(CheckedPairs, WhatTouchesAtHomeBesideTheBearingIsChecked) {
   EXPECT_EQ(pairs.checked.size(), 3u);
   EXPECT_EQ(pairs.exempt.size(), 1u);
   ASSERT_EQ(pairs.contacts.size(), 1u);
-  EXPECT_NE(pairs.contacts[0].find("link foot and link head touch at home"), std::string::npos) << pairs.contacts[0];
+  const std::string said = describe_home_contact(turning.cell.robot, pairs.contacts[0]);
+  EXPECT_NE(said.find("link foot and link head touch at home"), std::string::npos) << said;
+  EXPECT_EQ(find_home_contacts(turning.cell, {0}), pairs.contacts);
 }
 
 TEST(CheckedPairs, TheCellOverrulesTheRule) {
@@ -196,7 +199,7 @@ TEST(CheckedPairs, CellsOfRealRobotsDoNotTouchAtHome) {
     const std::vector<int> joints(chain.joints().begin(), chain.joints().end());
     const LinkMotion motion(cell.robot, joints, cell.rest, cell.stock_link);
     const std::vector<SolidBody> bodies = make_solid_bodies(cell.robot);
-    EXPECT_EQ(choose_pairs(cell, joints, motion, bodies).contacts, std::vector<std::string>{});
+    EXPECT_EQ(choose_pairs(cell, joints, motion, bodies).contacts, std::vector<LinkPair>{});
   }
 }
 
