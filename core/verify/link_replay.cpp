@@ -85,8 +85,8 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
   };
   if (grow == 0 || pair.first->kind != ShapeKind::mesh) return any_part(*pair.first, grow, touches);
   // Both are meshes. FCL fits boxes of its own to each part, which takes ten times as long as to leave it out.
-  return std::ranges::any_of(pair.first->cover.near(pair.second->cover, seen, grow),
-                             [&](const fcl::AABBd* box) { return use_box(*box, grow, touches); });
+  return pair.first->cover.any_near(pair.second->cover, seen, grow,
+                                    [&](const fcl::AABBd& box) { return use_box(box, grow, touches); });
 }
 
 bool LinkReplay::unsettled(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,

@@ -44,12 +44,12 @@ int CoverTree::add(std::vector<Triangle>& triangles, std::size_t begin, std::siz
   return added;
 }
 
-// The other tree as this one sees it, and what was found.
+// The other tree as this one sees it, and what is asked of its boxes.
 struct CoverTree::Sight {
   const CoverTree& other;
   const Frame& seen;
   double grow;
-  std::vector<const fcl::AABBd*>& found;
+  const std::function<bool(const fcl::AABBd&)>& use;
 
   const Node& at(int node) const { return other.nodes_[static_cast<std::size_t>(node)]; }
 
@@ -66,21 +66,17 @@ struct CoverTree::Sight {
 };
 
 // `others`: nodes that hold all of the other tree which may meet this node.
-void CoverTree::find(int node, const std::vector<int>& others, const Sight& sight) const {
+bool CoverTree::any_near(int node, const std::vector<int>& others, const Sight& sight) const {
   const Node& here = nodes_[static_cast<std::size_t>(node)];
-  const bool leaf = here.box_number >= 0;
+  if (here.box_number >= 0)
+    return std::ranges::any_of(others, [&](int other) { return sight.meets_leaf(here, sight.at(other)); }) &&
+           sight.use(boxes_[static_cast<std::size_t>(here.box_number)]);
   std::vector<int> open = others, near;
   while (!open.empty()) {
     const int other = open.back();
     const Node& there = sight.at(other);
     open.pop_back();
     if (!sight.meets(here, there)) continue;
-    if (leaf && (there.box_number >= 0 || sight.meets_leaf(here, sight.at(there.first)) ||
-                 sight.meets_leaf(here, sight.at(there.second)))) {
-      sight.found.push_back(&boxes_[static_cast<std::size_t>(here.box_number)]);
-      return;
-    }
-    if (leaf) continue;
     if (there.box_number >= 0 || there.half.squaredNorm() <= here.half.squaredNorm()) {
       near.push_back(other);
     } else {
@@ -88,15 +84,12 @@ void CoverTree::find(int node, const std::vector<int>& others, const Sight& sigh
       open.push_back(there.second);
     }
   }
-  if (near.empty()) return;
-  find(here.first, near, sight);
-  find(here.second, near, sight);
+  return !near.empty() && (any_near(here.first, near, sight) || any_near(here.second, near, sight));
 }
 
-std::vector<const fcl::AABBd*> CoverTree::near(const CoverTree& other, const Frame& seen, double grow) const {
-  std::vector<const fcl::AABBd*> found;
-  if (!nodes_.empty() && !other.nodes_.empty()) find(0, {0}, {other, seen, grow, found});
-  return found;
+bool CoverTree::any_near(const CoverTree& other, const Frame& seen, double grow,
+                         const std::function<bool(const fcl::AABBd&)>& use) const {
+  return !nodes_.empty() && !other.nodes_.empty() && any_near(0, {0}, {other, seen, grow, use});
 }
 
 }  // namespace sculpt

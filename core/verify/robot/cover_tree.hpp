@@ -4,6 +4,7 @@
 #include <fcl/fcl.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "core/cell/robot.hpp"
@@ -21,9 +22,11 @@ class CoverTree {
   /// The smallest ones; each holds up to 24 triangles.
   const std::vector<fcl::AABBd>& boxes() const { return boxes_; }
 
-  /// Those of `boxes()` that, grown by `grow` to all sides, meet some of the other's; `seen`: the other one's frame in
-  /// this one's. What is none of them is farther than `grow` from the other mesh.
-  std::vector<const fcl::AABBd*> near(const CoverTree& other, const Frame& seen, double grow) const;
+  /// Calls `use` for those of `boxes()` that, grown by `grow` to all sides, meet some of the other's, until it returns
+  /// true; returns whether it did. `seen`: the other one's frame in this one's. What is in none of them is farther than
+  /// `grow` from the other mesh.
+  bool any_near(const CoverTree& other, const Frame& seen, double grow,
+                const std::function<bool(const fcl::AABBd&)>& use) const;
 
  private:
   struct Node {
@@ -34,7 +37,7 @@ class CoverTree {
   struct Sight;
 
   int add(std::vector<Triangle>& triangles, std::size_t begin, std::size_t end);
-  void find(int node, const std::vector<int>& others, const Sight& sight) const;
+  bool any_near(int node, const std::vector<int>& others, const Sight& sight) const;
 
   std::vector<Node> nodes_;  ///< the first one holds all
   std::vector<fcl::AABBd> boxes_;

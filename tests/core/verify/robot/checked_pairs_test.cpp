@@ -74,6 +74,7 @@ struct Turning {
     cell.robot.links[0].shapes.push_back(cylinder_shape(Vec3(0, 0, 0.1), 0.05, 0.2));
     cell.robot.links[1].shapes.push_back(cylinder_shape(Vec3(0, 0, 0.05), 0.05, 0.1));
     cell.rest = {0};
+    cell.stock_link = 0;
   }
 
   CheckedPairs pairs() const {
