@@ -64,5 +64,26 @@ TEST(AnyCell, WithAShortToolGivesTheSameBytesAtAnyNumberOfThreads) {
   EXPECT_EQ(one.report.sweep->cut, two.report.sweep->cut);
 }
 
+// A bar on the upper arm that is in a plate on the shoulder along three quarters of the joint's travel, 0.3 m beside
+// its axis: the planner takes them for a bearing, the replay does not.
+TEST(AnyCell, WhatTheReplayWouldFindAtHomeIsRefusedBeforePlanning) {
+  Job job = job_for(shipped_cell_files("panda-turntable"), random_target(8, 1), 0);
+  std::string& urdf = job.cell.files.begin()->second;
+  const auto add = [&urdf](const std::string& link, const std::string& shape) {
+    const std::string head = "<link name=\"" + link + "\">";
+    urdf.insert(urdf.find(head) + head.size(), "<collision>" + shape + "</collision>");
+  };
+  add("link1", "<origin xyz='0.075 0.3 0'/><geometry><box size='0.09 0.02 0.24'/></geometry>");
+  add("link2", "<origin xyz='0.1 0 0.3'/><geometry><box size='0.02 0.02 0.02'/></geometry>");
+  try {
+    plan(job);
+    FAIL() << "it was planned";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), "cell_invalid");
+    EXPECT_NE(std::string(error.what()).find("link1 and link link2 touch at home"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("ignore_pairs"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace sculpt
