@@ -90,7 +90,7 @@ bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>
   };
   std::vector<Way> ways;
   for (const auto& field : held_->fields(mill_directions()[number], job_.home, run_)) {
-    auto floor = std::make_unique<const ReachFloor>(*field, around_, site, site.top() + room_around_m);
+    auto floor = std::make_unique<const ReachFloor>(*field, around_, site, site.top() + room_around_m, run_.helpers);
     const auto reached =
         std::ranges::count_if(places, [&](const Vec3& place) { return floor->allows(site.frame().of(place)); });
     if (reached > 0) ways.push_back({field.get(), std::move(floor), reached});
@@ -160,18 +160,14 @@ void Carver::go(FollowedMill followed) {
 std::optional<Vec3> Carver::find_hub(const Site& site, double height) const {
   const Lattice& lattice = site.lattice();
   const double u = lattice.u(lattice.width / 2), v = lattice.v(lattice.height / 2);
-  std::optional<Vec3> nearest;
-  double least = 0;
+  std::vector<Vec3> places;
   for (int b = 0; b < lattice.height; b += 4)
-    for (int a = 0; a < lattice.width; a += 4) {
-      const Vec3 at(lattice.u(a), lattice.v(b), height);
-      const double far = std::hypot(at.x() - u, at.y() - v);
-      if (nearest && far >= least) continue;
-      if (!floor_->allows(at) || site.clear_height(at, at, 0) > height) continue;
-      nearest = at;
-      least = far;
-    }
-  return nearest;
+    for (int a = 0; a < lattice.width; a += 4)
+      if (const Vec3 at(lattice.u(a), lattice.v(b), height); floor_->allows(at)) places.push_back(at);
+  std::ranges::stable_sort(places, {}, [&](const Vec3& at) { return std::hypot(at.x() - u, at.y() - v); });
+  const auto found =
+      std::ranges::find_if(places, [&](const Vec3& at) { return site.clear_height(at, at, 0) <= height; });
+  return found == places.end() ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace sculpt

@@ -227,7 +227,7 @@ double FacetColumns::rest_on(const Facet& facet, double u, double v, double radi
   return height;
 }
 
-double FacetColumns::rest_height(double u, double v, double radius, double from) const {
+double FacetColumns::rest_height(double u, double v, double radius, double from, double enough) const {
   const double r2 = radius * radius, from_u = u - low_u_, from_v = v - low_v_;
   double height = from;
   const auto look = [&](std::size_t cell, double lift) {
@@ -241,10 +241,11 @@ double FacetColumns::rest_height(double u, double v, double radius, double from)
     }
   };
   for_each_cell(u, u, v, v, [&](std::size_t cell, double, double) { look(cell, radius); });
+  if (height > enough) return height;
   for_each_cell(u - radius, u + radius, v - radius, v + radius, [&](std::size_t cell, double cell_u, double cell_v) {
     const double du = std::max({0.0, cell_u - u, u - cell_u - step_}),
                  dv = std::max({0.0, cell_v - v, v - cell_v - step_}), left = r2 - du * du - dv * dv;
-    if (left > 0) look(cell, std::sqrt(left));
+    if (left > 0 && height <= enough) look(cell, std::sqrt(left));
   });
   return height;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/mesh/mesh.hpp"
@@ -16,8 +17,10 @@ class FacetColumns {
  public:
   FacetColumns(const Mesh& part, const ToolFrame& frame);
 
-  /// The lowest the ball may be over (u, v), or `from` where that is higher: facets below it are not looked at.
-  double rest_height(double u, double v, double radius, double from) const;
+  /// The lowest the ball may be over (u, v), or `from` where that is higher: facets below it are not looked at. Where
+  /// it is above `enough`, any height above that which it may not be below.
+  double rest_height(double u, double v, double radius, double from,
+                     double enough = std::numeric_limits<double>::infinity()) const;
 
   /// Does it stay farther than `radius` from all facets on its straight way, the rod above it as well?
   bool is_clear(const Vec3& from, const Vec3& to, double radius) const;
