@@ -1,6 +1,7 @@
 #include "core/mill/carver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -140,19 +141,35 @@ std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
 }
 
 void Carver::go(FollowedMill followed) {
+  const QuantaPoint begin = quanta_of(*arm_.tip());
+  QuantaPoint from = begin;
+  for (const Keyframe& keyframe : followed.keyframes) {
+    trail_.push_back(point_of(from));
+    from = keyframe.mill->tip;
+  }
+  const auto for_each_cut = [&](const auto& visit) {
+    QuantaPoint at = begin;
+    for (Keyframe& keyframe : followed.keyframes) {
+      if (keyframe.cut) visit(*keyframe.mill, at);
+      at = keyframe.mill->tip;
+    }
+  };
   const bool is_ball = tool().cutter.kind == CutterKind::ball;
   const Vec3 to_middle = tool().cutter.radius_m * axis_;
-  QuantaPoint from = quanta_of(*arm_.tip());
-  for (Keyframe& keyframe : followed.keyframes) {
-    MillStep& step = *keyframe.mill;
-    trail_.push_back(point_of(from));
-    if (keyframe.cut) {
-      removed_ += step.removed = stock_.cut(*sweeps_, from, step.tip);
-      if (is_ball)
-        nails_.cut(point_of(from) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
-    }
-    from = step.tip;
-  }
+  const std::array<std::function<void()>, 3> changes{
+      [&] {
+        for_each_cut([&](MillStep& step, const QuantaPoint& at) {
+          removed_ += step.removed = stock_.remove(*sweeps_, at, step.tip);
+        });
+      },
+      [&] { for_each_cut([&](const MillStep& step, const QuantaPoint& at) { stock_.clear(*sweeps_, at, step.tip); }); },
+      [&] {
+        if (!is_ball) return;
+        for_each_cut([&](const MillStep& step, const QuantaPoint& at) {
+          nails_.cut(point_of(at) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
+        });
+      }};
+  run_.helpers.for_each_index(changes.size(), [&](std::size_t which) { changes[which](); });
   arm_.commit(std::move(followed));
 }
 

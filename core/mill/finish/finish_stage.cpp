@@ -76,7 +76,7 @@ class FinishStage {
         tried[nail] |= std::uint32_t{1} << direction;
       }
     Site& along = reach_.site(direction);
-    along.see(carver_.stock().standing(), job_.grid);
+    along.see(carver_.stock().standing(), job_.grid, run_.helpers);
     std::erase_if(wanted,
                   [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
     std::vector<Vec3> places;

@@ -149,18 +149,26 @@ HeightMap offset_by_disc(const HeightMap& stands, const Ring& ring, double more_
 
 }  // namespace
 
-HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m) {
+HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m,
+                          const Helpers* helpers) {
   const Lattice& lattice = stands.lattice;
+  std::vector<std::pair<int, HeightMap>> discs(rings.size(), {1, HeightMap(Lattice{})});
+  const auto offset = [&](std::size_t number) {
+    auto& [factor, disc] = discs[number];
+    while (rings[number].radius_m > 2 * factor * fine_cells * lattice.step) factor *= 2;
+    disc = offset_by_disc(factor == 1 ? stands : coarser(stands, factor), rings[number], more_m);
+  };
+  if (helpers != nullptr)
+    helpers->for_each_index(rings.size(), offset);
+  else
+    for (std::size_t number = 0; number < rings.size(); ++number) offset(number);
   HeightMap limit(lattice);
-  for (const Ring& ring : rings) {
-    int factor = 1;
-    while (ring.radius_m > 2 * factor * fine_cells * lattice.step) factor *= 2;
-    const HeightMap disc = offset_by_disc(factor == 1 ? stands : coarser(stands, factor), ring, more_m);
+  for (const auto& [factor, disc] : discs)
     for (int b = 0; b < lattice.height; ++b)
       for (int a = 0; a < lattice.width; ++a) limit.raise(a, b, disc.at(a / factor, b / factor));
-  }
   return limit;
 }
+
 HeightMap lowest_cut(const HeightMap& limit, const Cutter& cutter) {
   const Lattice& lattice = limit.lattice;
   HeightMap lowest(lattice);
