@@ -89,6 +89,8 @@ void mill_rows(std::string& table, const Json& report) {
         fixed(1e6 * tool.value("removed_m3", 0.0), 1, " cm3, ") + fixed(tool.value("cut_m", 0.0), 1, " m cut, ") +
             fixed(tool.value("travel_m", 0.0), 1, " m beside, ") + std::to_string(tool.value("keyframes", 0)) +
             " keyframes, " + std::to_string(tool.value("runs", 0)) + " runs");
+  for (const Json& cure : report.value("cures", Json::array()))
+    row(table, "  left", fixed(100 * cure.value("share", 0.0), 0, " %: ") + cure.value("cure", ""));
   if (!report.contains("surface")) return;
   const Json& surface = report["surface"];
   const auto excess_row = [&](const char* label, const Json& part) {

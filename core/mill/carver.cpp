@@ -1,6 +1,7 @@
 #include "core/mill/carver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -90,7 +91,7 @@ bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>
   };
   std::vector<Way> ways;
   for (const auto& field : held_->fields(mill_directions()[number], job_.home, run_)) {
-    auto floor = std::make_unique<const ReachFloor>(*field, around_, site, site.top() + room_around_m);
+    auto floor = std::make_unique<const ReachFloor>(*field, around_, site, site.top() + room_around_m, run_.helpers);
     const auto reached =
         std::ranges::count_if(places, [&](const Vec3& place) { return floor->allows(site.frame().of(place)); });
     if (reached > 0) ways.push_back({field.get(), std::move(floor), reached});
@@ -140,19 +141,35 @@ std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
 }
 
 void Carver::go(FollowedMill followed) {
+  const QuantaPoint begin = quanta_of(*arm_.tip());
+  QuantaPoint from = begin;
+  for (const Keyframe& keyframe : followed.keyframes) {
+    trail_.push_back(point_of(from));
+    from = keyframe.mill->tip;
+  }
+  const auto for_each_cut = [&](const auto& visit) {
+    QuantaPoint at = begin;
+    for (Keyframe& keyframe : followed.keyframes) {
+      if (keyframe.cut) visit(*keyframe.mill, at);
+      at = keyframe.mill->tip;
+    }
+  };
   const bool is_ball = tool().cutter.kind == CutterKind::ball;
   const Vec3 to_middle = tool().cutter.radius_m * axis_;
-  QuantaPoint from = quanta_of(*arm_.tip());
-  for (Keyframe& keyframe : followed.keyframes) {
-    MillStep& step = *keyframe.mill;
-    trail_.push_back(point_of(from));
-    if (keyframe.cut) {
-      removed_ += step.removed = stock_.cut(*sweeps_, from, step.tip);
-      if (is_ball)
-        nails_.cut(point_of(from) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
-    }
-    from = step.tip;
-  }
+  const std::array<std::function<void()>, 3> changes{
+      [&] {
+        for_each_cut([&](MillStep& step, const QuantaPoint& at) {
+          removed_ += step.removed = stock_.remove(*sweeps_, at, step.tip);
+        });
+      },
+      [&] { for_each_cut([&](const MillStep& step, const QuantaPoint& at) { stock_.clear(*sweeps_, at, step.tip); }); },
+      [&] {
+        if (!is_ball) return;
+        for_each_cut([&](const MillStep& step, const QuantaPoint& at) {
+          nails_.cut(point_of(at) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
+        });
+      }};
+  run_.helpers.for_each_index(changes.size(), [&](std::size_t which) { changes[which](); });
   arm_.commit(std::move(followed));
 }
 
@@ -160,18 +177,14 @@ void Carver::go(FollowedMill followed) {
 std::optional<Vec3> Carver::find_hub(const Site& site, double height) const {
   const Lattice& lattice = site.lattice();
   const double u = lattice.u(lattice.width / 2), v = lattice.v(lattice.height / 2);
-  std::optional<Vec3> nearest;
-  double least = 0;
+  std::vector<Vec3> places;
   for (int b = 0; b < lattice.height; b += 4)
-    for (int a = 0; a < lattice.width; a += 4) {
-      const Vec3 at(lattice.u(a), lattice.v(b), height);
-      const double far = std::hypot(at.x() - u, at.y() - v);
-      if (nearest && far >= least) continue;
-      if (!floor_->allows(at) || site.clear_height(at, at, 0) > height) continue;
-      nearest = at;
-      least = far;
-    }
-  return nearest;
+    for (int a = 0; a < lattice.width; a += 4)
+      if (const Vec3 at(lattice.u(a), lattice.v(b), height); floor_->allows(at)) places.push_back(at);
+  std::ranges::stable_sort(places, {}, [&](const Vec3& at) { return std::hypot(at.x() - u, at.y() - v); });
+  const auto found =
+      std::ranges::find_if(places, [&](const Vec3& at) { return site.clear_height(at, at, 0) <= height; });
+  return found == places.end() ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace sculpt

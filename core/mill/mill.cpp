@@ -35,6 +35,9 @@ MillResult mill(const MillJob& job, const std::function<void(std::vector<Keyfram
     result.tools.push_back(carver.figures());
   }
   result.left = carver.stock().left();
+  VoxelSet wanted = result.left;
+  wanted -= job.voxels.keep;
+  result.cures = find_cures(job, wanted, views, run);
   const Nails& nails = carver.nails();
   for (std::size_t at = 0; at < nails.size(); ++at)
     if (nails.is_reachable(at) || nails.excess(at) <= job.wishes.tolerance_m)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/run_context.hpp"
+#include "core/mill/left/cures.hpp"
 #include "core/mill/mill_job.hpp"
 #include "core/mill/tool_figures.hpp"
 #include "core/trajectory/keyframe.hpp"
@@ -14,6 +15,7 @@ namespace sculpt {
 struct MillResult {
   std::vector<ToolFigures> tools;
   VoxelSet left;                  ///< not removed at the end
+  std::vector<Cure> cures;        ///< of what of it was to be removed
   std::vector<double> reachable;  ///< at points that these tools can come to: what stands above the surface (m)
 };
 

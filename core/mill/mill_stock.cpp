@@ -26,13 +26,16 @@ MillSweeps::MillSweeps(const Cutter& cutter, const Direction& direction, double 
     : of_centres(cutter, direction, stray_m),
       of_cubes(cutter, direction, stray_m + voxel_m * std::numbers::sqrt3 / 2) {}
 
-std::uint32_t MillStock::cut(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to) {
+std::uint32_t MillStock::remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to) {
   std::uint32_t removed = 0;
   sweeps.of_centres.for_each_run(centres_, from, to, left_,
                                  [&](const SweptCutter::Run& run) { removed += take(left_, run); });
+  return removed;
+}
+
+void MillStock::clear(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to) {
   sweeps.of_cubes.for_each_run(centres_, from, to, standing_,
                                [&](const SweptCutter::Run& run) { take(standing_, run); });
-  return removed;
 }
 
 }  // namespace sculpt

@@ -19,13 +19,16 @@ struct MillSweeps {
   SweptCutter of_cubes;    ///< and holds nothing any more once all of its cube was swept by one motion
 };
 
-/// Two sets of voxels: those that are not removed, and those in which something may stand. Not shared between threads.
+/// Two sets of voxels: those that are not removed, and those in which something may stand. One thread may change the
+/// one while another changes the other.
 class MillStock {
  public:
   MillStock(const VoxelSet& stock, const Grid& grid) : grid_(grid), centres_(grid), left_(stock), standing_(stock) {}
 
   /// The cutter goes straight from one tip to the other. Gives the number of voxels that it removes.
-  std::uint32_t cut(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
+  std::uint32_t remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
+  /// The same for those in which nothing may stand any more.
+  void clear(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
 
   const Grid& grid() const { return grid_; }
   /// Not removed yet.

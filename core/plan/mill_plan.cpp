@@ -105,6 +105,7 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
       milled, [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, run);
   report.plan_sha256 = output.finish().sha256;
   report.tools = done.tools;
+  report.cures = done.cures;
   count_path(report, output.figures(), result.grid.voxel_m, 0);
   result.residue = find_residue(result.voxels, done.left);
   count_residue(report, result.residue);

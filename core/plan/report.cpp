@@ -86,6 +86,12 @@ std::string report_json(const Report& report) {
                              {"keyframes", tool.keyframes},
                              {"runs", tool.runs},
                              {"engagement", {{"mean", tool.engagement.mean}, {"max", tool.engagement.largest}}}});
+  for (const Cure& cure : report.cures)
+    json["cures"].push_back({{"obstacle", name(cure.obstacle)},
+                             {"share", cure.share},
+                             {"diameter_m", cure.diameter_m},
+                             {"free_m", cure.free_m},
+                             {"cure", cure.sentence()}});
   if (const auto& surface = report.surface) {
     json["surface"] = json_of(surface->all);
     json["surface"]["reachable"] = json_of(surface->reachable);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mill/left/cures.hpp"
 #include "core/mill/tool_figures.hpp"
 #include "core/motion/residue.hpp"
 #include "core/sweep/sweep.hpp"
@@ -50,6 +51,7 @@ struct Report {
   } path;
   std::optional<SweepFigures> sweep;  ///< where the job was planned so
   std::vector<ToolFigures> tools;     ///< of a job that names some
+  std::vector<Cure> cures;            ///< of what those left
   std::optional<SurfaceFigures> surface;
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.

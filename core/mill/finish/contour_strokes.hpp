@@ -1,6 +1,7 @@
 // Contours over the part -> strokes of the tip, one contour after the other.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/mill/drive/mill_stroke.hpp"
@@ -38,6 +39,8 @@ class ContourStrokes {
   /// Where the tip is after them (tool frame).
   const Vec3& at() const { return at_; }
   const std::vector<MillStroke>& strokes() const { return strokes_; }
+  /// Those that were laid since the last time; what comes goes on from there.
+  std::vector<MillStroke> take_strokes() { return std::exchange(strokes_, {}); }
 
  private:
   void add(const Contour& contour);

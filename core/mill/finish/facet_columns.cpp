@@ -59,6 +59,18 @@ double segment_distance2(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3
   return (r + s * d - t * e).squaredNorm();
 }
 
+/// How far a value is outside of a range.
+double outside(double value, double low, double high) {
+  return std::max({0.0, low - value, value - high});
+}
+
+float below(double value) {
+  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
+float above(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
 /// Between two points in plan.
 double plan_distance2(const Vec3& a, const Vec3& b) {
   return (a - b).head<2>().squaredNorm();
@@ -169,10 +181,22 @@ FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
   };
   for (const Facet& facet : facets_) visit_cells(facet, [&](std::size_t cell) { ++begin_[cell + 1]; });
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
-  numbers_.resize(begin_.back());
+  listed_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (const std::uint32_t number : order)
-    visit_cells(facets_[number], [&](std::size_t cell) { numbers_[next[cell]++] = number; });
+  for (const std::uint32_t number : order) {
+    const Listed facet = listed(number);
+    visit_cells(facets_[number], [&](std::size_t cell) { listed_[next[cell]++] = facet; });
+  }
+}
+
+FacetColumns::Listed FacetColumns::listed(std::uint32_t facet) const {
+  const auto& c = facets_[facet].corners;
+  return {below(std::min({c[0].x(), c[1].x(), c[2].x()}) - low_u_),
+          above(std::max({c[0].x(), c[1].x(), c[2].x()}) - low_u_),
+          below(std::min({c[0].y(), c[1].y(), c[2].y()}) - low_v_),
+          above(std::max({c[0].y(), c[1].y(), c[2].y()}) - low_v_),
+          facets_[facet].top,
+          facet};
 }
 
 /// Calls `visit(cell, low u, low v)`.
@@ -203,21 +227,25 @@ double FacetColumns::rest_on(const Facet& facet, double u, double v, double radi
   return height;
 }
 
-double FacetColumns::rest_height(double u, double v, double radius, double from) const {
-  const double r2 = radius * radius;
+double FacetColumns::rest_height(double u, double v, double radius, double from, double enough) const {
+  const double r2 = radius * radius, from_u = u - low_u_, from_v = v - low_v_;
   double height = from;
   const auto look = [&](std::size_t cell, double lift) {
     for (std::uint32_t at = begin_[cell]; at < begin_[cell + 1]; ++at) {
-      const Facet& facet = facets_[numbers_[at]];
+      const Listed& facet = listed_[at];
       if (facet.top + lift <= height) return;
-      height = rest_on(facet, u, v, radius, height);
+      const double off_u = outside(from_u, facet.low_u, facet.high_u),
+                   off_v = outside(from_v, facet.low_v, facet.high_v), left = r2 - off_u * off_u - off_v * off_v;
+      if (left < 0 || (height > facet.top && (height - facet.top) * (height - facet.top) >= left)) continue;
+      height = rest_on(facets_[facet.facet], u, v, radius, height);
     }
   };
   for_each_cell(u, u, v, v, [&](std::size_t cell, double, double) { look(cell, radius); });
+  if (height > enough) return height;
   for_each_cell(u - radius, u + radius, v - radius, v + radius, [&](std::size_t cell, double cell_u, double cell_v) {
     const double du = std::max({0.0, cell_u - u, u - cell_u - step_}),
                  dv = std::max({0.0, cell_v - v, v - cell_v - step_}), left = r2 - du * du - dv * dv;
-    if (left > 0) look(cell, std::sqrt(left));
+    if (left > 0 && height <= enough) look(cell, std::sqrt(left));
   });
   return height;
 }
@@ -227,8 +255,22 @@ bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) con
   const double r2 = radius * radius, lowest = std::min(from.z(), to.z());
   const double low_u = std::min(from.x(), to.x()), high_u = std::max(from.x(), to.x());
   const double low_v = std::min(from.y(), to.y()), high_v = std::max(from.y(), to.y());
-  const double beyond = radius + rounding_m;
+  const double beyond = radius + rounding_m, beyond2 = beyond * beyond;
   const auto lower_of = [](const Vec3& n, const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b) ? a : b; };
+  const Vec3 way = to - from;
+  const double length = way.head<2>().norm();
+  const Point2 across = length > 0 ? Point2(-way.y() / length, way.x() / length) : Point2::Zero();
+  const double begin_across = across.dot(from.head<2>() - Point2(low_u_, low_v_));
+  // In plan, of the box around a facet from the way: no farther than this.
+  const auto plan_off2 = [&](const Listed& facet) {
+    const double off_u = std::max({0.0, facet.low_u - (high_u - low_u_), low_u - low_u_ - facet.high_u}),
+                 off_v = std::max({0.0, facet.low_v - (high_v - low_v_), low_v - low_v_ - facet.high_v});
+    const double middle = across.x() * (facet.low_u + facet.high_u) / 2 + across.y() * (facet.low_v + facet.high_v) / 2,
+                 half = std::abs(across.x()) * (facet.high_u - facet.low_u) / 2 +
+                        std::abs(across.y()) * (facet.high_v - facet.low_v) / 2;
+    const double aside = std::max(0.0, std::abs(middle - begin_across) - half);
+    return std::max(off_u * off_u + off_v * off_v, aside * aside);
+  };
   bool clear = true;
   for_each_cell(low_u - radius, high_u + radius, low_v - radius, high_v + radius,
                 [&](std::size_t cell, double cell_u, double cell_v) {
@@ -238,8 +280,12 @@ bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) con
                   if (left <= 0) return;
                   const double lift = std::sqrt(left);
                   for (std::uint32_t at = begin_[cell]; clear && at < begin_[cell + 1]; ++at) {
-                    const Facet& facet = facets_[numbers_[at]];
-                    if (facet.top + lift <= lowest) return;
+                    const Listed& listed = listed_[at];
+                    if (listed.top + lift <= lowest) return;
+                    const double off2 = plan_off2(listed);
+                    if (off2 > beyond2) continue;
+                    if (lowest > listed.top && (lowest - listed.top) * (lowest - listed.top) + off2 > beyond2) continue;
+                    const Facet& facet = facets_[listed.facet];
                     // All of it is above the facet's plane, and farther from it: normals look upwards.
                     const Vec3& n = facet.normal;
                     if (n.dot(lower_of(n, from, to) - facet.corners[0]) > beyond) continue;

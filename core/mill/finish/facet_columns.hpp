@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/mesh/mesh.hpp"
@@ -16,8 +17,10 @@ class FacetColumns {
  public:
   FacetColumns(const Mesh& part, const ToolFrame& frame);
 
-  /// The lowest the ball may be over (u, v), or `from` where that is higher: facets below it are not looked at.
-  double rest_height(double u, double v, double radius, double from) const;
+  /// The lowest the ball may be over (u, v), or `from` where that is higher: facets below it are not looked at. Where
+  /// it is above `enough`, any height above that which it may not be below.
+  double rest_height(double u, double v, double radius, double from,
+                     double enough = std::numeric_limits<double>::infinity()) const;
 
   /// Does it stay farther than `radius` from all facets on its straight way, the rod above it as well?
   bool is_clear(const Vec3& from, const Vec3& to, double radius) const;
@@ -28,6 +31,13 @@ class FacetColumns {
     Vec3 normal;  ///< unit, not downwards
     double top;
   };
+  /// A facet as a cell lists it: what is around it in plan, rounded outwards (m, from the corner of the first cell).
+  struct Listed {
+    float low_u, high_u, low_v, high_v;
+    double top;
+    std::uint32_t facet;
+  };
+  Listed listed(std::uint32_t facet) const;
   static double rest_on(const Facet& facet, double u, double v, double radius, double height);
   template <typename Visit>
   void for_each_cell(double low_u, double high_u, double low_v, double high_v, const Visit& visit) const;
@@ -35,7 +45,8 @@ class FacetColumns {
   double low_u_ = 0, low_v_ = 0, step_ = 1;
   int width_ = 0, height_ = 0;
   std::vector<Facet> facets_;
-  std::vector<std::uint32_t> begin_, numbers_;  ///< of each cell: its part of `numbers_`, the highest first
+  std::vector<std::uint32_t> begin_;  ///< of each cell: its part of `listed_`
+  std::vector<Listed> listed_;        ///< of each cell, the highest first
 };
 
 }  // namespace sculpt

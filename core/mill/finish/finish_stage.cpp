@@ -18,7 +18,7 @@ constexpr int rounds = 3;
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
-constexpr std::size_t strokes_a_batch = 4000, looked_at = 6;
+constexpr std::size_t strokes_a_batch = 1000, looked_at = 6;
 constexpr int max_failures = 100;
 
 class FinishStage {
@@ -76,7 +76,7 @@ class FinishStage {
         tried[nail] |= std::uint32_t{1} << direction;
       }
     Site& along = reach_.site(direction);
-    along.see(carver_.stock().standing(), job_.grid);
+    along.see(carver_.stock().standing(), job_.grid, run_.helpers);
     std::erase_if(wanted,
                   [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
     std::vector<Vec3> places;
@@ -131,6 +131,10 @@ class FinishStage {
     Contour contour;
     std::size_t begin;
   };
+  struct Batch {
+    std::vector<MillStroke> strokes;
+    std::vector<Laid> contours;  ///< in the order of their strokes
+  };
 
   /// The nearest that the tip comes to along the surface; else the nearest.
   static Contour lay_next(std::vector<Contour>& contours, ContourStrokes& laid) {
@@ -147,27 +151,42 @@ class FinishStage {
     return contour;
   }
 
+  static Batch lay_batch(std::vector<Contour>& contours, ContourStrokes& laid) {
+    Batch batch;
+    while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
+      const std::size_t begin = laid.strokes().size();
+      batch.contours.push_back({lay_next(contours, laid), begin});
+    }
+    batch.strokes = laid.take_strokes();
+    return batch;
+  }
+
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
     double min_height = -std::numeric_limits<double>::infinity();
-    for (int failures = 0; !contours.empty() && failures < max_failures;) {
+    for (int failures = 0; !contours.empty() && failures < max_failures; ++failures) {
       ContourStrokes laid(
           {site, task, radius_m_, chip_m2(), job_.wishes.stray_m(), beside_spacings * spacing_m_, min_height},
           see_stock(site), carver_.tip(site));
-      std::vector<Laid> batch;
-      while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
-        const std::size_t begin = laid.strokes().size();
-        batch.push_back({lay_next(contours, laid), begin});
+      Batch batch, ahead = lay_batch(contours, laid);
+      std::size_t done = 0;
+      while (!ahead.contours.empty() && done == batch.strokes.size()) {
+        batch = std::exchange(ahead, {});
+        // While the arm follows, the next one is laid; it counts on this one.
+        run_.helpers.for_each_index(2, [&](std::size_t which) {
+          if (which == 0)
+            done = carver_.carry_out(batch.strokes);
+          else
+            ahead = lay_batch(contours, laid);
+        });
       }
-      const std::vector<MillStroke>& strokes = laid.strokes();
-      const std::size_t done = carver_.carry_out(strokes);
-      if (done == strokes.size()) continue;
-      ++failures;
+      if (done == batch.strokes.size()) return;
       // What was to come after the one that failed is planned anew; the one itself once more from above.
-      auto failed = std::ranges::upper_bound(batch, done, {}, &Laid::begin) - 1;
-      const bool again = !strokes[done].cut && min_height < carver_.hub().z();
+      auto failed = std::ranges::upper_bound(batch.contours, done, {}, &Laid::begin) - 1;
+      const bool again = !batch.strokes[done].cut && min_height < carver_.hub().z();
       min_height = again ? carver_.hub().z() : min_height;
       if (!again) ++failed;
-      for (; failed != batch.end(); ++failed) contours.push_back(std::move(failed->contour));
+      for (; failed != batch.contours.end(); ++failed) contours.push_back(std::move(failed->contour));
+      for (Laid& next : ahead.contours) contours.push_back(std::move(next.contour));
       carver_.draw_back(site);
     }
   }

@@ -74,17 +74,30 @@ void NailReach::find(double below, double from) {
 }
 
 bool NailReach::is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const {
-  return left_at_rest(nail, site, columns) <= job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
+  return leaves_no_more(job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m, nail, site, columns);
 }
 
-/// What a cutter at rest leaves of what stands on a nail; infinite where it may not be.
-double NailReach::left_at_rest(std::size_t nail, const Site& site, const FacetColumns& columns) const {
+/// Does a cutter at rest leave no more of what stands on a nail? No where it may not be.
+bool NailReach::leaves_no_more(double most_m, std::size_t nail, const Site& site, const FacetColumns& columns) const {
   const Vec3 middle = middle_over(nail, site.frame());
-  if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return std::numeric_limits<double>::infinity();
+  if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return false;
+  const Vec3 normal = site.frame().of(nails_[nail].normal);
   const double height = columns.rest_height(middle.x(), middle.y(), radius_m_ + job_.wishes.allowance_m - rest_slack_m,
-                                            middle.z() - rest_slack_m);
-  return way_to_ball(site.frame().of(nails_[nail].point), site.frame().of(nails_[nail].normal),
-                     {middle.x(), middle.y(), height}, radius_m_);
+                                            middle.z() - rest_slack_m,
+                                            middle.z() + highest_above(nail, most_m, normal.z()) + rest_slack_m);
+  return way_to_ball(site.frame().of(nails_[nail].point), normal, {middle.x(), middle.y(), height}, radius_m_) <=
+         most_m;
+}
+
+/// Raised more than this above its place on a nail or beside it, a ball leaves more than `most_m`. Along the normal its
+/// middle is r + allowance + d cos from the nail, across it d sin and what it is aside; it leaves `most_m` where
+/// (r + allowance - most_m + d cos)^2 + (d sin - aside)^2 = r^2.
+double NailReach::highest_above(std::size_t nail, double most_m, double cosine) const {
+  const double aside = static_cast<double>(aside_[nail].norm()), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const double along = radius_m_ + job_.wishes.allowance_m - most_m;
+  const double half = along * cosine - sine * aside,
+               root = half * half - along * along - aside * aside + radius_m_ * radius_m_;
+  return root < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(root) - half;
 }
 
 void NailReach::find_beside(double from) {
@@ -108,7 +121,7 @@ void NailReach::find_beside(std::size_t nail, double from, double far, const Vie
     aside_[nail] = (far * (std::cos(angle) * side + std::sin(angle) * other)).cast<float>();
     for (std::size_t direction = 0; direction < frames_.size(); ++direction)
       if (cosine(nail, direction) >= from &&
-          left_at_rest(nail, *sites_[direction], *columns[direction]) <= job_.wishes.tolerance_m)
+          leaves_no_more(job_.wishes.tolerance_m, nail, *sites_[direction], *columns[direction]))
         along_[nail] |= std::uint32_t{1} << direction;
   }
   if (along_[nail] == 0) aside_[nail].setZero();

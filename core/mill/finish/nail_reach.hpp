@@ -44,7 +44,8 @@ class NailReach {
   using Views = std::vector<std::shared_ptr<const FacetColumns>>;
 
   bool is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const;
-  double left_at_rest(std::size_t nail, const Site& site, const FacetColumns& columns) const;
+  bool leaves_no_more(double most_m, std::size_t nail, const Site& site, const FacetColumns& columns) const;
+  double highest_above(std::size_t nail, double most_m, double cosine) const;
   void find_beside(std::size_t nail, double from, double far, const Views& columns);
 
   const MillJob& job_;

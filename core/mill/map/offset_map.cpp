@@ -19,52 +19,76 @@ double min_distance(int da, int db, double step) {
   return step * std::hypot(std::max(0, std::abs(da) - 1), std::max(0, std::abs(db) - 1));
 }
 
-/// to[a] = max(to[a], from[a + da] - less), where both are.
-void raise_row(float* to, const float* from, int width, int da, float less) {
-  const int first = std::max(0, -da), last = std::min(width, width - da);
+/// The cells in which something stands.
+struct Filled {
+  int first_a, last_a, first_b, last_b;
+};
+
+Filled filled_of(const HeightMap& map) {
+  const Lattice& lattice = map.lattice;
+  Filled filled{lattice.width, -1, lattice.height, -1};
+  for (int b = 0; b < lattice.height; ++b) {
+    const float* row = &map.heights[lattice.index(0, b)];
+    const float* end = row + lattice.width;
+    const auto stands = [](float height) { return height > no_height; };
+    const float* first = std::find_if(row, end, stands);
+    if (first == end) continue;
+    while (!stands(*(end - 1))) --end;
+    filled = {std::min(filled.first_a, static_cast<int>(first - row)),
+              std::max(filled.last_a, static_cast<int>(end - row) - 1), std::min(filled.first_b, b), b};
+  }
+  return filled;
+}
+
+/// to[a] = max(to[a], from[a + da] - less), where something stands.
+void raise_row(float* to, const float* from, int width, const Filled& filled, int da, float less) {
+  const int first = std::max(0, filled.first_a - da), last = std::min(width, filled.last_a + 1 - da);
   for (int a = first; a < last; ++a) to[a] = std::max(to[a], from[a + da] - less);
 }
 
-/// Maxima over 2^k cells from each one on, for k from 0 up.
+/// Maxima over 2^k cells around each one, for k from 0 up, where something stands.
 class WindowMaxima {
  public:
-  WindowMaxima(const HeightMap& map, int widest) : width_(map.lattice.width) {
-    levels_.push_back(map.heights);
-    from_begin_ = map.heights;
-    for (int b = 0; b < map.lattice.height; ++b)
-      for (int a = 1; a < width_; ++a) {
-        float& here = from_begin_[map.lattice.index(a, b)];
-        here = std::max(here, from_begin_[map.lattice.index(a - 1, b)]);
-      }
-    for (int length = 1; 2 * length <= widest; length *= 2) {
+  WindowMaxima(const HeightMap& map, int widest)
+      : filled_(filled_of(map)), width_(filled_.last_a - filled_.first_a + 1) {
+    const int rows = filled_.last_b - filled_.first_b + 1;
+    if (width_ <= 0) return;
+    // Rows with so much air on both sides that a window may go beyond them.
+    room_ = widest;
+    stride_ = static_cast<std::size_t>(width_ + 2 * room_);
+    std::vector<float> all(stride_ * static_cast<std::size_t>(rows), no_height);
+    for (int b = 0; b < rows; ++b)
+      std::copy_n(&map.heights[map.lattice.index(filled_.first_a, b + filled_.first_b)], width_,
+                  all.begin() + static_cast<std::ptrdiff_t>(stride_) * b + room_);
+    levels_.push_back(std::move(all));
+    for (std::size_t length = 1; 2 * length <= static_cast<std::size_t>(widest); length *= 2) {
       const std::vector<float>& half = levels_.back();
-      std::vector<float> whole(half.size(), no_height);
-      for (int b = 0; b < map.lattice.height; ++b) {
-        const float* from = half.data() + static_cast<std::ptrdiff_t>(b) * width_;
-        float* to = whole.data() + static_cast<std::ptrdiff_t>(b) * width_;
-        for (int a = 0; a < width_; ++a) to[a] = a + length < width_ ? std::max(from[a], from[a + length]) : from[a];
-      }
+      std::vector<float> whole = half;
+      for (std::size_t at = 0; at + length < half.size(); ++at) whole[at] = std::max(half[at], half[at + length]);
       levels_.push_back(std::move(whole));
     }
   }
 
-  /// to[a] = max(to[a], the maximum of row b over a - half .. a + half, less `less`).
-  void raise_row(float* to, int b, int half, float less) const {
+  const Filled& filled() const { return filled_; }
+
+  /// to[a] = max(to[a], the maximum of row b over a - half .. a + half, less `less`), for a below `width`.
+  void raise_row(float* to, int width, int b, int half, float less) const {
     std::size_t level = 0;
     int length = 1;
     while (2 * length <= 2 * half + 1) length *= 2, ++level;
-    const auto begin = static_cast<std::ptrdiff_t>(b) * width_;
-    const float *row = levels_[level].data() + begin, *so_far = from_begin_.data() + begin;
-    const int shift = half - length + 1, whole = std::min(half, width_);  // shift: of the second window's begin
-    for (int a = 0; a < whole; ++a) to[a] = std::max(to[a], so_far[std::min(width_ - 1, a + half)] - less);
-    for (int a = whole; a < width_; ++a)
-      to[a] = std::max(to[a], std::max(row[a - half], row[std::min(width_ - 1, a + shift)]) - less);
+    const int first = std::max(0, filled_.first_a - half), last = std::min(width - 1, filled_.last_a + half);
+    const float* left = levels_[level].data() + static_cast<std::ptrdiff_t>(stride_) * (b - filled_.first_b) + room_ +
+                        (first - half - filled_.first_a);
+    const float* right = left + (2 * half + 1 - length);
+    to += first;
+    for (int at = 0; at <= last - first; ++at) to[at] = std::max(to[at], std::max(left[at], right[at]) - less);
   }
 
  private:
-  int width_;
-  std::vector<std::vector<float>> levels_;  ///< a window that goes beyond the row ends with it
-  std::vector<float> from_begin_;           ///< of the row, up to each cell
+  Filled filled_;
+  int width_, room_ = 0;
+  std::size_t stride_ = 0;
+  std::vector<std::vector<float>> levels_;  ///< the window that begins at each cell
 };
 
 }  // namespace
@@ -78,14 +102,15 @@ HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double
   Cutter grown = cutter;
   grown.radius_m += more_m;
   grown.corner_radius_m += more_m;
+  const Filled filled = filled_of(stands);
   for (int db = -reach; db <= reach; ++db)
     for (int da = -reach; da <= reach; ++da) {
       const double r = min_distance(da, db, step);
       if (r > grown.radius_m) continue;
       const float less = below(grown.height_m(r) - more_m);
-      for (int b = std::max(0, -db); b < std::min(lattice.height, lattice.height - db); ++b)
-        raise_row(&limit.heights[lattice.index(0, b)], &stands.heights[lattice.index(0, b + db)], lattice.width, da,
-                  less);
+      for (int b = std::max(0, filled.first_b - db); b < std::min(lattice.height, filled.last_b + 1 - db); ++b)
+        raise_row(&limit.heights[lattice.index(0, b)], &stands.heights[lattice.index(0, b + db)], lattice.width, filled,
+                  da, less);
     }
   return limit;
 }
@@ -115,26 +140,35 @@ HeightMap offset_by_disc(const HeightMap& stands, const Ring& ring, double more_
     int half = reach;
     while (half >= 0 && min_distance(half, db, step) > ring.radius_m + more_m) --half;
     if (half < 0) continue;
-    for (int b = std::max(0, -db); b < std::min(lattice.height, lattice.height - db); ++b)
-      maxima.raise_row(&limit.heights[lattice.index(0, b)], b + db, half, less);
+    const Filled& filled = maxima.filled();
+    for (int b = std::max(0, filled.first_b - db); b < std::min(lattice.height, filled.last_b + 1 - db); ++b)
+      maxima.raise_row(&limit.heights[lattice.index(0, b)], lattice.width, b + db, half, less);
   }
   return limit;
 }
 
 }  // namespace
 
-HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m) {
+HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m,
+                          const Helpers* helpers) {
   const Lattice& lattice = stands.lattice;
+  std::vector<std::pair<int, HeightMap>> discs(rings.size(), {1, HeightMap(Lattice{})});
+  const auto offset = [&](std::size_t number) {
+    auto& [factor, disc] = discs[number];
+    while (rings[number].radius_m > 2 * factor * fine_cells * lattice.step) factor *= 2;
+    disc = offset_by_disc(factor == 1 ? stands : coarser(stands, factor), rings[number], more_m);
+  };
+  if (helpers != nullptr)
+    helpers->for_each_index(rings.size(), offset);
+  else
+    for (std::size_t number = 0; number < rings.size(); ++number) offset(number);
   HeightMap limit(lattice);
-  for (const Ring& ring : rings) {
-    int factor = 1;
-    while (ring.radius_m > 2 * factor * fine_cells * lattice.step) factor *= 2;
-    const HeightMap disc = offset_by_disc(factor == 1 ? stands : coarser(stands, factor), ring, more_m);
+  for (const auto& [factor, disc] : discs)
     for (int b = 0; b < lattice.height; ++b)
       for (int a = 0; a < lattice.width; ++a) limit.raise(a, b, disc.at(a / factor, b / factor));
-  }
   return limit;
 }
+
 HeightMap lowest_cut(const HeightMap& limit, const Cutter& cutter) {
   const Lattice& lattice = limit.lattice;
   HeightMap lowest(lattice);

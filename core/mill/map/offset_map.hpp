@@ -6,6 +6,7 @@
 // Both are bounds for whole cells: T is never too low.
 #pragma once
 
+#include "core/base/helpers.hpp"
 #include "core/mill/map/assembly.hpp"
 #include "core/mill/map/height_map.hpp"
 
@@ -14,8 +15,10 @@ namespace sculpt {
 /// For the cutter, grown by `more_m` on all sides.
 HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double more_m);
 
-/// For the body above the cutter, grown by `more_m` on all sides.
-HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m);
+/// For the body above the cutter, grown by `more_m` on all sides; its rings on several threads where `helpers` are
+/// given.
+HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& rings, double more_m,
+                          const Helpers* helpers = nullptr);
 
 /// Of each cell how low a cutter comes to all of it whose tip goes to the middle of every cell, as low as `limit` lets
 /// it.

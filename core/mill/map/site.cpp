@@ -23,9 +23,9 @@ Site::Site(const ToolFrame& frame, const Lattice& lattice, const Assembly& assem
       margins_(margins),
       limit_(lattice),
       beside_(lattice),
-      lowest_cut_(lattice),
       stands_(lattice),
-      body_limit_(lattice) {
+      body_limit_(lattice),
+      lowest_cut_(Lattice{}) {
   HeightMap solid(lattice);
   raise(solid, fixtures, frame);
   beside_ = offset_by_cutter(solid, cutter_, margins.body_m);
@@ -33,12 +33,11 @@ Site::Site(const ToolFrame& frame, const Lattice& lattice, const Assembly& assem
   raise_to(beside_, offset_by_rings(solid, rings_, margins.body_m));
   limit_ = offset_by_cutter(solid, cutter_, margins.cutter_m);
   raise_to(limit_, beside_);
-  lowest_cut_ = sculpt::lowest_cut(limit_, cutter_);
 }
 
-void Site::see(const VoxelSet& standing, const Grid& grid) {
+void Site::see(const VoxelSet& standing, const Grid& grid, const Helpers& helpers) {
   stands_ = heights_of(standing, grid, frame_, limit_.lattice);
-  body_limit_ = offset_by_rings(stands_, rings_, margins_.body_m);
+  body_limit_ = offset_by_rings(stands_, rings_, margins_.body_m, &helpers);
 }
 
 double Site::clear_height(const Vec3& from, const Vec3& to, double clearance_m) const {

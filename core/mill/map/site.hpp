@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <mutex>
 
 #include "core/material/voxel_set.hpp"
 #include "core/mesh/mesh.hpp"
@@ -28,7 +29,7 @@ class Site {
   const HeightMap& limit() const { return limit_; }
 
   /// What stands from now on; less than before.
-  void see(const VoxelSet& standing, const Grid& grid);
+  void see(const VoxelSet& standing, const Grid& grid, const Helpers& helpers);
   /// The top of what stands.
   const HeightMap& stands() const { return stands_; }
   /// The tip may not be lower, for what the body would touch of it.
@@ -43,15 +44,21 @@ class Site {
   /// `clearance_m` above all that the cutter could.
   double clear_height(const Vec3& from, const Vec3& to, double clearance_m) const;
 
-  /// Of each cell how low the cutter comes to it, once no stock is in the body's way.
-  const HeightMap& lowest_cut() const { return lowest_cut_; }
+  /// Of each cell how low the cutter comes to it, once no stock is in the body's way; found when first asked for. Any
+  /// thread.
+  const HeightMap& lowest_cut() const {
+    std::call_once(lowest_cut_is_found_, [this] { lowest_cut_ = sculpt::lowest_cut(limit_, cutter_); });
+    return lowest_cut_;
+  }
 
  private:
   ToolFrame frame_;
   Cutter cutter_;
   std::vector<Ring> rings_;
   SiteMargins margins_;
-  HeightMap limit_, beside_, lowest_cut_, stands_, body_limit_;
+  HeightMap limit_, beside_, stands_, body_limit_;
+  mutable std::once_flag lowest_cut_is_found_;
+  mutable HeightMap lowest_cut_;
 };
 
 }  // namespace sculpt

@@ -82,7 +82,7 @@ class RoughStage {
 
   void rough_along(std::size_t number) {
     const auto site = carver_.make_site(number, margins(), step_m());
-    site->see(stock().standing(), job_.grid);
+    site->see(stock().standing(), job_.grid, run_.helpers);
     if (!carver_.enter(number, *site, places_left(number))) return;
     const ToolFrame& frame = site->frame();
     StockTop surface = surface_of(*site);
@@ -119,7 +119,7 @@ class RoughStage {
 
   void rough_level_along(Site& site, StockTop& surface, double height) {
     if (!is_worth_it(site, surface, height)) return;
-    site.see(stock().standing(), job_.grid);
+    site.see(stock().standing(), job_.grid, run_.helpers);
     std::vector<char> free = free_cells(site, height, [this](const Vec3& at) { return carver_.reach().allows(at); });
     double min_height = height;
     for (int failures = 0; failures < max_failures; ++failures) {
@@ -134,7 +134,7 @@ class RoughStage {
       for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
                          [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });
       if (done == 0) carver_.draw_back(site);
-      site.see(stock().standing(), job_.grid);
+      site.see(stock().standing(), job_.grid, run_.helpers);
       surface = surface_of(site);
     }
   }

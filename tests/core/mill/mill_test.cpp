@@ -61,6 +61,9 @@ TEST(Mill, CarvesABustAndIsClean) {
   EXPECT_GT(reachable.points, report.surface->all.points / 4);
   EXPECT_GT(reachable.within_tolerance, reachable.points * 95 / 100);
   EXPECT_LT(reachable.p50_m, 1e-4);
+  double shares = 0;
+  for (const Cure& cure : report.cures) shares += cure.share;
+  EXPECT_NEAR(shares, report.voxels.residue > 0 ? 1 : 0, 1e-9);
 }
 
 TEST(Mill, GivesTheSameBytesAtAnyNumberOfThreads) {
