@@ -10,6 +10,7 @@
 #include "core/mill/tool_figures.hpp"
 #include "core/motion/residue.hpp"
 #include "core/sweep/sweep.hpp"
+#include "core/timing/time_figures.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
 
 namespace sculpt {
@@ -51,6 +52,7 @@ struct Report {
   std::optional<SweepFigures> sweep;  ///< where the job was planned so
   std::vector<ToolFigures> tools;     ///< of a job that names some
   std::optional<SurfaceFigures> surface;
+  std::optional<TimeFigures> time;  ///< of a clean plan that was to be timed
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.
   struct {
