@@ -128,6 +128,24 @@ void refuse_beside_continue(Fields& fields) {
 
 }  // namespace
 
+// Whether they make sense is the planner's to say (`feed_invalid`).
+MotionSpec read_motion(Fields fields) {
+  MotionSpec spec;
+  if (fields.has("feed_m_s")) spec.feed_m_s = fields.number("feed_m_s", -huge, huge);
+  if (fields.has("rapid_m_s")) spec.rapid_m_s = fields.number("rapid_m_s", -huge, huge);
+  if (fields.has("keep_feed")) spec.keep_feed = fields.number("keep_feed", -huge, huge);
+  fields.done();
+  return spec;
+}
+
+Json to_json(const MotionSpec& spec) {
+  Json json = Json::object();
+  if (spec.feed_m_s) json["feed_m_s"] = *spec.feed_m_s;
+  if (spec.rapid_m_s != MotionSpec{}.rapid_m_s) json["rapid_m_s"] = spec.rapid_m_s;
+  if (spec.keep_feed) json["keep_feed"] = *spec.keep_feed;
+  return json;
+}
+
 CellRef read_robot(Fields& fields) {
   if (fields.value("robot").is_object()) return {{}, read_cell_ref(fields.object("robot"))};
   return {read_cell_name(fields), {}};
@@ -146,6 +164,7 @@ JobSpec read_job_spec(Fields fields) {
   if (fields.has("threads")) spec.threads = static_cast<int>(fields.integer("threads", 1, max_threads));
   if (fields.has("allow_freed")) spec.allow_freed = fields.flag("allow_freed");
   if (fields.has("mill")) spec.mill = read_mill(fields.object("mill"));
+  if (fields.has("motion")) spec.motion = read_motion(fields.object("motion"));
   if (fields.has("placement")) spec.placement = read_placement(fields.object("placement"));
   if (fields.has("stock")) read_stock(fields.object("stock"), spec);
   if (fields.has("continue")) {
@@ -166,6 +185,7 @@ Json to_json(const JobSpec& spec) {
   if (spec.threads) json["threads"] = *spec.threads;
   if (spec.allow_freed) json["allow_freed"] = true;
   if (spec.mill) json["mill"] = to_json(*spec.mill);
+  if (spec.motion) json["motion"] = to_json(*spec.motion);
   if (Json placement = to_json(spec.placement); !placement.empty()) json["placement"] = std::move(placement);
   if (spec.stock_box) {
     json["stock"] = Json{{"box", {{"min_m", spec.stock_box->min_m}, {"max_m", spec.stock_box->max_m}}}};

@@ -48,6 +48,13 @@ struct MillSpec {
   std::optional<double> scallop_m, allowance_m;
 };
 
+/// How fast the plan is to be gone through; meaning as in core/timing/demand/motion_order.hpp.
+struct MotionSpec {
+  std::optional<double> feed_m_s;
+  double rapid_m_s = 0.5;
+  std::optional<double> keep_feed;
+};
+
 struct JobSpec {
   BlobRef mesh;
   std::string robot;        ///< name of a cell on the server; empty if `cell_bundle` is set
@@ -58,6 +65,7 @@ struct JobSpec {
   std::optional<int> threads;
   bool allow_freed = false;
   std::optional<MillSpec> mill;
+  std::optional<MotionSpec> motion;
   PlacementSpec placement;
   std::optional<BoxSpec> stock_box;
   std::optional<BlobRef> stock_mesh;
@@ -71,6 +79,10 @@ struct CellRef {
 };
 /// The field "robot".
 CellRef read_robot(Fields& fields);
+
+/// As read_job_spec.
+MotionSpec read_motion(Fields fields);
+Json to_json(const MotionSpec& spec);
 
 /// Throws ProtocolError `params_invalid` with the pointer of the field to blame.
 JobSpec read_job_spec(Fields fields);

@@ -94,6 +94,27 @@ SubmitParams read_submit(const Json& params) {
   return submit;
 }
 
+namespace {
+
+constexpr double min_rate_hz = 0.001, max_rate_hz = 1e6, max_motion_s = 1e9;
+constexpr std::size_t max_holds = 1000;
+
+std::vector<double> read_holds(Fields& fields) {
+  const Json& times = fields.value("holds_s");
+  if (!times.is_array() || times.size() > max_holds)
+    fields.refuse("holds_s", "must be a list of at most " + std::to_string(max_holds) + " times, in seconds");
+  std::vector<double> holds;
+  for (const Json& time : times) {
+    if (!time.is_number() || time.get<double>() < 0 || time.get<double>() > max_motion_s ||
+        (!holds.empty() && time.get<double>() < holds.back()))
+      fields.refuse("holds_s", "must be times of the motion, in seconds, in their order");
+    holds.push_back(time.get<double>());
+  }
+  return holds;
+}
+
+}  // namespace
+
 std::string read_job_id(const Json& params) {
   Fields fields = params_of(params);
   std::string job = fields.text("job", max_id_bytes);
@@ -151,6 +172,21 @@ ArtifactReadParams read_artifact_link(const Json& params) {
   if (fields.has("format")) wanted.format = fields.text("format", max_text_bytes);
   fields.done();
   return wanted;
+}
+
+SamplesParams read_samples(const Json& params) {
+  Fields fields = params_of(params);
+  SamplesParams samples;
+  samples.job = fields.text("job", max_id_bytes);
+  if (fields.has("motion")) samples.motion = read_motion(fields.object("motion"));
+  samples.rate_hz = fields.number("rate_hz", min_rate_hz, max_rate_hz);
+  if (fields.has("from_s")) samples.from_s = fields.number("from_s", 0, max_motion_s);
+  if (fields.has("to_s")) samples.to_s = fields.number("to_s", 0, max_motion_s);
+  if (fields.has("count")) samples.count = fields.count("count");
+  if (samples.count == 0) fields.refuse("count", "must be 1 or more");
+  if (fields.has("holds_s")) samples.holds_s = read_holds(fields);
+  fields.done();
+  return samples;
 }
 
 PinParams read_pin(const Json& params) {

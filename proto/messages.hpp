@@ -81,6 +81,17 @@ ArtifactReadParams read_artifact_read(const Json& params);
 /// artifact.link: the whole of a file.
 ArtifactReadParams read_artifact_link(const Json& params);
 
+/// job.samples: a window of a job's motion at a fixed rate. Times are seconds of the motion.
+struct SamplesParams {
+  std::string job;
+  MotionSpec motion;
+  double rate_hz = 0, from_s = 0;
+  std::optional<double> to_s;        ///< without it to the end
+  std::uint64_t count = UINT64_MAX;  ///< samples at most
+  std::vector<double> holds_s;       ///< when the motion begins to come to rest on its path, and then goes on
+};
+SamplesParams read_samples(const Json& params);
+
 struct PinParams {
   std::string job;
   bool pinned = true;

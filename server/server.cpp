@@ -120,6 +120,7 @@ struct Server::Impl {
                            isolation, admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, blobs, isolation, reads, disk, replays}),
+          sample_handlers({answers, *store, motions, samples}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
           artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports})})
       all.merge(group);
@@ -223,7 +224,8 @@ struct Server::Impl {
   Connections connections;
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(min_checks_at_once, cores())};
-  TaskQueue replays{Pace::background}, exports{Pace::background};
+  Motions motions{artifacts, blobs, isolation};
+  TaskQueue replays{Pace::background}, exports{Pace::background}, samples{Pace::prompt};
   Answers answers{io, reads};
   Dispatcher dispatcher;
   ConnectionContext context{io, config, connections, counters, dispatcher};
@@ -261,8 +263,8 @@ void Server::run() {
   impl_->manager.stopping();
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
-  for (TaskQueue* queue :
-       {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays, &impl_->exports})
+  for (TaskQueue* queue : {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays,
+                           &impl_->exports, &impl_->samples})
     queue->stop();
   impl_->checks.stop();
   if (impl_->fleet != nullptr) impl_->fleet->leave();

@@ -107,6 +107,31 @@ void mill_rows(std::string& table, const Json& report) {
           fixed(1000 * surface.value("gouge_m", 0.0), 4, " mm"));
 }
 
+/// How long it takes at the feed that the job asked for; `sculpt time` tells the rest.
+void time_rows(std::string& table, const Json& report) {
+  if (!report.contains("time")) return;
+  const Json& time = report["time"];
+  row(table, "time",
+      fixed(time.value("total_s", 0.0), 1, " s, ") + fixed(time.value("ratio", 0.0), 3, "") +
+          " of what the caps alone would take");
+  row(table, "  at most",
+      fixed(1000 * time.value("feed_m_s", 0.0), 1, " mm/s on cuts, ") +
+          fixed(1000 * time.value("rapid_m_s", 0.0), 1, " mm/s on moves"));
+  const Json by = time.value("by", Json::object());
+  for (const char* cause : {"feed", "rapid"})
+    row(table, std::string("  ") + cause, fixed(by.value(cause, 0.0), 1, " s"));
+  for (const char* cause : {"velocity", "acceleration", "jerk"}) {
+    const Json joints = by.value(cause, Json::object());
+    for (const auto& [joint, seconds] : joints.items())
+      if (seconds.get<double>() > 0) row(table, std::string("  ") + cause + " " + joint, fixed(seconds, 1, " s"));
+  }
+  const Json worst = time.value("worst", Json::array());
+  if (worst.empty()) return;
+  row(table, "  slowest cut",
+      fixed(1000 * worst[0].value("feed_m_s", 0.0), 2, " mm/s at keyframe ") +
+          text_of(worst[0].value("keyframe", Json())) + ", " + worst[0].value("joint", ""));
+}
+
 /// A line per pair of links that may touch.
 void link_rows(std::string& table, const Json& report) {
   const char* label = "links not kept apart";
@@ -162,6 +187,7 @@ std::string report_table(const Json& report) {
   voxel_rows(table, report);
   path_rows(table, report);
   mill_rows(table, report);
+  time_rows(table, report);
   link_rows(table, report);
   run_rows(table, report);
   return table;

@@ -2,15 +2,11 @@
 
 #include <cstdio>
 
+#include "core/timing/time_figures.hpp"
+
 namespace sculpt::cli {
 
 namespace {
-
-Json by_joint(const PlanPath& path, const std::vector<double>& seconds) {
-  Json object = Json::object();
-  for (std::size_t at = 0; at < seconds.size(); ++at) object[path.header().joints[at]] = seconds[at];
-  return object;
-}
 
 std::string row(const std::string& label, double seconds, double total) {
   char text[128];
@@ -21,31 +17,7 @@ std::string row(const std::string& label, double seconds, double total) {
 }  // namespace
 
 Json time_report(const PlanPath& path, const TimedPlan& plan) {
-  Json worst = Json::array();
-  for (const SlowPlace& place : plan.worst)
-    worst.push_back({{"keyframe", place.keyframe},
-                     {"voxel", {place.voxel.i, place.voxel.j, place.voxel.k}},
-                     {"joint", place.joint},
-                     {"feed_m_s", place.feed_m_s}});
-  const TimeAccount& time = plan.time;
-  Json tools = Json::array();
-  for (std::size_t at = 0; at < time.tools.size(); ++at)
-    tools.push_back({{"name", path.header().mill->tools[at].name}, {"seconds", time.tools[at]}});
-  const Json by{{"feed", time.feed},
-                {"rapid", time.rapid},
-                {"velocity", by_joint(path, time.velocity)},
-                {"acceleration", by_joint(path, time.acceleration)},
-                {"jerk", by_joint(path, time.jerk)}};
-  Json figures{{"total_s", time.total},
-               {"ratio", time.at_caps > 0 ? time.total / time.at_caps : 1},
-               {"window_s", plan.law.window_s},
-               {"feed_m_s", plan.law.feed_m_s},
-               {"rapid_m_s", plan.law.rapid_m_s},
-               {"keyframes", path.keyframes()},
-               {"by", by},
-               {"worst", worst}};
-  if (!tools.empty()) figures["tools"] = std::move(tools);
-  return {{"time", std::move(figures)}};
+  return {{"time", proto::parse_json(time_json(time_figures(path, plan)))}};
 }
 
 std::string time_table(const Json& report) {

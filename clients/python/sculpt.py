@@ -24,6 +24,7 @@ import pathlib
 import re
 import socket
 import ssl
+import struct
 import sys
 import time
 import xml.etree.ElementTree
@@ -33,6 +34,7 @@ VERSION = "sculpt.py/0.1.0"
 FINE, FAILED, USAGE, UNREACHABLE, REFUSED = range(5)
 CHUNK = 1 << 20
 PAGE = 1000
+CHUNKED = ("artifact.read", "job.samples")  # whose replies a chunk follows
 FINAL = ("succeeded", "failed", "quarantined", "expired", "cancelled")
 
 
@@ -108,7 +110,7 @@ class Client:
         self.socket.close()
 
     def call(self, method, chunk=None, **params):
-        """The result of a request; of artifact.read the pair (result, bytes). Events that come meanwhile are kept."""
+        """The result of a request; of artifact.read and job.samples the pair (result, bytes). Events that come meanwhile are kept."""
         repeatable = method != "job.retry" and (method != "job.submit" or "key" in params)
         while True:
             try:
@@ -145,7 +147,7 @@ class Client:
             code = error.get("data", {}).get("code", "refused")
             raise Failure(FAILED if code == "artifact_damaged" else REFUSED, code, error["message"])
         result = message["result"]
-        return (result, self._read_chunk(result)) if method == "artifact.read" else result
+        return (result, self._read_chunk(result)) if method in CHUNKED else result
 
     def next_event(self):
         """The params of the next event of a subscription; waits for it."""
@@ -238,6 +240,22 @@ class Client:
                 result, _ = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=1, **form)
                 if not result["final"]:
                     return
+
+    def samples(self, job, rate_hz, from_s=0.0, **window):
+        """Yields (t, positions, velocities) of a job's motion: seconds from its start, rad or m, and per second.
+
+        `window`: motion={"feed_m_s": ...}, to_s, count, holds_s, as job.samples in PROTOCOL.md has them.
+        """
+        while True:
+            result, chunk = self.call("job.samples", job=job, rate_hz=rate_hz, from_s=from_s, **window)
+            joints, behind = len(result["joints"]), result["first"] + result["count"]
+            for at, row in enumerate(struct.iter_unpack(f"<{2 * joints}d", chunk), result["first"]):
+                yield at / rate_hz, row[:joints], row[joints:]
+            if "count" in window:
+                window["count"] -= result["count"]
+            if result["eof"] or window.get("count") == 0 or behind / rate_hz > window.get("to_s", math.inf) + 1e-9 / rate_hz:
+                return
+            from_s = behind / rate_hz
 
     def _expect_hash(self, job, artifact, form, digest):
         entry = next(entry for entry in self.call("artifact.list", job=job)["artifacts"] if entry["artifact"] == artifact)
@@ -563,6 +581,8 @@ def run_submit(options):
             spec["mill"] = mill
         if options.allow_freed:
             spec["allow_freed"] = True
+        if motion := motion_of(options):
+            spec["motion"] = motion
         if options.continued:
             spec["continue"] = {"job": options.continued, "rotation_rad": rotation_rad(options)}
         else:
@@ -624,6 +644,12 @@ def placement_of(client, options):
     if options.stock_box:
         return {"placement": placement, "stock": {"box": {"min_m": options.stock_box[:3], "max_m": options.stock_box[3:]}}}
     return {"placement": placement, **({"stock": {"mesh": client.upload_file(options.stock)}} if options.stock else {})}
+
+
+def motion_of(options):
+    """The field of a spec that says how fast the plan is to be gone through; empty where nothing is said of it."""
+    fields = {"feed_m_s": options.feed, "rapid_m_s": options.rapid, "keep_feed": options.keep_feed}
+    return {field: value for field, value in fields.items() if value is not None}
 
 
 def mill_order_of(options):
@@ -800,7 +826,7 @@ def follow(client, job, out, plain):
 
 def is_whole(end):
     """A trajectory that failed its replay may be looked at; of other jobs that did not succeed there is nothing whole."""
-    return end["state"] == "succeeded" or end.get("error", {}).get("code") == "verify_failed"
+    return end["state"] == "succeeded" or end.get("error", {}).get("code") in ("verify_failed", "feed_not_kept")
 
 
 def end_exit_code(end):
@@ -917,6 +943,9 @@ def add_submit_options(submit):
     submit.add_argument("--tolerance", type=float, metavar="METRES", help="what may stand above the surface where these tools come to it")
     submit.add_argument("--scallop", type=float, metavar="METRES", help="of that, between rows")
     submit.add_argument("--allowance", type=float, metavar="METRES", help="of that, left on purpose")
+    submit.add_argument("--feed", type=float, metavar="M_S", help="tell in the report how long the plan takes at this speed on cuts")
+    submit.add_argument("--rapid", type=float, metavar="M_S", help="the same on moves; 0.5")
+    submit.add_argument("--keep-feed", type=float, metavar="SHARE", help="let the job fail unless every cut keeps this share of the feed")
     submit.add_argument("--priority", type=int, metavar="P", help="higher runs first, -100 to 100")
     submit.add_argument("--queue", metavar="NAME", help="let only daemons plan it that serve this queue")
     submit.add_argument("--not-before", metavar="TIME", help="hold it until then, UTC: 2026-01-31T12:00:00Z")

@@ -258,6 +258,7 @@ CheckedJob check_job(const Job& job, const Watch& watch) {
   if (job.search == Search::voxel && !cell.chain().translating())
     throw InputError("search_unknown", "search 'voxel' is for translating robots, and cell '" + cell.name +
                                            "' has turning joints: use octree");
+  if (job.motion) check_order(*job.motion, cell, tools);
   check_reach(cell, grid);
   const bool given_as_voxels = job.mesh.extension == "binvox" || !job.clampings.empty() ||
                                (job.stock.mesh && job.stock.mesh->extension == "binvox");

@@ -71,7 +71,8 @@ struct CheckedJob {
 };
 
 /// Checks all that can be checked before planning: resolution, search, cell, tool against voxel, mesh (loaded, finite,
-/// a solid at a coarse grid), clampings, predicted memory, stock within reach of the chain. Takes well under a second
+/// a solid at a coarse grid), clampings, predicted memory, stock within reach of the chain, limits where
+/// it is to be timed. Takes well under a second
 /// for usual meshes. `job` must outlive what it returns. Throws InputError, Cancelled.
 CheckedJob check_job(const Job& job, const Watch& watch);
 

@@ -12,6 +12,7 @@
 #include "core/cell/milling/tool_library.hpp"
 #include "core/search/search.hpp"
 #include "core/solid/placement.hpp"
+#include "core/timing/demand/motion_order.hpp"
 
 namespace sculpt {
 
@@ -51,7 +52,8 @@ struct Job {
   CellFiles cell;
   int resolution = 0;  ///< power of two, 8 to 1024
   Search search = Search::sweep;
-  std::optional<MillOrder> mill = {};  ///< there if, and only if, `search` is mill
+  std::optional<MillOrder> mill = {};      ///< there if, and only if, `search` is mill
+  std::optional<MotionOrder> motion = {};  ///< how fast the plan is to be gone through; it does not change the plan
   std::uint64_t seed = 0;
   int threads = 1;           ///< the plan is the same at any number
   bool allow_freed = false;  ///< a translating robot need not keep pieces from coming loose; arms always do

@@ -98,6 +98,7 @@ std::string report_json(const Report& report) {
     json["surface"]["gouged_points"] = surface->gouged_points;
     json["surface"]["gouge_m"] = surface->gouge_m;
   }
+  if (report.time) json["time"] = Json::parse(time_json(*report.time));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -11,6 +11,7 @@
 #include "core/mill/tool_figures.hpp"
 #include "core/motion/residue.hpp"
 #include "core/sweep/sweep.hpp"
+#include "core/timing/time_figures.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
 
 namespace sculpt {
@@ -53,6 +54,7 @@ struct Report {
   std::vector<ToolFigures> tools;     ///< of a job that names some
   std::vector<Cure> cures;            ///< of what those left
   std::optional<SurfaceFigures> surface;
+  std::optional<TimeFigures> time;  ///< of a clean plan that was to be timed
   /// For comparing planners. A move is one voxel edge of the ball's path, so moves per voxel are at least 1; checks are
   /// configurations tested.
   struct {

@@ -9,8 +9,8 @@
 #include "core/program/read/part_reader.hpp"
 #include "core/program/seams.hpp"
 #include "core/program/write/ros2.hpp"
+#include "core/timing/demand/motion_limits.hpp"
 #include "core/timing/edge.hpp"
-#include "core/timing/motion_limits.hpp"
 #include "core/timing/stop_times.hpp"
 
 namespace sculpt {
@@ -29,15 +29,6 @@ void check_name(const std::string& name) {
     throw InputError("name_invalid", "'" + name +
                                          "' is no name that every controller takes: give a file or folder of up to 19 "
                                          "lower-case letters, digits and _, beginning with a letter");
-}
-
-void check_demands(const MotionDemands& motion) {
-  for (const double value : {motion.feed_m_s, motion.rapid_m_s})
-    if (!(value > 0) || !std::isfinite(value)) {
-      std::ostringstream text;
-      text << "a feed of " << value << " m/s cannot be moved at: give one above 0";
-      throw InputError("feed_invalid", text.str());
-    }
 }
 
 class ProgramMaker {

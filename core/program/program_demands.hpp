@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/program/dialect.hpp"
-#include "core/timing/motion_demands.hpp"
+#include "core/timing/demand/motion_demands.hpp"
 
 namespace sculpt {
 

@@ -46,6 +46,7 @@ class CornerFinder {
     std::size_t done = 0;
     place(0).rest = true;
     for (std::size_t point = 1; point < path_.size(); ++point) {
+      demands_.go_on_from(point);
       go_to(point);
       if (point > 1) look_at_corner(point - 1);
       while (done + max_near + 1 < point) finish(done++, point);

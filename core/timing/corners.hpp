@@ -11,10 +11,12 @@
 #pragma once
 
 #include <algorithm>
+#include <stop_token>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/law/time_law.hpp"
-#include "core/timing/motion_limits.hpp"
+#include "core/timing/demand/motion_limits.hpp"
 #include "core/timing/path_tool.hpp"
 #include "core/timing/plan_path.hpp"
 
@@ -48,6 +50,13 @@ struct CornerDemands {
   const Configuration& acceleration;  ///< of the law
   double window_s;
   Feeds feeds;
+  std::stop_token stop = {};
+
+  /// Throws Cancelled where a stop was requested. For every point.
+  void go_on_from(std::size_t point) const {
+    constexpr std::size_t points_between = 1024;
+    if (point % points_between == 0 && stop.stop_requested()) throw Cancelled{};
+  }
 };
 
 /// All but x. At home, at the last point and where tools are changed the motion is at rest.

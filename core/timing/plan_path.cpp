@@ -61,4 +61,14 @@ void PlanPath::add(const Configuration& q, const Edge& edge) {
   edges_.push_back(edge);
 }
 
+PlanMark mark_of(const PlanPath& path) {
+  PlanMark mark;
+  std::size_t point = 0;
+  for (std::uint64_t keyframe = 1; keyframe <= path.keyframes(); ++keyframe) {
+    if (point + 1 < path.size() && path.edge_to(point + 1).keyframe == keyframe) ++point;
+    mark.add(path.configuration(point));
+  }
+  return mark;
+}
+
 }  // namespace sculpt

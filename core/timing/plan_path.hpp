@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/law/law_file.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/keyframe.hpp"
 
@@ -54,5 +55,8 @@ class PlanPath {
   std::vector<std::unique_ptr<double[]>> chunks_;
   std::vector<Edge> edges_;
 };
+
+/// Of all keyframes, those that are left out too.
+PlanMark mark_of(const PlanPath& path);
 
 }  // namespace sculpt

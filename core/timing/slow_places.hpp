@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/law/time_law.hpp"
-#include "core/timing/motion_demands.hpp"
+#include "core/timing/demand/motion_demands.hpp"
 #include "core/timing/path_tool.hpp"
 
 namespace sculpt {

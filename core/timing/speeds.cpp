@@ -102,6 +102,7 @@ class SpeedFinder {
     corners_.law[last].x_in = 0;
     EdgeWay after = edge_to(last);
     for (std::size_t point = last; point-- > 0;) {
+      demands_.go_on_from(point);
       LawCorner& corner = corners_.law[point];
       const LawCorner& next = corners_.law[point + 1];
       const double reach = static_cast<double>(next.x_in) + 2 * after.acceleration * line_of(point + 1, after.length),
@@ -126,6 +127,7 @@ class SpeedFinder {
   void go_on() {
     EdgeWay before = edge_to(1), after = before;
     for (std::size_t point = 1; point < path_.size(); ++point, before = after) {
+      demands_.go_on_from(point);
       LawCorner& corner = corners_.law[point];
       const double x = static_cast<double>(corners_.law[point - 1].x_out), length = line_of(point, before.length);
       corner.x_in = down(std::min(static_cast<double>(corner.x_in), x + 2 * before.acceleration * length));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/timing/corners.hpp"
@@ -17,13 +16,6 @@ namespace {
 constexpr double share_of_acceleration = 1 - 5e-4, share_of_speed = 1 - 1e-6;
 constexpr double min_ladder_s = 0.008;  // a window no longer than that is taken as it is
 
-void require_positive(double value, const char* what) {
-  if (value > 0 && std::isfinite(value)) return;
-  std::ostringstream text;
-  text << "a " << what << " of " << value << " m/s cannot be moved at: give one above 0";
-  throw InputError("feed_invalid", text.str());
-}
-
 struct Attempt {
   Configuration acceleration;
   double window_s;
@@ -31,29 +23,39 @@ struct Attempt {
   TimeAccount time;
 };
 
+struct TimerInputs {
+  const PlanPath& path;
+  const PathTools& tools;
+  const MotionLimits& limits;
+  const MotionDemands& demands;
+  const std::stop_token& stop;
+};
+
 class Timer {
  public:
-  Timer(const PlanPath& path, const PathTools& tools, const MotionLimits& limits, const MotionDemands& demands)
-      : path_(path), tools_(tools), limits_(limits), demands_(demands) {}
+  explicit Timer(const TimerInputs& asked) : asked_(asked) {}
 
   /// The mean over a window T of a motion with |q''| <= a has |q'''| <= 2 a / T.
   Attempt with_window(double window_s) const {
-    Attempt attempt{
-        share_of_acceleration * limits_.acceleration.cwiseMin(limits_.jerk * (window_s / 2)), window_s, {}, {}};
-    MotionLimits slower = limits_;
+    Attempt attempt{share_of_acceleration * asked_.limits.acceleration.cwiseMin(asked_.limits.jerk * (window_s / 2)),
+                    window_s,
+                    {},
+                    {}};
+    MotionLimits slower = asked_.limits;
     slower.velocity *= share_of_speed;
     const CornerDemands wanted{slower,
                                attempt.acceleration,
                                window_s,
-                               {share_of_speed * demands_.feed_m_s, share_of_speed * demands_.rapid_m_s}};
-    attempt.corners = find_corners(path_, tools_, wanted);
-    attempt.time = find_speeds(path_, wanted, attempt.corners);
+                               {share_of_speed * asked_.demands.feed_m_s, share_of_speed * asked_.demands.rapid_m_s},
+                               asked_.stop};
+    attempt.corners = find_corners(asked_.path, asked_.tools, wanted);
+    attempt.time = find_speeds(asked_.path, wanted, attempt.corners);
     return attempt;
   }
 
   /// A long window strays far and so slows down corners, a short one asks for less acceleration.
   Attempt best() const {
-    double window_s = 2 * limits_.acceleration.cwiseQuotient(limits_.jerk).maxCoeff();
+    double window_s = 2 * asked_.limits.acceleration.cwiseQuotient(asked_.limits.jerk).maxCoeff();
     Attempt best = with_window(window_s);
     while (window_s > min_ladder_s) {
       window_s /= std::sqrt(2.0);
@@ -65,10 +67,7 @@ class Timer {
   }
 
  private:
-  const PlanPath& path_;
-  const PathTools& tools_;
-  const MotionLimits& limits_;
-  const MotionDemands& demands_;
+  const TimerInputs& asked_;
 };
 
 TimeLaw law_of(const PlanPath& path, Attempt&& attempt, const MotionDemands& demands) {
@@ -99,14 +98,14 @@ void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell) {
                                           "' with other joints or another stock: name that cell with --robot");
 }
 
-TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands) {
-  require_positive(demands.feed_m_s, "feed");
-  require_positive(demands.rapid_m_s, "rapid rate");
+TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands, const std::stop_token& stop) {
+  check_demands(demands);
   const Chain chain = cell.chain();
   check_cell(path, chain, cell);
   const MotionLimits limits = limits_of(cell, chain);
   const PathTools tools(path, cell, demands.reserve_m);
-  Attempt attempt = Timer(path, tools, limits, demands).best();
+  const TimerInputs asked{path, tools, limits, demands, stop};
+  Attempt attempt = Timer(asked).best();
   TimedPlan plan{{}, std::move(attempt.time), {}};
   plan.law = law_of(path, std::move(attempt), demands);
   plan.worst = find_slow_places(path, tools, limits.velocity, plan.law, demands);

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "core/cell/cell.hpp"
 #include "core/law/time_law.hpp"
-#include "core/timing/motion_demands.hpp"
+#include "core/timing/demand/motion_demands.hpp"
 #include "core/timing/plan_path.hpp"
 #include "core/timing/slow_places.hpp"
 #include "core/timing/time_account.hpp"
@@ -26,7 +27,9 @@ void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell);
 /// the plan's edges as their certificates allow (StrayBound, corners.hpp). Of cuts one after the other along one line
 /// of the grid the first and the last voxel do not count for `keep_feed`: there the motion comes to rest or turns.
 /// Throws InputError: `feed_invalid` for a demand that is no positive number, `limits_missing`, `reserve_invalid`,
-/// `feed_not_kept`, `cell_mismatch` for a plan of another cell. Depends on its arguments only.
-TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands);
+/// `feed_not_kept`, `cell_mismatch` for a plan of another cell; Cancelled soon after a stop was requested. Depends on
+/// its arguments only.
+TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands,
+                    const std::stop_token& stop = {});
 
 }  // namespace sculpt

@@ -15,6 +15,7 @@
 #include "server/queue/passed_checks.hpp"
 #include "server/queue/scheduler.hpp"
 #include "server/results/artifacts.hpp"
+#include "server/results/motions.hpp"
 #include "server/run/job_description.hpp"
 #include "server/run/planner.hpp"
 
@@ -88,6 +89,15 @@ struct JobGroup {
   TaskQueue& replays;
 };
 Handlers job_handlers(const JobGroup& group);
+
+/// job.samples.
+struct SampleGroup {
+  const Answers& answers;
+  JobStore& store;
+  Motions& motions;  ///< of the thread of `samples`
+  TaskQueue& samples;
+};
+Handlers sample_handlers(const SampleGroup& group);
 
 /// job.cancel, job.pause, job.resume, job.retry, queue.pause, queue.resume.
 struct ControlGroup {

@@ -26,6 +26,7 @@ constexpr std::array table{
     Method{"job.wait", Scope::read},
     Method{"job.report", Scope::read},
     Method{"job.verify", Scope::submit},
+    Method{"job.samples", Scope::read},
     Method{"queue.pause", Scope::admin},
     Method{"queue.resume", Scope::admin},
     Method{"events.subscribe", Scope::read},

@@ -39,6 +39,7 @@ std::string finished_report(const JobRecord& job, const Ending& ending, const st
 }
 
 Ending judged(const PlanFiles& files) {
+  if (files.clean && files.unkept) return {JobState::failed, files.unkept->code(), files.unkept->what(), {}};
   if (files.clean) return {JobState::succeeded, {}, {}, {}};
   return {JobState::failed,
           "verify_failed",

@@ -6,6 +6,7 @@
 #include "core/doctor/examine.hpp"
 #include "core/doctor/findings_json.hpp"
 #include "core/material/binvox.hpp"
+#include "core/plan/output/job_time.hpp"
 #include "core/trajectory/export.hpp"
 
 namespace sculpt::server {
@@ -16,8 +17,9 @@ namespace fs = std::filesystem;
 PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
   CheckpointPlace place{trajectory.parent_path()};
   place.timeline = place.folder / timeline_file;
-  const JobResult result = resume_job(job, trajectory, place, watch);
+  JobResult result = resume_job(job, trajectory, place, watch);
   PlanFiles files;
+  if (result.report.verify.clean) files.unkept = time_job(job, trajectory, result.report, watch);
   files.report_json = report_json(result.report);
   files.residue_ndjson = residue_ndjson(result.residue);
   files.voxels_binvox = write_binvox(result.voxels.keep, result.grid);
@@ -34,6 +36,18 @@ Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
   Verdict verdict = replay_plan(in, job, watch, {job.threads});
   return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings),
           std::move(verdict.exempt_pairs)};
+}
+
+void time(const Job& job, const fs::path& trajectory, const fs::path& law) {
+  std::ifstream in(trajectory, std::ios::binary);
+  const PlanPath path(in);
+  const auto& mill = path.header().mill;
+  const TimedPlan plan =
+      time_plan(path, parse_cell(job.cell), demands_of(*job.motion, mill ? mill->tools : std::vector<MillTool>{}));
+  std::ofstream out(law, std::ios::binary | std::ios::trunc);
+  write_law(out, plan.law, mark_of(path));
+  out.close();
+  if (!out) throw InputError("file_unwritable", "cannot write '" + law.string() + "': check the free space");
 }
 
 std::string examine(const CellFiles& cell, int resolution, int threads) {
@@ -53,6 +67,7 @@ Planner make_planner(std::vector<fs::path> folders) {
   planner.predict_memory = predict_memory;
   planner.run = run;
   planner.verify = verify;
+  planner.time = time;
   planner.to_csv = export_csv;
   planner.to_binary = export_binary;
   return planner;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PlanFiles {
   bool clean = false;
   std::uint64_t collisions = 0;
   std::string first_finding;
+  std::optional<InputError> unkept;  ///< what a clean plan does not keep of what the job asks for
 };
 
 struct Replay {
@@ -46,6 +48,8 @@ struct Planner {
   /// timeline beside the trajectory.
   std::function<PlanFiles(const Job&, const std::filesystem::path& trajectory, const Watch&)> run;
   std::function<Replay(const Job&, const std::filesystem::path& trajectory, const Watch&)> verify;
+  /// Writes the time law of a job that has `motion` (core/law/law_file).
+  std::function<void(const Job&, const std::filesystem::path& trajectory, const std::filesystem::path& law)> time;
   /// ndjson in, other format out.
   std::function<void(std::istream&, std::ostream&)> to_csv, to_binary;
 };

@@ -88,6 +88,8 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
                          mill->allowance_m};
     job.search = Search::mill;
   }
+  if (const auto& motion = spec.motion)
+    job.motion = MotionOrder{motion->feed_m_s, motion->rapid_m_s, motion->keep_feed};
   if (spec.search) job.search = parse_search(*spec.search);
   job.seed = spec.seed;
   job.threads = spec.threads.value_or(defaults.threads);

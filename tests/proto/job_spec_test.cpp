@@ -45,6 +45,10 @@ TEST(JobSpec, AFullSpecComesBackAsItWas) {
   EXPECT_EQ(write_json(to_json(read(mesh_stock))), write_json(mesh_stock));
   const Json next = with("/continue", {{"job", "j"}, {"rotation_rad", {0.5, 0.0, 0.0}}});
   EXPECT_EQ(write_json(to_json(read(next))), write_json(next));
+  const Json timed = with("/motion", {{"feed_m_s", 0.05}, {"rapid_m_s", 0.25}, {"keep_feed", 0.5}});
+  EXPECT_EQ(write_json(to_json(read(timed))), write_json(timed));
+  const Json milled = with("/motion", Json::object());  // at the tools' own feed
+  EXPECT_EQ(write_json(to_json(read(milled))), write_json(milled));
 }
 
 TEST(JobSpec, SpellingOutDefaultsOrAnotherOrderGivesTheSameText) {
@@ -58,6 +62,11 @@ TEST(JobSpec, EveryFieldToBlameIsNamed) {
   EXPECT_EQ(pointer_of(Json::array()), "/params/spec");
   EXPECT_EQ(pointer_of(Json::object()), "/params/spec/mesh");
   EXPECT_EQ(pointer_of(with("/mesh", "a.stl")), "/params/spec/mesh");
+  EXPECT_EQ(pointer_of(with("/motion", 0.05)), "/params/spec/motion");
+  EXPECT_EQ(pointer_of(with("/motion", {{"feed_m_s", "fast"}})), "/params/spec/motion/feed_m_s");
+  EXPECT_EQ(pointer_of(with("/motion", {{"rapid_m_s", true}})), "/params/spec/motion/rapid_m_s");
+  EXPECT_EQ(pointer_of(with("/motion", {{"keep_feed", nullptr}})), "/params/spec/motion/keep_feed");
+  EXPECT_EQ(pointer_of(with("/motion", {{"feed", 1}})), "/params/spec/motion/feed");
   EXPECT_EQ(pointer_of(with("/mesh/blob", "AA")), "/params/spec/mesh/blob");
   EXPECT_EQ(pointer_of(with("/mesh/nam", "x")), "/params/spec/mesh/nam");
   EXPECT_EQ(pointer_of(with("/resolution", 16.0)), "/params/spec/resolution");

@@ -92,7 +92,7 @@ def play(lines, first_number, address, names, document, connect=Connection):
                 announced = result.get("bytes", 0) if isinstance(result, dict) else 0
             elif kind == "S+":
                 chunk = connection.read_chunk(announced)
-                assert chunk == json.loads(content).encode(), f"{where}got {chunk!r}"
+                assert content == '"*"' or chunk == json.loads(content).encode(), f"{where}got {chunk!r}"
             else:
                 raise AssertionError(where + "a session has only lines C, C+, S and S+")
     finally:

@@ -117,10 +117,13 @@ def with_fraction(moment):
 
 
 def breaks_a_rule_between_fields(request):
-    """What the schema does not say: a piece ends within its blob, a job may start before it must have, days are those of the calendar, a job has the resolution of the one that it continues."""
+    """What the schema does not say: a piece ends within its blob, a job may start before it must have, holds are in their order, days are those of the calendar, a job has the resolution of the one that it continues."""
     params = request.get("params", {})
     if request["method"] == "blob.put":
         return params["offset"] + params["bytes"] > params["size"]
+    if request["method"] == "job.samples":
+        holds = params.get("holds_s", [])
+        return holds != sorted(holds)
     if request["method"] == "job.submit":
         if "continue" in params["spec"] and params["spec"]["resolution"] != 8:
             return True
@@ -166,6 +169,9 @@ class Requests(unittest.TestCase):
         yield "job.submit", {**times, "spec": {**spec, "robot": "gantry", "continue": {"job": self.done, "rotation_rad": [0, 0, 0]}}}
         for method in ("get", "cancel", "pause", "resume", "retry", "report", "verify"):
             yield f"job.{method}", {"job": nobody}
+        motion = {"feed_m_s": 0.05, "rapid_m_s": 0.5, "keep_feed": 0.01}
+        yield "job.samples", {"job": nobody, "motion": motion, "rate_hz": 250, "from_s": 1, "to_s": 2.5, "count": 10, "holds_s": [0.5, 1]}
+        yield "job.submit", {**times, "spec": {**spec, "robot": "gantry", "motion": motion}}
         yield "job.list", {"order": "newest", "after": nobody, "before": nobody, "limit": 10}
         yield "job.wait", {"job": nobody, "timeout_s": 1}
         yield "events.subscribe", {"job": nobody, "after": 1}

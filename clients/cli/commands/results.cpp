@@ -72,8 +72,8 @@ bool grows(const FetchOptions& options) {
 
 /// A trajectory that failed its replay may be looked at; of other jobs that did not succeed there is nothing whole.
 bool is_whole(const Json& end) {
-  return end.value("state", "") == "succeeded" ||
-         end.value("error", Json::object()).value("code", "") == "verify_failed";
+  const std::string error = end.value("error", Json::object()).value("code", "");
+  return end.value("state", "") == "succeeded" || error == "verify_failed" || error == "feed_not_kept";
 }
 
 int run_fetch(const std::string& server, const FetchOptions& options) {

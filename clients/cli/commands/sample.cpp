@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct SampleOptions {
   MotionOptions motion;
   double rate_hz = 0, from_s = 0, to_s = -1;
+  std::vector<double> holds_s;
   std::string output;
 };
 
@@ -45,6 +47,7 @@ int run_sample(const std::string& server, const SampleOptions& options) {
   const Cell cell = read_cell_of(path, options.motion);
   const TimedPlan plan = time_plan(path, cell, to_demands(options.motion, path));
   MotionSampler sampler(path, plan.law);
+  sampler.hold(options.holds_s);
   const double end_s = options.to_s < 0 ? sampler.duration_s() : options.to_s;
   if (options.from_s > end_s || options.from_s > sampler.duration_s())
     throw Failure(
@@ -90,6 +93,12 @@ void add_sample(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command.add_option("--to", options->to_s, "Seconds from the start of the motion; without it to its end")
       ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--hold", options->holds_s,
+                  "Come to rest on the path from this second on, and go on; more than one in their order")
+      ->type_name("S,...")
+      ->delimiter(',')
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("-o,--output", options->output, "The table (.csv): t, each joint, each joint's velocity; rad or m, s")

@@ -16,6 +16,7 @@ namespace {
 
 struct SubmitOptions {
   JobOptions job;
+  std::optional<double> feed_m_s, rapid_m_s, keep_feed;
   std::string continued;  ///< the job that left its stock; empty: none
   std::optional<int> priority;
   std::string key, queue, not_before, start_by;
@@ -74,6 +75,13 @@ void add_placement(client::Client& client, const PlacementOptions& options, cons
   if (inputs.stock.mesh) spec["stock"]["mesh"] = upload_mesh(client, *inputs.stock.mesh);
 }
 
+/// Nothing where nothing is said of it.
+void add_motion(const SubmitOptions& options, Json& spec) {
+  if (options.feed_m_s) spec["motion"]["feed_m_s"] = *options.feed_m_s;
+  if (options.rapid_m_s) spec["motion"]["rapid_m_s"] = *options.rapid_m_s;
+  if (options.keep_feed) spec["motion"]["keep_feed"] = *options.keep_feed;
+}
+
 /// The other job says all of it but how the block is turned.
 void add_continue(const SubmitOptions& options, Json& spec) {
   spec["continue"] = {{"job", options.continued},
@@ -91,6 +99,7 @@ int run_submit(const std::string& server, const SubmitOptions& options) {
   if (!options.start_by.empty()) params["start_by"] = options.start_by;
   if (options.max_runtime_s) params["max_runtime_s"] = *options.max_runtime_s;
   Json& spec = params["spec"] = make_spec(client, options.job, inputs);
+  add_motion(options, spec);
   if (options.continued.empty())
     add_placement(client, options.job.placement, inputs, spec);
   else
@@ -126,6 +135,18 @@ void add_submit(CLI::App& app, Invocation& invocation) {
               "mesh stands in it as in that job")
           ->type_name("JOB");
   for (const char* placed : {"--scale", "--offset", "--margin", "--stock-box", "--stock"}) continued->excludes(placed);
+  const char* motion = "Time";
+  command
+      .add_option("--feed", options->feed_m_s,
+                  "Tell in the report how long the plan takes at this speed of the ball on cuts; milling tools go no "
+                  "faster than their own")
+      ->type_name("M_S")
+      ->group(motion);
+  command.add_option("--rapid", options->rapid_m_s, "The same on moves; 0.5")->type_name("M_S")->group(motion);
+  command
+      .add_option("--keep-feed", options->keep_feed, "Let the job fail unless every cut keeps this share of the feed")
+      ->type_name("SHARE")
+      ->group(motion);
   command
       .add_option("--priority", options->priority,
                   "Higher runs first, -100 to 100; a step is worth a minute of waiting")

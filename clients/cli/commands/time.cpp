@@ -24,16 +24,6 @@ struct TimeOptions {
   std::string output;
 };
 
-PlanMark mark_of(const PlanPath& path) {
-  PlanMark mark;
-  std::size_t point = 0;
-  for (std::uint64_t keyframe = 1; keyframe <= path.keyframes(); ++keyframe) {
-    if (point + 1 < path.size() && path.edge_to(point + 1).keyframe == keyframe) ++point;
-    mark.add(path.configuration(point));
-  }
-  return mark;
-}
-
 /// By the checker, which shares nothing with what made the law.
 Json check(const LawFile& law, const Cell& cell, const TimeOptions& options) {
   std::stop_source stop;

@@ -45,13 +45,13 @@ export class Connection extends EventTarget {
    * @param {string} method
    * @param {object} [params]
    * @param {Uint8Array} [chunk] of blob.put
-   * @returns {Promise<any>} the result; of artifact.read with the bytes as `chunk`. Throws ServerError or Lost.
+   * @returns {Promise<any>} the result; of artifact.read and job.samples with the bytes as `chunk`. Throws ServerError or Lost.
    */
   call(method, params = {}, chunk) {
     const id = this.next_id++;
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Lost('there is no connection to the server'));
-      this.waiting.set(id, {resolve, reject, reads: method === 'artifact.read'});
+      this.waiting.set(id, {resolve, reject, reads: method === 'artifact.read' || method === 'job.samples'});
       this.socket.send(JSON.stringify({jsonrpc: '2.0', id, method, params}));
       if (chunk) this.socket.send(chunk);
     });

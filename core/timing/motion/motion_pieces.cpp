@@ -34,6 +34,27 @@ Configuration MotionPiece::integral(double from, double to) const {
   return at * (to - from) + way * (last - first) + bend * ((last_square - first_square) / 2);
 }
 
+double MotionPiece::seconds_to(double s) const {
+  const double sum = speed + std::sqrt(x_at(s));
+  return sum > 0 ? std::min(2 * s / sum, seconds) : 0;
+}
+
+MotionPiece MotionPiece::behind(double t) const {
+  MotionPiece rest = *this;
+  rest.at = q(t);
+  rest.way += bend * ((speed + rise * t / 2) * t);
+  rest.speed += rise * t;
+  rest.begin_s += t;
+  rest.seconds -= t;
+  return rest;
+}
+
+MotionPiece MotionPiece::before(double t) const {
+  MotionPiece rest = *this;
+  rest.seconds = t;
+  return rest;
+}
+
 MotionPieces::MotionPieces(const PlanPath& path, const TimeLaw& law)
     : path_(path),
       law_(law),

@@ -1,6 +1,7 @@
 // Plan and law -> the motion, piece by piece: each with constant r''.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 
 #include "core/law/time_law.hpp"
@@ -18,6 +19,14 @@ struct MotionPiece {
   bool parabola = false;
 
   double end_s() const { return begin_s + seconds; }
+  double length() const { return (speed + rise * seconds / 2) * seconds; }
+  /// Square of the speed where it has gone so far.
+  double x_at(double s) const { return std::max(0.0, speed * speed + 2 * rise * s); }
+  /// Until it has gone so far; 0 where it has not begun to move.
+  double seconds_to(double s) const;
+  /// From its time t on, and until then.
+  MotionPiece behind(double t) const;
+  MotionPiece before(double t) const;
   /// At the time t of the piece.
   Configuration q(double t) const;
   Configuration velocity(double t) const;

@@ -4,41 +4,26 @@
 #include <cmath>
 
 namespace sculpt {
-namespace {
-
-constexpr std::size_t points_a_mark = 256;
-
-}  // namespace
-
 MotionSampler::MotionSampler(const PlanPath& path, const TimeLaw& law) : path_(path), law_(law), pieces_(path, law) {
-  marks_.push_back(pieces_.mark());
-  MotionPiece piece;
-  double end_s = 0;
-  for (std::size_t point = 0; pieces_.next(piece);) {
-    end_s = piece.end_s();
-    if (piece.point == point) continue;
-    point = piece.point;
-    // The mark of a point is behind it: pieces of the next one follow.
-    if (point % points_a_mark == 0 && !piece.parabola) marks_.push_back({point - 1, piece.begin_s});
-  }
-  duration_s_ = path.size() > 1 ? end_s + law.window_s : 0;
-  pieces_.go_to(marks_.front());
+  hold({});
+}
+
+void MotionSampler::hold(const std::vector<double>& begins_s) {
+  pieces_.hold(begins_s);
+  held_.clear();
+  ended_ = false;
+  duration_s_ = path_.size() > 1 ? pieces_.end_s() + law_.window_s : 0;
 }
 
 // All pieces that overlap the times are held.
 void MotionSampler::reach(double from_s, double to_s) {
-  const bool behind =
-      held_.empty() ? pieces_.mark().point > 0 || ended_ : from_s < held_.front().begin_s && held_.front().begin_s > 0;
-  const bool far_ahead = !held_.empty() && from_s > held_.back().end_s() + 1;
-  if (behind || far_ahead) {
-    const auto mark = std::upper_bound(marks_.begin(), marks_.end(), from_s,
-                                       [](double time, const auto& one) { return time < one.time_s; });
-    const auto& chosen = mark == marks_.begin() ? marks_.front() : *(mark - 1);
-    if (behind || chosen.time_s > held_.back().end_s()) {
-      held_.clear();
-      ended_ = false;
-      pieces_.go_to(chosen);
-    }
+  constexpr double far_s = 1;
+  const bool behind = !held_.empty() && from_s < held_.front().begin_s,
+             far_ahead = !held_.empty() && !ended_ && from_s > held_.back().end_s() + far_s;
+  if (held_.empty() || behind || far_ahead) {
+    held_.clear();
+    ended_ = false;
+    pieces_.go_to(from_s);
   }
   MotionPiece piece;
   while (!ended_ && (held_.empty() || held_.back().end_s() < to_s)) {

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "core/timing/motion/motion_pieces.hpp"
+#include "core/timing/motion/held_pieces.hpp"
 
 namespace sculpt {
 
@@ -20,10 +20,13 @@ class MotionSampler {
 
   /// From standing at home to standing at the last point.
   double duration_s() const { return duration_s_; }
+  /// As HeldPieces::hold; with it the motion lasts longer.
+  void hold(const std::vector<double>& begins_s);
+  const std::vector<PathHold>& holds() const { return pieces_.holds(); }
   /// Before 0 and after the end it stands.
   MotionSample at(double time_s);
   /// When the motion is nearest to a point: the middle of its parabola or rest, half a window later.
-  /// Of the points one after the other; 0 of home.
+  /// Of the points one after the other; 0 of home. Of the motion without holds.
   std::vector<double> times_of_points() const;
   /// The point that the unfiltered motion was on its way to half a window ago.
   std::size_t point_at(double time_s);
@@ -33,9 +36,8 @@ class MotionSampler {
 
   const PlanPath& path_;
   const TimeLaw& law_;
-  MotionPieces pieces_;
-  std::vector<MotionPieces::Mark> marks_;  // every few points
-  std::deque<MotionPiece> held_;           // what windows of late were in, without a gap
+  HeldPieces pieces_;
+  std::deque<MotionPiece> held_;  // what windows of late were in, without a gap
   bool ended_ = false;
   double duration_s_ = 0;
 };

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/timing/demand/motion_limits.hpp"
+#include "core/timing/demand/motion_order.hpp"
 #include "core/timing/motion/sampler.hpp"
-#include "core/timing/motion_limits.hpp"
 #include "tests/core/timing/made_up_paths.hpp"
 
 namespace sculpt {
@@ -132,6 +133,45 @@ TEST(TimedPlan, TheSameTwice) {
     EXPECT_EQ(one.law.corners[at].x_in, other.law.corners[at].x_in);
   }
   EXPECT_EQ(one.time.total, other.time.total);
+}
+
+TEST(TimedPlan, AStopEndsTheWork) {
+  const Cell cell = shipped_cell("panda-turntable");
+  Random random(6);
+  const PlanPath path = path_of(cell, wander(cell, random, 1200));
+  std::stop_source stop;
+  EXPECT_NO_THROW(time_plan(path, cell, {0.05, 0.5, {}, 0}, stop.get_token()));
+  stop.request_stop();
+  EXPECT_THROW(time_plan(path, cell, {0.05, 0.5, {}, 0}, stop.get_token()), Cancelled);
+}
+
+TEST(MotionOrder, AFeedIsTheOrdersOrThatOfTheFastestTool) {
+  std::vector<MillTool> tools(2);
+  tools[0].feed_m_s = 0.02;
+  tools[1].feed_m_s = 0.03;
+  EXPECT_EQ(demands_of({}, tools).feed_m_s, 0.03);
+  EXPECT_EQ(demands_of({0.01}, tools).feed_m_s, 0.01);
+  const MotionDemands demands = demands_of({0.05, 0.2, 0.9}, {});
+  EXPECT_EQ(demands.rapid_m_s, 0.2);
+  EXPECT_EQ(demands.keep_feed, 0.9);
+}
+
+TEST(MotionOrder, WhatIsNoOrderIsRefusedBeforeThereIsAPlan) {
+  const auto word = [](const MotionOrder& order, const Cell& cell) {
+    try {
+      check_order(order, cell, {});
+      return std::string("accepted");
+    } catch (const InputError& error) {
+      return error.code();
+    }
+  };
+  Cell cell = shipped_cell("gantry");
+  EXPECT_EQ(word({0.05}, cell), "accepted");
+  for (const MotionOrder& order : std::vector<MotionOrder>{
+           {}, {0.0}, {-1.0}, {std::nan("")}, {0.05, 0}, {0.05, INFINITY}, {0.05, 0.5, 0.0}, {0.05, 0.5, 1.01}})
+    EXPECT_EQ(word(order, cell), "feed_invalid");
+  for (JointLimits& limits : cell.limits) limits.jerk = 0;
+  EXPECT_EQ(word({0.05}, cell), "limits_missing");
 }
 
 TEST(TimedPlan, WhatCannotBeDoneIsRefusedWithTheCure) {

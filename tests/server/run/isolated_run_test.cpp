@@ -8,6 +8,7 @@
 #include "server/base/storage_error.hpp"
 #include "server/confine/confinement.hpp"
 #include "server/files/blobs.hpp"
+#include "server/results/isolated_timing.hpp"
 #include "server/run/child_process.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_examination.hpp"
@@ -128,7 +129,7 @@ TEST_F(IsolatedRunTest, AfterASyncThatFailedTheRunStartsOver) {
 
 // Some died of an exception in their hands.
 TEST_F(IsolatedRunTest, AProcessWhoseParentIsGoneEndsInOrder) {
-  for (const char* option : {run_job_option, check_job_option, check_cell_option, replay_job_option}) {
+  for (const char* option : {run_job_option, check_job_option, check_cell_option, replay_job_option, time_job_option}) {
     for (const std::string said : {"", "{\"daemon\":1"}) {
       ChildProcess child(FAKE_WORKER, option);
       child.send(said);

@@ -1,4 +1,4 @@
-#include "core/timing/motion_limits.hpp"
+#include "core/timing/demand/motion_limits.hpp"
 
 #include <algorithm>
 #include <cmath>

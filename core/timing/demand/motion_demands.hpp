@@ -12,4 +12,7 @@ struct MotionDemands {
   double reserve_m = 0;             ///< of all certified margins, kept free for what rounds joint values later
 };
 
+/// Throws InputError `feed_invalid` for a speed that is no positive number, or a share that is none.
+void check_demands(const MotionDemands& demands);
+
 }  // namespace sculpt
