@@ -4,6 +4,7 @@
 
 #include "core/mill/carver.hpp"
 #include "core/mill/finish/finish_stage.hpp"
+#include "core/mill/left/cures.hpp"
 #include "core/mill/rough/rough_stage.hpp"
 
 namespace sculpt {

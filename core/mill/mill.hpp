@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/run_context.hpp"
-#include "core/mill/left/cures.hpp"
+#include "core/mill/left/cure.hpp"
 #include "core/mill/mill_job.hpp"
 #include "core/mill/tool_figures.hpp"
 #include "core/trajectory/keyframe.hpp"

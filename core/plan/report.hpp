@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/mill/left/cures.hpp"
+#include "core/mill/left/cure.hpp"
 #include "core/mill/tool_figures.hpp"
 #include "core/motion/residue.hpp"
 #include "core/sweep/sweep.hpp"

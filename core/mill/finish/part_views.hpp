@@ -12,8 +12,8 @@ namespace sculpt {
 /// Made when first asked for; of small parts they are kept. Any thread.
 class PartViews {
  public:
-  /// `part` must outlive the object.
-  explicit PartViews(const Mesh& part, std::size_t directions) : part_(part), kept_(directions) {}
+  /// `part` must outlive the object. `count`: of directions.
+  explicit PartViews(const Mesh& part, std::size_t count) : part_(part), kept_(count) {}
 
   std::shared_ptr<const FacetColumns> along(std::size_t direction, const ToolFrame& frame) {
     {
