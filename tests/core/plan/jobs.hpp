@@ -20,6 +20,12 @@ inline std::filesystem::path shared_data() {
   return folder != nullptr ? folder : SOURCE_DIR "/../shared/data";
 }
 
+/// Of an environment variable: how much a long run by hand tries.
+inline std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
+}
+
 inline std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "core/base/error.hpp"
 #include "tests/core/plan/jobs.hpp"
 
@@ -13,11 +11,6 @@ namespace sculpt {
 namespace {
 
 constexpr int resolution = 8;
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
-}
 
 /// The gantry: a ram of 40 mm in a hole of 160 mm of a fixed plate, on axes of +-2 m, over a stock that it
 /// cannot reach all of without going through the plate.

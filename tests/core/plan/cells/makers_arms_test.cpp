@@ -3,8 +3,6 @@
 // them, from seed SCULPT_MAKERS_FROM on.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "core/base/helpers.hpp"
 #include "core/base/run_context.hpp"
 #include "core/doctor/examine.hpp"
@@ -16,11 +14,6 @@ namespace sculpt {
 namespace {
 
 constexpr int resolution = 8;
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
-}
 
 std::string triple(const Vec3& v) {
   return std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z());
