@@ -48,6 +48,7 @@ class Carver {
   /// In the direction that was entered.
   const ReachFloor& reach() const { return *floor_; }
   const Vec3& hub() const { return hub_; }
+  const SweptCutter& swept() const { return sweeps_->of_centres; }
   /// Of that direction's frame.
   Vec3 tip(const Site& site) const { return site.frame().of(*arm_.tip()); }
 

@@ -1,12 +1,10 @@
 // What stands while a plan with milling tools is carried out.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
-#include "core/material/voxel_grid.hpp"
 #include "core/mill/map/tool_frame.hpp"
-#include "core/trajectory/milling/swept_voxels.hpp"
+#include "core/mill/swept_set.hpp"
 
 namespace sculpt {
 
@@ -23,23 +21,20 @@ struct MillSweeps {
 /// one while another changes the other.
 class MillStock {
  public:
-  MillStock(const VoxelSet& stock, const Grid& grid) : grid_(grid), centres_(grid), left_(stock), standing_(stock) {}
+  MillStock(const VoxelSet& stock, const Grid& grid) : left_(stock, grid), standing_(stock, grid) {}
 
   /// The cutter goes straight from one tip to the other. Gives the number of voxels that it removes.
   std::uint32_t remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
   /// The same for those in which nothing may stand any more.
   void clear(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
 
-  const Grid& grid() const { return grid_; }
   /// Not removed yet.
-  const VoxelSet& left() const { return left_; }
+  const SweptSet& left() const { return left_; }
   /// Where something may stand: all that is not in a cube of these is air.
-  const VoxelSet& standing() const { return standing_; }
+  const VoxelSet& standing() const { return standing_.voxels(); }
 
  private:
-  Grid grid_;
-  VoxelCentres centres_;
-  VoxelSet left_, standing_;
+  SweptSet left_, standing_;
 };
 
 }  // namespace sculpt

@@ -1,6 +1,7 @@
 #include "core/mill/finish/contour_strokes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "core/mill/drive/hop.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 /// A way along the surface may be so many times as long as straight.
 constexpr double detour = 3;
-/// Of a chip times radius: what may stand where the cutter is let down.
-constexpr double max_plunged = 0.5;
+/// Of the radius: an edge is cut in part in steps no shorter.
+constexpr double shortest_share = 1.0 / 16;
 
 }  // namespace
 
@@ -30,27 +31,51 @@ Contour ContourStrokes::way_to(const Contour& contour) const {
   return way;
 }
 
-void ContourStrokes::add(const Contour& contour) {
-  const double radius_m = task_.radius_m;
-  const auto lower = [&](const Vec3& from, const Vec3& to) { stock_.cut(from, to, [](std::size_t, float) {}); };
-  for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) {
-    const Vec3 &from = contour[edge], &to = contour[edge + 1];
-    if (!is_down_) {
-      const Vec3 above = from + Vec3(0, 0, radius_m);
-      if (stock_.volume(above, from) > max_plunged * task_.chip_m2 * radius_m) continue;
-      hop(task_.site, at_, from, std::max(from.z(), task_.min_height), task_.stray_m, strokes_);
-      lower(above, from);
-      at_ = from;
-      is_down_ = true;
-    }
-    if (stock_.volume(from, to) > task_.chip_m2 * std::max((to - from).norm(), radius_m / 4)) {
-      is_down_ = false;
+/// Volume (m^3).
+double ContourStrokes::take(const Vec3& from, const Vec3& to) {
+  taken_.clear();
+  const auto quanta = [&](const Vec3& tip) { return quanta_of(task_.site.frame().point(tip)); };
+  return stock_.take(task_.swept, quanta(from), quanta(to), &taken_) * std::pow(task_.voxel_m, 3);
+}
+
+/// From above, if little stands there.
+bool ContourStrokes::let_down(const Vec3& to) {
+  const Vec3 above = to + Vec3(0, 0, task_.tool.cutter.radius_m);
+  if (!load_.bears_plunge(take(above, to))) {
+    stock_.give_back(taken_);
+    return false;
+  }
+  hop(task_.site, at_, to, std::max(to.z(), task_.min_height), task_.stray_m, strokes_);
+  at_ = to;
+  is_down_ = true;
+  load_.begin();
+  return true;
+}
+
+/// As far as the cutter bears it.
+void ContourStrokes::cut(const Vec3& to) {
+  const Vec3 from = at_;
+  const double length = (to - from).norm(), shortest = shortest_share * task_.tool.cutter.radius_m / length;
+  double share = 0;
+  for (double step = 1; share < 1;) {
+    const double next = std::min(1.0, share + step);
+    const Vec3 end = next < 1 ? Vec3(from + next * (to - from)) : to;
+    if (load_.bears(take(at_, end), (next - share) * length)) {
+      share = next;
+      at_ = end;
       continue;
     }
-    lower(from, to);
-    strokes_.push_back({task_.site.frame().point(to), true, task_.stray_m});
-    at_ = to;
+    stock_.give_back(taken_);
+    is_down_ = step / 2 >= shortest;
+    if (!is_down_) break;
+    step /= 2;
   }
+  if (share > 0) strokes_.push_back({task_.site.frame().point(at_), true, task_.stray_m});
+}
+
+void ContourStrokes::add(const Contour& contour) {
+  for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge)
+    if (is_down_ || let_down(contour[edge])) cut(contour[edge + 1]);
 }
 
 std::vector<std::size_t> turn_nearest(const Vec3& at, std::vector<Contour>& contours, std::size_t some) {

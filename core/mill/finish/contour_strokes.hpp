@@ -4,10 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/cell/milling/mill_tool.hpp"
 #include "core/mill/drive/mill_stroke.hpp"
+#include "core/mill/finish/chip_load.hpp"
 #include "core/mill/finish/envelope.hpp"
 #include "core/mill/map/site.hpp"
-#include "core/mill/rough/stock_top.hpp"
+#include "core/mill/swept_set.hpp"
 
 namespace sculpt {
 
@@ -19,14 +21,16 @@ class ContourStrokes {
   struct Task {
     const Site& site;
     const EnvelopeTask& envelope;
-    double radius_m = 0;    ///< of the cutter
-    double chip_m2 = 0;     ///< no edge takes off more a unit of length
-    double stray_m = 0;     ///< of the cutter
-    double beside_m = 0;    ///< a contour that begins no farther away may be gone to along the surface
-    double min_height = 0;  ///< of ways over
+    const MillTool& tool;
+    const SweptCutter& swept;  ///< its cutter, in the site's direction
+    double voxel_m = 0;        ///< of the stock
+    double stray_m = 0;        ///< of the cutter
+    double beside_m = 0;       ///< a contour that begins no farther away may be gone to along the surface
+    double min_height = 0;     ///< of ways over
   };
-  /// `at`: where the tip is, in the air. `stock`: what is to come off.
-  ContourStrokes(const Task& task, StockTop stock, const Vec3& at) : task_(task), stock_(std::move(stock)), at_(at) {}
+  /// `at`: where the tip is, in the air. `stock`: what was not cut yet.
+  ContourStrokes(const Task& task, SweptSet stock, const Vec3& at)
+      : task_(task), stock_(std::move(stock)), load_(task.tool, task.voxel_m), at_(at) {}
 
   /// Along the surface to where a contour begins, the tip being down; nothing where that is no short way. Any thread.
   Contour way_to(const Contour& contour) const;
@@ -44,9 +48,14 @@ class ContourStrokes {
 
  private:
   void add(const Contour& contour);
+  bool let_down(const Vec3& to);
+  void cut(const Vec3& to);
+  double take(const Vec3& from, const Vec3& to);
 
   Task task_;
-  StockTop stock_;
+  SweptSet stock_;
+  SweptSet::Taken taken_;  ///< by the last motion
+  ChipLoad load_;
   Vec3 at_;
   bool is_down_ = false;  ///< at rest on the part
   std::vector<MillStroke> strokes_;

@@ -164,9 +164,9 @@ class FinishStage {
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
     double min_height = -std::numeric_limits<double>::infinity();
     for (int failures = 0; !contours.empty() && failures < max_failures; ++failures) {
-      ContourStrokes laid(
-          {site, task, radius_m_, chip_m2(), job_.wishes.stray_m(), beside_spacings * spacing_m_, min_height},
-          see_stock(site), carver_.tip(site));
+      ContourStrokes laid({site, task, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
+                           beside_spacings * spacing_m_, min_height},
+                          carver_.stock().left(), carver_.tip(site));
       Batch batch, ahead = lay_batch(contours, laid);
       std::size_t done = 0;
       while (!ahead.contours.empty() && done == batch.strokes.size()) {
@@ -189,18 +189,6 @@ class FinishStage {
       for (Laid& next : ahead.contours) contours.push_back(std::move(next.contour));
       carver_.draw_back(site);
     }
-  }
-
-  /// Of a cut, with a layer of voxels: less cannot be told from it.
-  double chip_m2() const { return carver_.tool().max_depth_m * (carver_.tool().max_width_m + job_.grid.voxel_m); }
-
-  /// The top of what is to come off, of the part nothing; as a replay counts it, by the middles of voxels.
-  StockTop see_stock(const Site& site) const {
-    VoxelSet wanted = carver_.stock().left();
-    wanted -= job_.voxels.keep;
-    HeightMap tops = heights_of(wanted, job_.grid, site.frame(), site.lattice());
-    for (float& top : tops.heights) top -= static_cast<float>(job_.grid.voxel_m / 2);
-    return {std::move(tops), carver_.tool().cutter, job_.wishes.stray_m()};
   }
 
   const MillJob& job_;

@@ -42,7 +42,7 @@ class RoughStage {
   /// Of each direction which of some voxels that are to be removed the tool comes to.
   void find_prospects() {
     const int stride = std::max(1, job_.grid.n / samples_along);
-    VoxelSet wanted = stock().left();
+    VoxelSet wanted = stock().left().voxels();
     wanted -= job_.voxels.keep;
     for (int k = stride / 2; k < job_.grid.n; k += stride)
       for (int j = stride / 2; j < job_.grid.n; j += stride)
@@ -65,7 +65,7 @@ class RoughStage {
     std::vector<std::size_t> gains(mill_directions().size());
     for (std::size_t number = 0; number < gains.size(); ++number)
       for (std::size_t at = 0; at < samples_.size() && !used_up[number]; ++at)
-        gains[number] += prospects_[number][at] && stock().left().contains(samples_[at]);
+        gains[number] += prospects_[number][at] && stock().left().voxels().contains(samples_[at]);
     const auto most = std::ranges::max_element(gains);
     if (static_cast<double>(*most) < min_gain_) return std::nullopt;
     return static_cast<std::size_t>(most - gains.begin());
@@ -75,7 +75,7 @@ class RoughStage {
   std::vector<Vec3> places_left(std::size_t direction) const {
     std::vector<Vec3> places;
     for (std::size_t at = 0; at < samples_.size(); ++at)
-      if (prospects_[direction][at] && stock().left().contains(samples_[at]))
+      if (prospects_[direction][at] && stock().left().voxels().contains(samples_[at]))
         places.push_back(job_.grid.centre(samples_[at]));
     return places;
   }
@@ -101,7 +101,7 @@ class RoughStage {
 
   /// What is to be cut and can be: not all that may stand.
   HeightMap tops_to_cut(const Site& site) const {
-    return heights_of(stock().left(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
+    return heights_of(stock().left().voxels(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
   }
   StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, stray_m()}; }
 

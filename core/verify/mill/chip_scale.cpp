@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double slack = 1.1, layers = 2;
+constexpr double slack = 1.1;
 
 }  // namespace
 
@@ -20,8 +20,9 @@ std::string ChipScale::weigh(const MillTool& tool, std::uint64_t voxels, double 
     length_ -= chips_.front().second;
     chips_.pop_front();
   }
-  const double layer = diameter * depth * voxel_mm;  // of voxels, across the cut
-  if (length_ < diameter || volume_ <= slack * depth * width * length_ + layers * layer) return {};
+  // A box holds the centres of no more voxels than (side / voxel + 1), along each side.
+  const double chip = slack * depth * width + voxel_mm * (depth + width + voxel_mm);
+  if (length_ < diameter || volume_ <= chip * (length_ + voxel_mm)) return {};
   std::ostringstream text;
   text << "over the last " << length_ << " mm the cutter takes off " << volume_ / length_ << " mm2, more than " << depth
        << " x " << width << " mm";

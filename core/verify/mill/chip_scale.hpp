@@ -9,7 +9,7 @@
 
 namespace sculpt {
 
-/// Weighed over a diameter of path: in a shorter one a layer of voxels more or less would decide.
+/// Weighed over a diameter of path, as what is taken off is known by whole voxels only.
 class ChipScale {
  public:
   /// Of the next cut; lengths in mm. A sentence if the last ones together are too heavy.
