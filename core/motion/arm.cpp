@@ -13,12 +13,13 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t max_hubs = 12;
-/// Attempts by effort: postures of the atlas to start IK from, and iterations of RRTConnect.
+/// Attempts by effort: hubs and postures of the atlas to start IK from, and iterations of RRTConnect.
+constexpr std::size_t nearest_hubs[] = {3, max_hubs, max_hubs};
 constexpr std::size_t known_postures[] = {2, 6, 16};
 constexpr int rrt_iterations[] = {150, 600, 3000};
 /// Work on transits that may be in vain, in tests of configurations: at first, and more for each voxel that is cut.
 constexpr std::uint64_t in_vain_at_first = 10'000'000, in_vain_a_voxel = 20'000;
-constexpr std::uint64_t tests_a_start = 10;  ///< what solving IK from one configuration costs, about
+constexpr std::uint64_t tests_a_start = 12;  ///< what looking for an entry from one configuration costs, about
 
 /// A path walked backwards.
 std::vector<Configuration> reversed(std::vector<Configuration> path) {
@@ -40,6 +41,11 @@ Arm::Arm(Scene& scene, const PostureAtlas& atlas, const VoxelSet& may_fall, cons
   const int n = scene.grid().n;
   at_ = {n / 2, n / 2, n - 1};
   trail_ = {home};
+}
+
+std::size_t Arm::number_of(Voxel voxel, std::size_t axis) const {
+  const auto n = static_cast<std::size_t>(scene_.grid().n);
+  return ((voxel.k * n + voxel.j) * n + voxel.i) * axes().size() + axis;
 }
 
 bool Arm::fits(Voxel voxel, std::size_t axis) const {
@@ -122,21 +128,26 @@ const Arm::Path& Arm::way_out() {
   return memory_.way_out;
 }
 
-std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int effort) const {
+std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int from_effort, int effort) const {
   const std::vector<Configuration> known = atlas_.around(voxel, axis, known_postures[effort]);
   if (known.empty()) return {};
   std::vector<Configuration> seeds;
-  if (axis == memory_.axis) seeds.push_back(q_);
+  const auto add = [&](const std::vector<Configuration>& from, const std::size_t(&counts)[3]) {
+    const std::size_t first = from_effort > 0 ? std::min(counts[from_effort - 1], from.size()) : 0;
+    const std::size_t end = std::min(counts[effort], from.size());
+    seeds.insert(seeds.end(), from.begin() + static_cast<std::ptrdiff_t>(first),
+                 from.begin() + static_cast<std::ptrdiff_t>(std::max(first, end)));
+  };
+  if (axis == memory_.axis && from_effort == 0) seeds.push_back(q_);
   if (const auto at = memory_.hubs.find(axis); at != memory_.hubs.end()) {
     Path hubs = at->second;
     const Vec3 ball = outside(centre(voxel), axes()[axis]);
     std::ranges::stable_sort(
         hubs, {}, [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); });
-    const std::size_t most = effort == 0 ? 3 : max_hubs;
-    seeds.insert(seeds.end(), hubs.begin(), hubs.begin() + static_cast<std::ptrdiff_t>(std::min(most, hubs.size())));
+    add(hubs, nearest_hubs);
   }
-  seeds.push_back(home_);
-  seeds.insert(seeds.end(), known.begin(), known.end());
+  if (from_effort == 0) seeds.push_back(home_);
+  add(known, known_postures);
   return seeds;
 }
 
@@ -169,17 +180,28 @@ bool Arm::cut_after_transit(std::span<const Voxel> voxels, std::size_t axis, int
 
 bool Arm::transit_to_one(std::span<const Voxel> voxels, std::size_t axis, int effort) {
   if (memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut) return false;
-  const std::uint64_t tests = scene_.checks();
   std::vector<Approach> approaches(voxels.size());
   run_.helpers.for_each_index(voxels.size(), [&](std::size_t i) {
     if (!fits(voxels[i], axis)) return;
-    approaches[i] = {voxels[i], axis, entry_seeds(voxels[i], axis, effort), 0, {}};
+    const auto before = no_entry_.find(number_of(voxels[i], axis));
+    const bool same = before != no_entry_.end() && before->second.cut == memory_.cut;
+    approaches[i] = {voxels[i],
+                     axis,
+                     entry_seeds(voxels[i], axis, same ? before->second.effort + 1 : 0, effort),
+                     same ? before->second.seeds : 0,
+                     0,
+                     {}};
     find_next_entry(approaches[i]);
   });
+  const std::uint64_t tests = scene_.checks();
   std::size_t starts = 0;
   for (Approach& approach : approaches) {
+    const bool found = approach.entry.has_value();
     if (transit(approach, effort)) return true;
-    starts += approach.tried;
+    // As if none was left out: it shall not matter what was known.
+    const std::size_t seeds = approach.left_out + approach.tried;
+    starts += seeds;
+    if (!found && seeds > 0) no_entry_[number_of(approach.voxel, axis)] = {memory_.cut, effort, seeds};
   }
   memory_.in_vain += scene_.checks() - tests + tests_a_start * starts;
   return false;

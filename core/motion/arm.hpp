@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <unordered_map>
 
 #include "core/base/run_context.hpp"
 #include "core/collision/scene.hpp"
@@ -79,11 +80,13 @@ class Arm {
     Voxel voxel;
     std::size_t axis = 0;
     Path seeds;
+    std::size_t left_out = 0;    // seeds that were tried before in vain
     std::size_t tried = 0;       // of the seeds
     std::optional<Entry> entry;  // from the last of them that were tried
   };
 
   Vec3 centre(Voxel voxel) const { return scene_.grid().centre(voxel); }
+  std::size_t number_of(Voxel voxel, std::size_t axis) const;
   /// Ball position on the line from the voxel along the axis where the whole tool is outside the grid's cube.
   Vec3 outside(const Vec3& ball_m, const Vec3& axis) const;
   /// Ball position before the cut: on the same line, just clear of the voxel.
@@ -93,7 +96,8 @@ class Arm {
   bool transit(Approach& approach, int effort);
   /// From where the arm stands to outside the stock, both included; never fails.
   const Path& way_out();
-  std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int effort) const;
+  /// Those with a lower effort than that are left out.
+  std::vector<Configuration> entry_seeds(Voxel voxel, std::size_t axis, int from_effort, int effort) const;
   std::optional<Entry> find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const;
   /// Goes on to the next seed that has an entry.
   void find_next_entry(Approach& approach) const;
@@ -115,6 +119,12 @@ class Arm {
   Voxel at_, last_step_;
   Path trail_;  // every keyframe since home, home first: walked backwards it is free for ever
   ArmMemory memory_;
+  struct InVain {
+    std::uint64_t cut;  // voxels, then
+    int effort;
+    std::size_t seeds;
+  };
+  std::unordered_map<std::size_t, InVain> no_entry_;  // by voxel and axis; spares work, changes no result
 };
 
 }  // namespace sculpt

@@ -1,8 +1,9 @@
 #include "core/search/block_order.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace sculpt {
 namespace {
@@ -54,29 +55,32 @@ class Order {
     return block.label == Label::air ? 1 : static_cast<std::uint64_t>(block.size) * block.size * block.size;
   }
 
-  int best() const {
-    int chosen = -1;
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (int b : open_) {
-      const auto at = static_cast<std::size_t>(b);
-      const auto h = static_cast<std::int64_t>(total_ - done_ - left_[at]) + octree_.leaves[at].distance(at_);
-      if (h < least) {
-        least = h;
-        chosen = b;
+  /// Of those that are open the one with the least cost, then of the lowest number; they stay as they are until
+  /// something is removed.
+  int take_best() {
+    if (next_.empty()) {
+      for (const int b : open_) {
+        const auto at = static_cast<std::size_t>(b);
+        next_.emplace_back(static_cast<std::int64_t>(total_ - done_ - left_[at]) + octree_.leaves[at].distance(at_), b);
       }
+      std::ranges::make_heap(next_, std::ranges::greater{});
     }
-    return chosen;
+    std::ranges::pop_heap(next_, std::ranges::greater{});
+    const int block = next_.back().second;
+    next_.pop_back();
+    open_.erase(block);
+    return block;
   }
 
   void try_one(const TryBlock& try_block, int effort) {
-    const int block = best();
-    open_.erase(block);
+    const int block = take_best();
     const BlockTrial trial = try_block(block, effort);
     if (trial.left > 0) aside_.insert(block);
     if (trial.removed == 0) return;
     done_ += static_cast<std::uint64_t>(trial.removed);
     left_[static_cast<std::size_t>(block)] = static_cast<std::uint64_t>(trial.left);
     at_ = trial.at;
+    next_.clear();
     for (std::uint32_t b : graph_.of(block)) {
       if (left_[b] == 0 || octree_.leaves[b].label != Label::remove) continue;
       aside_.erase(static_cast<int>(b));
@@ -89,7 +93,8 @@ class Order {
   Voxel at_;
   std::vector<std::uint64_t> left_;  // per block: remove voxels still standing
   std::uint64_t total_ = 0, done_ = 0;
-  std::set<int> open_, aside_;  // ids with voxels left: to be tried, and tried without full success
+  std::vector<std::pair<std::int64_t, int>> next_;  // a heap of what is open, with costs; empty: not known
+  std::set<int> open_, aside_;                      // ids with voxels left: to be tried, and tried without full success
 };
 
 }  // namespace
