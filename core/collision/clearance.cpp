@@ -54,34 +54,37 @@ class TreePair {
   Vec3 slide_;
 };
 
-/// A body's tree against the standing voxels. Lengths in voxel edges.
+/// Goes down a body's tree and the octree of the standing voxels at once.
 class MaterialQuery {
  public:
   MaterialQuery(const ShapeTree& tree, const Frame& pose, const Material& material, const Grid& grid, double reach_m)
       : tree_(tree), pose_(pose), material_(material), grid_(grid), reach_m_(reach_m) {}
 
-  bool is_near() const { return is_near(tree_.root(), tree_.root().shape.placed(pose_)); }
+  bool is_near() const { return is_near(tree_.root(), tree_.root().shape.placed(pose_), {0, 0, 0}, grid_.n); }
 
  private:
-  bool is_near(const Node& node, const Convex& placed) const {
-    if (!meets(placed)) return false;
-    return node.is_leaf() ||
-           any_child(tree_, node, pose_, [&](const Node& child, const Convex& at) { return is_near(child, at); });
-  }
-
-  bool meets(const Convex& shape) const {
-    const double h = grid_.voxel_m;
-    const Vec3 centre = shape.centre() - grid_.origin_m;
-    const Vec3 around = Vec3::Constant(shape.extent() + reach_m_);
-    const Eigen::AlignedBox3d box((centre - around) / h, (centre + around) / h);
-    return material_.any_cube([&](Voxel corner, int size) {
-      const Vec3 low(corner.i, corner.j, corner.k), side = Vec3::Constant(size);
-      if (!box.intersects(Eigen::AlignedBox3d(low, low + side))) return false;
-      Frame at = Frame::Identity();
-      at.translation() = grid_.origin_m + h * (low + side / 2);
-      return separate(shape, Convex::box(at, h * side / 2), std::nextafter(reach_m_, 1e9), Effort::full).gap <=
-             reach_m_;
-    });
+  bool is_near(const Node& node, const Convex& placed, Voxel corner, int size) const {
+    if (!material_.any_in(corner, size)) return false;
+    const bool is_full = material_.is_full(corner, size), to_decide = node.is_leaf() && is_full;
+    const Vec3 half = Vec3::Constant(grid_.voxel_m * size / 2);
+    const Vec3 middle = grid_.origin_m + grid_.voxel_m * Vec3(corner.i, corner.j, corner.k) + half;
+    const Vec3 to_node = placed.centre() - middle;
+    const double radius_m = placed.extent();
+    if (to_node.cwiseAbs().maxCoeff() > half.x() + radius_m + reach_m_) return false;
+    const Convex cube = Convex::box(Frame(Eigen::Translation3d(middle)), half);
+    if (separate(placed, cube, std::nextafter(reach_m_, 1e9), effort(to_decide)).gap > reach_m_) return false;
+    if (to_decide) return true;
+    if (is_full || (!node.is_leaf() && radius_m >= half.norm()))
+      return any_child(tree_, node, pose_,
+                       [&](const Node& child, const Convex& at) { return is_near(child, at, corner, size); });
+    // The nearest eighth first.
+    const int nearest = (to_node.x() > 0 ? 1 : 0) | (to_node.y() > 0 ? 2 : 0) | (to_node.z() > 0 ? 4 : 0);
+    for (int part = 0; part < 8; ++part) {
+      const int child = part ^ nearest;
+      if (is_near(node, placed, corner + Voxel{child & 1, child >> 1 & 1, child >> 2} * (size / 2), size / 2))
+        return true;
+    }
+    return false;
   }
 
   const ShapeTree& tree_;

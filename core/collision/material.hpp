@@ -57,28 +57,10 @@ class Material {
   /// Does the capsule of `radius` around `segment` come closer than 0 to a standing voxel other than `exempt`? Exact.
   bool meets_capsule(const Segment& segment, double radius, const Exempt& exempt) const;
 
-  /// Is there a full cube, as large as they come, that `meets(corner, size)` is true of? It is also asked of cubes that
-  /// are not full, from the largest down, and must be true of every cube that holds one it is true of.
-  template <typename Meets>
-  bool any_cube(const Meets& meets) const {
-    return any_cube_below(static_cast<int>(counts_.size()), {0, 0, 0}, meets);
-  }
-
  private:
   bool meets_thin_capsule(const Segment& segment, double radius, const Exempt& exempt) const;
   bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius, const Exempt& exempt) const;
 
-  template <typename Meets>
-  bool any_cube_below(int level, Voxel at, const Meets& meets) const {
-    const std::uint32_t standing = count(level, at);
-    if (standing == 0 || !meets(at * (1 << level), 1 << level)) return false;
-    if (standing == volume(level)) return true;
-    for (int child = 0; child < 8; ++child) {
-      const Voxel below{2 * at.i + (child & 1), 2 * at.j + (child >> 1 & 1), 2 * at.k + (child >> 2)};
-      if (any_cube_below(level - 1, below, meets)) return true;
-    }
-    return false;
-  }
   static int level_of(int size) { return std::countr_zero(static_cast<unsigned>(size)); }
   std::uint32_t count_in(Voxel corner, int size) const {
     return count(level_of(size), {corner.i / size, corner.j / size, corner.k / size});

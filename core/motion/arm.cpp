@@ -19,7 +19,8 @@ constexpr std::size_t known_postures[] = {2, 6, 16};
 constexpr int rrt_iterations[] = {150, 600, 3000};
 /// Work on transits that may be in vain, in tests of configurations: at first, and more for each voxel that is cut.
 constexpr std::uint64_t in_vain_at_first = 10'000'000, in_vain_a_voxel = 20'000;
-constexpr std::uint64_t tests_a_start = 12;  ///< what looking for an entry from one configuration costs, about
+constexpr std::uint64_t iterations_a_voxel = 50;  ///< of OMPL's searches in vain, more for each voxel that is cut
+constexpr std::uint64_t tests_a_start = 12;       ///< what looking for an entry from one configuration costs, about
 
 /// A path walked backwards.
 std::vector<Configuration> reversed(std::vector<Configuration> path) {
@@ -213,7 +214,8 @@ bool Arm::transit(Approach& approach, int effort) {
     const Entry& entry = *approach.entry;
     const Configuration& hub = entry.from_outside.front();
     const Path& out = way_out();
-    const Path across = cross(out.back(), hub, rrt_iterations[effort]);
+    const auto iterations = std::min<std::uint64_t>(rrt_iterations[effort], memory_.iterations_left);
+    const Path across = cross(out.back(), hub, static_cast<int>(iterations));
     if (across.empty()) {
       if (++failures > 1 + 2 * effort) return false;
       continue;
@@ -235,6 +237,8 @@ Arm::Path Arm::cross(const Configuration& from, const Configuration& to, int ite
   Transit transit = plan_transit(scene_, from, to, mix(run_.seed, memory_.queries++), run_.watch.stop, {iterations});
   if (transit.searched) ++memory_.ompl_calls;
   if (transit.searched && !transit.path.empty()) ++memory_.ompl_solved;
+  if (transit.searched && transit.path.empty())
+    memory_.iterations_left -= std::min<std::uint64_t>(iterations, memory_.iterations_left);
   return std::move(transit.path);
 }
 
@@ -253,6 +257,7 @@ void Arm::commit(const Path& moves, const Configuration& cut, Voxel voxel) {
   emit_(keyframe);
   stand_at(keyframe);
   ++memory_.cut;
+  memory_.iterations_left += iterations_a_voxel;
   memory_.outside = false;
   memory_.way_out.clear();
 }

@@ -27,6 +27,7 @@ struct ArmMemory {
   std::uint64_t ompl_calls = 0, ompl_solved = 0;  ///< how often OMPL was asked for one, and how often it found one
   std::uint64_t in_vain = 0;                      ///< work, in tests of configurations, on transits that were not found
   std::uint64_t cut = 0;                          ///< voxels
+  std::uint64_t iterations_left = 0;              ///< of OMPL's searches that may find nothing; each cut gives more
 };
 
 /// Every edge it emits is certified against the material that stands at that moment, and it can always go back to home:

@@ -1,5 +1,8 @@
 #include "core/motion/arm_carve.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/material/block_graph.hpp"
 #include "core/motion/block_carve.hpp"
 
@@ -7,6 +10,15 @@ namespace sculpt {
 namespace {
 
 constexpr int max_effort = 2;
+/// Iterations of OMPL's searches that may find nothing, at first: few where there is little to gain.
+constexpr std::uint64_t iterations_a_voxel = 20, min_iterations = 300, max_iterations = 3000;
+
+std::uint64_t iterations_for(const Octree& octree) {
+  std::uint64_t voxels = 0;
+  for (const Block& block : octree.leaves)
+    if (block.label == Label::remove) voxels += static_cast<std::uint64_t>(block.size) * block.size * block.size;
+  return std::clamp(iterations_a_voxel * voxels, min_iterations, max_iterations);
+}
 
 }  // namespace
 
@@ -15,7 +27,9 @@ ArmMemory carve_with_arm(Scene& scene, const ArmTask& task, const ArmStart& star
   const BlockGraph graph = build_block_graph(task.octree, run.watch);
   Arm arm(scene, task.atlas, task.may_fall, task.home, run, listener.emit);
   const Voxel first = arm.at();
-  arm.resume(start.keyframes, start.memory);
+  ArmMemory memory = start.memory;
+  if (start.trials.empty()) memory.iterations_left = iterations_for(task.octree);
+  arm.resume(start.keyframes, std::move(memory));
   const auto try_block = [&, tried = std::size_t{0}](int block, int effort) mutable {
     if (tried < start.trials.size()) return start.trials[tried++];
     const BlockTrial trial = carve_block(arm, task.octree.leaves[static_cast<std::size_t>(block)], effort);

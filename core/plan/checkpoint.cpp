@@ -165,7 +165,8 @@ Json to_json(const ArmMemory& arm) {
           {"ompl_calls", arm.ompl_calls},
           {"ompl_solved", arm.ompl_solved},
           {"in_vain", arm.in_vain},
-          {"cut", arm.cut}};
+          {"cut", arm.cut},
+          {"iterations_left", arm.iterations_left}};
 }
 
 ArmMemory arm_of(const Json& json) {
@@ -180,6 +181,7 @@ ArmMemory arm_of(const Json& json) {
   arm.ompl_solved = json.at("ompl_solved").get<std::uint64_t>();
   arm.in_vain = json.at("in_vain").get<std::uint64_t>();
   arm.cut = json.at("cut").get<std::uint64_t>();
+  arm.iterations_left = json.at("iterations_left").get<std::uint64_t>();
   return arm;
 }
 

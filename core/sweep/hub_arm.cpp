@@ -90,8 +90,10 @@ std::vector<Configuration> HubArm::find_transit(const Configuration& to) const {
 std::optional<std::vector<Configuration>> HubArm::way_home() const {
   if (field_ == nullptr) return std::vector<Configuration>{};
   const Vec3 hub = ToolView::place(field_->hub());
-  const FollowedStrokes over = try_strokes(*field_, memory_.at, {{hub, 0, 0, {}, {}}});
-  if (memory_.at != hub && over.strokes == 0) return std::nullopt;
+  std::vector<Stroke> strokes;
+  for (const Vec3& place : field_->way_over(memory_.at, hub)) strokes.push_back({place, 0, 0, {}, {}});
+  const FollowedStrokes over = try_strokes(*field_, memory_.at, strokes);
+  if (memory_.at != hub && over.strokes < strokes.size()) return std::nullopt;
   std::vector<Configuration> way;
   for (const Keyframe& keyframe : over.keyframes) way.push_back(keyframe.q);
   way.insert(way.end(), memory_.way_home.begin(), memory_.way_home.end());

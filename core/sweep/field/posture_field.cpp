@@ -1,6 +1,8 @@
 #include "core/sweep/field/posture_field.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <map>
 
 #include "core/collision/margins.hpp"
 #include "core/sweep/field/posture.hpp"
@@ -18,17 +20,21 @@ PostureField::PostureField(const Scene& scene, const ToolView& view, const Postu
     : lattice_(scene.chain(), scene.grid(), view, start, watch),
       cover_({scene, scene.full_stock(), lattice_, helpers, watch}) {
   find_roomy(scene);
+  find_hub();
 }
 
 PostureField::PostureField(const Scene& scene, const ToolView& view, Record record, const Watch& watch)
     : lattice_(scene.chain(), scene.grid(), view, record.start, watch),
       cover_(std::move(record.cover)),
-      roomy_(record.roomy) {}
+      roomy_(record.roomy) {
+  find_hub();
+}
 
 PostureField::PostureField(const PostureField& other, const Scene& scene, const Body& stock, const VoxelSet& wanted,
                            const Helpers& helpers, const Watch& watch)
     : PostureField(other) {
   cover_.extend({scene, stock, lattice_, helpers, watch}, wanted);
+  find_hub();
 }
 
 PostureField::PostureField(const PostureField& other, const ToolView& view, const Configuration& turn)
@@ -39,6 +45,22 @@ PostureField::PostureField(const PostureField& other, const ToolView& view, cons
 
 void PostureField::refine(const Scene& scene, const Body& stock, const Helpers& helpers, const Watch& watch) {
   cover_.refine({scene, stock, lattice_, helpers, watch});
+  find_hub();
+}
+
+/// The node that the lattice grew from, or the nearest.
+void PostureField::find_hub() {
+  const PostureLattice::Start& from = lattice_.origin();
+  std::optional<int> nearest;
+  for (int j = 0; j <= PostureLattice::cells; ++j)
+    for (int i = 0; i <= PostureLattice::cells; ++i) {
+      const int far = (i - from.i) * (i - from.i) + (j - from.j) * (j - from.j);
+      const Voxel hub = PostureLattice::hub_of(view().n, {{}, i, j});
+      if ((nearest && far >= *nearest) || !usable(ToolView::place(hub))) continue;
+      nearest = far;
+      hub_ = hub;
+    }
+  if (!nearest) hub_ = PostureLattice::hub_of(view().n, from);
 }
 
 /// The largest box of ball positions, as far as insets on all four sides go.
@@ -65,6 +87,37 @@ bool PostureField::links_are_free(const Vec3& from_cell, const Configuration& fr
     return false;
   held = held_now;
   return true;
+}
+
+std::vector<Vec3> PostureField::way_over(const Vec3& from_cell, const Vec3& to_cell) const {
+  constexpr int splits = 12;
+  const Voxel from = part(from_cell), to = part(to_cell);
+  if (from.k != to.k || line_is_usable(from_cell, to_cell, splits)) return {to_cell};
+  // Breadth first, from the end back to the beginning.
+  std::map<Voxel, Voxel> next{{to, to}};
+  for (std::deque<Voxel> queue{to}; !queue.empty() && next.count(from) == 0; queue.pop_front())
+    for (const Voxel step : face_steps) {
+      const Voxel beside = queue.front() + step;
+      if (step.k != 0 || std::min(beside.i, beside.j) < 0 || std::max(beside.i, beside.j) >= PostureLattice::fine)
+        continue;
+      if (usable_part(beside) && next.emplace(beside, queue.front()).second) queue.push_back(beside);
+    }
+  if (next.count(from) == 0) return {to_cell};
+  std::vector<Vec3> places;
+  for (Voxel at = from; at != to; at = next.at(at)) {
+    Vec3 place = lattice_.middle_cell(at, 1);
+    place.z() = from_cell.z();
+    places.push_back(place);
+  }
+  places.push_back(to_cell);
+  std::vector<Vec3> way;
+  for (Vec3 at = from_cell; !places.empty(); at = way.back()) {
+    std::size_t straight = places.size() - 1;
+    while (straight > 0 && !line_is_usable(at, places[straight], splits)) --straight;
+    way.push_back(places[straight]);
+    places.erase(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(straight) + 1);
+  }
+  return way;
 }
 
 /// Two cells that share a face are a box together, so a line between them stays in them; others are halved. What is

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/base/helpers.hpp"
 #include "core/base/watch.hpp"
@@ -60,8 +61,8 @@ class PostureField {
 
   /// The configuration that it grew from.
   const Configuration& start() const { return lattice_.start(); }
-  /// Where the tool comes in: a cell of the view, above the grid.
-  Voxel hub() const { return lattice_.hub(); }
+  /// Where the tool comes in: a cell of the view, above the grid, usable if any above a node of the lattice is.
+  Voxel hub() const { return hub_; }
   /// Parts of the lattice that may be used, of all.
   std::size_t usable_cells() const { return cover_.usable_parts(); }
   static std::size_t all_cells() { return PostureLattice::all_parts(); }
@@ -84,6 +85,10 @@ class PostureField {
   bool links_are_free(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
                       int& held) const;
 
+  /// Places that the ball may come by on its way from one place to another of the same height, the last one among them:
+  /// that one alone where nothing is in the way, or where there is no way around through parts of this height.
+  std::vector<Vec3> way_over(const Vec3& from_cell, const Vec3& to_cell) const;
+
   /// Is the tool clear of what stands still in the stock's frame even half a voxel off any line between the two?
   bool allows_wide_path(const Vec3& from_cell, const Vec3& to_cell) const {
     return roomy_.contains(from_cell) && roomy_.contains(to_cell);
@@ -96,6 +101,7 @@ class PostureField {
 
  private:
   void find_roomy(const Scene& scene);
+  void find_hub();
   bool line_is_usable(const Vec3& from_cell, const Vec3& to_cell, int splits) const;
   bool in_bubbles(const Vec3& from_cell, const Configuration& from, const Vec3& to_cell, const Configuration& to,
                   int& held, int splits) const;
@@ -103,6 +109,7 @@ class PostureField {
   PostureLattice lattice_;
   BubbleCover cover_;
   Eigen::AlignedBox3d roomy_;  ///< cells; empty by default
+  Voxel hub_;
 };
 
 }  // namespace sculpt

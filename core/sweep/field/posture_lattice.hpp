@@ -59,8 +59,7 @@ class PostureLattice {
 
   const Configuration& start() const { return start_.q; }
   const Start& origin() const { return start_; }
-  /// Where the tool comes in: a cell of the view, above the grid, at the node that it grew from.
-  Voxel hub() const { return hub_of(view_.n, start_); }
+  /// The cell of the view above the grid at the node that a lattice grew from.
   static Voxel hub_of(int n, const Start& start) { return {n * start.i / cells, n * start.j / cells, n + 1}; }
   const Chain& chain() const { return chain_; }
   const Grid& grid() const { return grid_; }

@@ -60,40 +60,5 @@ TEST(Material, ABallOf045FitsAOneVoxelSlotAndOneOf051DoesNot) {
   EXPECT_TRUE(material.meets_capsule(column, 0.51, {}));
 }
 
-TEST(Material, SomeCubeMeetsWhatSomeVoxelMeets) {
-  int met = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    const int n = 16;
-    Material material(random_voxels(n, seed % 2 == 0 ? 0.95 : 0.01, random));
-    for (int r = 0; r < 200; ++r)
-      material.remove({static_cast<int>(random.next() % n), static_cast<int>(random.next() % n),
-                       static_cast<int>(random.next() % n)});
-    const Vec3 ball(random.between(-2, 18), random.between(-2, 18), random.between(-2, 18));
-    const double radius = random.between(0, 4);
-    const auto meets = [&](Voxel corner, int size) {
-      const Vec3 low(corner.i, corner.j, corner.k);
-      return distance_to_box({ball, ball}, low, low + Vec3::Constant(size)) <= radius;
-    };
-    bool any = false;
-    for_each_voxel(material.solid(), [&](Voxel v) { any |= meets(v, 1); });
-    EXPECT_EQ(material.any_cube(meets), any);
-    met += any;
-  }
-  EXPECT_GT(met, 100);
-  EXPECT_LT(met, 300);
-}
-
-TEST(Material, AFullCubeIsAskedAsAWhole) {
-  const Material material(VoxelSet(8, true));
-  int asked = 0;
-  EXPECT_TRUE(material.any_cube([&](Voxel, int size) {
-    ++asked;
-    return size == 8;
-  }));
-  EXPECT_EQ(asked, 1);
-}
-
 }  // namespace
 }  // namespace sculpt

@@ -87,6 +87,36 @@ TEST(PostureField, IsAsGoodForAGridThatNeedsMoreNodes) {
   EXPECT_GT(found, 700);
 }
 
+// The hub was where the lattice grew from, usable or not, and a direction of which it was not was not cut along at all.
+TEST(PostureField, HasItsHubAndItsWaysWhereItIsUsable) {
+  const Cell cell = parse_cell(
+      cell_with("<collision><origin xyz='0 0 0.24'/><geometry><box size='0.02 0.12 0.06'/></geometry></collision>"));
+  const Scene scene(cell, cell.grid(16), VoxelSet(16, true));
+  const PostureField field = make_field(scene, cell.home(scene.chain()), tool_views(16)[0]);
+  const Vec3 middle(8, 8, 17), hub = ToolView::place(field.hub());
+  ASSERT_FALSE(field.usable(middle));
+  EXPECT_TRUE(field.usable(hub));
+  EXPECT_LT((hub - middle).norm(), 5);
+  EXPECT_TRUE(field.at(hub));
+  int around = 0;
+  Random random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    Vec3 at(random.between(0, 15), random.between(0, 15), 17);
+    const Vec3 to(random.between(0, 15), random.between(0, 15), 17);
+    if (!field.usable(at) || !field.usable(to)) continue;
+    const std::vector<Vec3> way = field.way_over(at, to);
+    ASSERT_FALSE(way.empty());
+    EXPECT_EQ(way.back(), to);
+    around += way.size() > 1;
+    for (const Vec3& next : way) {
+      for (int part = 0; part <= 100; ++part)
+        ASSERT_TRUE(field.usable(at + part / 100.0 * (next - at))) << "trial " << trial;
+      at = next;
+    }
+  }
+  EXPECT_GT(around, 20);
+}
+
 TEST(PostureField, NeighbouringPositionsHaveNeighbouringConfigurations) {
   const PostureField& field = PandaField::get().field;
   Random random(2);
