@@ -103,7 +103,8 @@ class ProgramMaker {
     names_.mount = mount_at(seam.point);
     names_.voxels.before = names_.voxels.after;
     const std::size_t end = names_.part <= seams_.size() ? seams_[names_.part - 1].point : path_.size() - 1;
-    for (std::size_t point = seam.point + 1; point <= end; ++point) names_.voxels.after += path_.edge_to(point).removed;
+    for (std::size_t point = names_.part == 1 ? 0 : seam.point + 1; point <= end; ++point)
+      names_.voxels.after += path_.edge_to(point).removed;
     if (stock_) hand_out({names_.part_name() + ".binvox", stock_->at(seam.point)});
     const Configuration q = seam.retreat.empty() ? path_.configuration(seam.point) : seam.retreat.back();
     writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(q));

@@ -60,7 +60,7 @@ struct Motions::LoadedMotion {
   const TimeLaw law;
   std::mutex turn;  ///< of whoever uses the two below
   MotionSampler sampler;
-  std::vector<double> holds_s = {};
+  std::optional<std::vector<double>> holds_s = std::vector<double>{};  ///< nothing: the sampler's are not whole
 };
 
 Motions::Motions(const Artifacts& artifacts, const Blobs& blobs, const Isolation& isolation, std::size_t most)
@@ -116,8 +116,7 @@ SampleWindow Motions::window(const JobRecord& job, const proto::SamplesParams& w
   LoadedMotion& motion = *found;
   const std::lock_guard turn(motion.turn);
   if (motion.holds_s != wanted.holds_s) {
-    motion.holds_s.clear();  // where these cannot be, the next ones begin anew
-    motion.sampler.hold({});
+    motion.holds_s.reset();  // where these cannot be, the next ones begin anew
     motion.sampler.hold(wanted.holds_s);
     motion.holds_s = wanted.holds_s;
   }

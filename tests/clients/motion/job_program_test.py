@@ -78,7 +78,7 @@ class JobProgram(DaemonTest):
         for self.client in (SCULPT, SCULPT_PY):
             self.refused(2, "usage", "fetch", self.gantry, *program)
             self.refused(2, "usage", "fetch", self.gantry, "--dialect", "krl", "-o", "x.zip")
-            self.assertIn("only external axes", self.refused(4, "axes_unfit", "fetch", self.gantry, *program, "--dialect", "krl", "--feed", 0.05))
+            self.assertIn("name robot axes A1 to A6", self.refused(4, "axes_unfit", "fetch", self.gantry, *program, "--dialect", "krl", "--feed", 0.05))
             self.assertIn("thin tool", self.refused(4, "feed_invalid", "fetch", self.gantry, *program, "--dialect", "gcode"))
             self.assertIn("lower-case", self.refused(4, "name_invalid", "fetch", self.gantry, *program, "--dialect", "gcode", "--feed", 0.05, "--name", "No"))
             self.assertIn("--seams-in-stock", self.refused(

@@ -97,7 +97,7 @@ TEST_F(MotionsTest, AWindowIsAPieceOfTheWholeMotion) {
   const SampleWindow piece = window(motions, some);
   EXPECT_EQ(piece.first, 10u);
   EXPECT_EQ(piece.count, 11u);
-  EXPECT_EQ(piece.rows, all.rows.substr(10 * row_bytes, 11 * row_bytes));
+  EXPECT_TRUE(piece.rows == all.rows.substr(10 * row_bytes, 11 * row_bytes));
   EXPECT_EQ(window(motions, some, 3 * row_bytes + 1).count, 3u) << "as many as fit";
   EXPECT_EQ(window(motions, some, 1).count, 1u) << "and at least one";
   some.from_s = all.duration_s + 1;
@@ -114,7 +114,7 @@ TEST_F(MotionsTest, AHoldIsThatOfItsWindowAlone) {
   EXPECT_GT(with.samples, before.samples);
   held.holds_s = {2, 1};
   EXPECT_THROW(window(motions, held), InputError);
-  EXPECT_EQ(window(motions, at_feed(1)).rows, before.rows) << "nothing of it is left";
+  EXPECT_TRUE(window(motions, at_feed(1)).rows == before.rows) << "nothing of it is left";
 }
 
 TEST_F(MotionsTest, WhatIsKeptHasALimitButForTheLastOne) {
@@ -143,7 +143,7 @@ TEST_F(MotionsTest, NobodyWaitsForAnothersLaw) {
   std::stop_source stop;
   std::jthread finding(
       [&] { EXPECT_THROW(motions.window(job, at_feed(feed_endless), 1, stop.get_token()), Cancelled); });
-  EXPECT_EQ(window(motions, at_feed(1)).rows, before.rows);
+  EXPECT_TRUE(window(motions, at_feed(1)).rows == before.rows);
   stop.request_stop();
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/sha256.hpp"
 #include "tests/server/live_server.hpp"
 
 namespace sculpt::server {

@@ -34,9 +34,10 @@ TEST(MainReader, TheMainProgramCallsEachPartAtItsNumberAndRemembersTheNext) {
       damaged.erase(at, line.size());
       EXPECT_THROW(read_main(one.dialect, damaged, data), InputError) << line;
     }
-    if (one.dialect == Dialect::krl)
+    if (one.dialect == Dialect::krl) {
       EXPECT_THROW(read_main(one.dialect, text, "&ACCESS RVP\r\n&REL 1\r\nDEFDAT bust\r\nENDDAT\r\n"), InputError)
           << "the number would not be kept";
+    }
   }
 }
 
