@@ -8,8 +8,8 @@
 
 namespace sculpt {
 
-/// Follows a path from its start. A plan does not say what was clamped: this is the whole cube less what is cut, but for
-/// what is cut where nothing moves, which a path passes over.
+/// Follows a path from its start. A plan does not say what was clamped: this is the whole cube less what is cut, but
+/// for what is cut where nothing moves, which a path passes over.
 class PartStock {
  public:
   /// `path` must outlive it.
