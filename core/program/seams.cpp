@@ -215,32 +215,59 @@ std::optional<Seam> find_way_over(const PlanPath& path, const Cell& cell, const 
                                        std::to_string(size.text.frame + 10 * size.text.retreat) + " or more");
 }
 
+/// One seam after the other.
+class SeamFinder {
+ public:
+  SeamFinder(const PlanPath& path, const Cell& cell, const PathTools& tools, const PartSize& size)
+      : path_(path), cell_(cell), tools_(tools), size_(size) {}
+
+  /// Behind the part that begins at a point with moves that come back from a retreat; nothing where it is the last one.
+  std::optional<Seam> next(std::size_t begin, std::size_t returning) {
+    if (change_ <= begin) find_change(begin);
+    const PartStart part{begin, returning, size_, size_.moves_from(begin, returning, change_ - begin)};
+    if (part.most == change_ - begin) return change_ == last() ? std::nullopt : std::optional(Seam{change_, {}});
+    if (!size_.fits(begin, 0, 1, 0)) refuse_small(size_);
+    if (size_.may_be_inside) return Seam{begin + part.most, {}};
+    std::optional<Seam> found = find_outside(part);
+    if (!found) refuse(path_, begin, size_);
+    return found;
+  }
+
+ private:
+  std::size_t last() const { return path_.size() - 1; }
+
+  /// Of tools, or the end.
+  void find_change(std::size_t begin) {
+    change_ = begin + 1;
+    while (change_ < last() && !is_changed_at(path_, change_)) ++change_;
+  }
+
+  std::optional<Seam> find_outside(const PartStart& part) {
+    if (path_.header().mill) return find_way_over(path_, cell_, tools_, part);
+    if (!way_out_) way_out_.emplace(path_, tools_.first());
+    return find_exit(*way_out_, part);
+  }
+
+  const PlanPath& path_;
+  const Cell& cell_;
+  const PathTools& tools_;
+  const PartSize& size_;
+  std::optional<WayOut> way_out_;  // of a thin tool, once it is needed
+  std::size_t change_ = 0;
+};
+
 }  // namespace
 
 std::vector<Seam> find_seams(const PlanPath& path, const Cell& cell, const PathTools& tools, const PartSize& size) {
   std::vector<Seam> seams;
-  std::optional<WayOut> way_out;
+  SeamFinder finder(path, cell, tools, size);
   std::size_t begin = 0, returning = 0;
-  const std::size_t last = path.size() - 1;
-  while (begin < last) {
-    std::size_t change = begin + 1;
-    while (change < last && !is_changed_at(path, change)) ++change;
-    const PartStart part{begin, returning, size, size.moves_from(begin, returning, change - begin)};
-    if (part.most == change - begin) {
-      if (change == last) break;
-      seams.push_back({change, {}});
-    } else if (part.most == 0 && size.text.most > 0 && !size.fits(begin, 0, 1, 0)) {
-      refuse_small(size);
-    } else if (size.may_be_inside) {
-      seams.push_back({begin + part.most, {}});
-    } else {
-      if (!path.header().mill && !way_out) way_out.emplace(path, tools.first());
-      std::optional<Seam> found = way_out ? find_exit(*way_out, part) : find_way_over(path, cell, tools, part);
-      if (!found) refuse(path, begin, size);
-      seams.push_back(std::move(*found));
-    }
-    begin = seams.back().point;
-    returning = seams.back().retreat.size();
+  while (begin + 1 < path.size()) {
+    std::optional<Seam> seam = finder.next(begin, returning);
+    if (!seam) break;
+    begin = seam->point;
+    returning = seam->retreat.size();
+    seams.push_back(std::move(*seam));
   }
   return seams;
 }

@@ -16,6 +16,9 @@ class Statements {
     });
   }
 
+  explicit Statements(std::deque<ProgramLine> lines) : lines_(std::move(lines)) {}
+
+  bool ended() const { return lines_.empty(); }
   bool next_is(std::string_view word) { return !lines_.empty() && lines_.front().rest().starts_with(word); }
   ProgramLine take() {
     if (lines_.empty()) throw InputError("program_damaged", "a main program ends too early: write it again");
@@ -49,7 +52,7 @@ std::string plain(std::size_t number) {
   return std::to_string(number);
 }
 
-std::vector<std::string> read_krl(std::string_view text, std::string_view data) {
+std::vector<std::string> read_krl_main(std::string_view text, std::string_view data) {
   Statements kept(data, true, ";");
   kept.need("&ACCESS RVP");
   kept.need("&REL 1");
@@ -72,7 +75,7 @@ std::vector<std::string> read_krl(std::string_view text, std::string_view data) 
   return parts;
 }
 
-std::vector<std::string> read_rapid(std::string_view text) {
+std::vector<std::string> read_rapid_main(std::string_view text) {
   Statements program(text, true, "!");
   const std::string name = program.between("MODULE ", "");
   program.need("PERS num next_part:=1;");
@@ -100,41 +103,38 @@ std::vector<std::string> read_rapid(std::string_view text) {
   return parts;
 }
 
-std::vector<std::string> read_fanuc(std::string_view text) {
-  std::deque<std::string> lines;
+/// Without their numbers and ends, and without remarks.
+Statements fanuc_statements(std::string_view text) {
+  std::deque<ProgramLine> lines;
+  std::size_t number = 0;
   for_lines(text, true, [&](ProgramLine& line) {
     if (line.empty() || line.rest().front() < '0' || line.rest().front() > '9') return;
-    if (line.number() != static_cast<double>(lines.size() + 1)) line.refuse("the lines are not numbered in order");
+    if (line.number() != static_cast<double>(++number)) line.refuse("the lines are not numbered in order");
     line.need(":");
-    line.blanks();
-    if (!line.rest().ends_with(" ;")) line.refuse("a line has no end");
-    lines.emplace_back(line.rest().substr(0, line.rest().size() - 2));
+    if (line.empty() || !line.rest().ends_with(" ;")) line.refuse("a line has no end");
+    if (!line.rest().starts_with("!")) lines.emplace_back(line.rest().substr(0, line.rest().size() - 2), number);
   });
-  const auto need = [&](const std::string& wanted) {
-    while (!lines.empty() && lines.front().starts_with('!')) lines.pop_front();
-    if (lines.empty() || lines.front() != wanted)
-      throw InputError("program_damaged", "'" + wanted + "' is missing in a main program: write it again");
-    lines.pop_front();
-  };
-  for (const char* line : {"IF R[1]>0,JMP LBL[32000]", "R[1]=1", "LBL[32000]"}) need(line);
+  if (!text.ends_with("/END\r\n")) throw InputError("program_damaged", "a main program has no /END: write it again");
+  return Statements(std::move(lines));
+}
+
+std::vector<std::string> read_fanuc_main(std::string_view text) {
+  Statements program = fanuc_statements(text);
+  for (const char* line : {"IF R[1]>0,JMP LBL[32000]", "R[1]=1", "LBL[32000]"}) program.need(line);
   std::vector<std::string> parts;
-  while (!lines.empty() && lines.front().starts_with("IF R[1]<>")) {
+  while (program.next_is("IF R[1]<>")) {
     const std::string number = plain(parts.size() + 1);
-    need("IF R[1]<>" + number + ",JMP LBL[" + number + "]");
-    if (lines.empty() || !lines.front().starts_with("CALL "))
-      throw InputError("program_damaged", "a main program calls nothing at " + number + ": write it again");
-    parts.push_back(lines.front().substr(5));
-    lines.pop_front();
-    need("R[1]=R[1]+1");
-    need("LBL[" + number + "]");
+    program.need("IF R[1]<>" + number + ",JMP LBL[" + number + "]");
+    parts.push_back(program.between("CALL ", ""));
+    program.need("R[1]=R[1]+1");
+    program.need("LBL[" + number + "]");
   }
-  need("R[1]=1");
-  if (!lines.empty() || !text.ends_with("/END\r\n"))
-    throw InputError("program_damaged", "a main program does not end as it should: write it again");
+  program.need("R[1]=1");
+  if (!program.ended()) program.take().refuse("there is more than there should be");
   return parts;
 }
 
-std::vector<std::string> read_gcode(std::string_view text) {
+std::vector<std::string> read_gcode_main(std::string_view text) {
   Statements program(text, false, ";");
   program.need("o1 if [#4000 LT 1]");
   program.need("#4000 = 1");
@@ -157,13 +157,13 @@ std::vector<std::string> read_gcode(std::string_view text) {
 std::vector<std::string> read_main(Dialect dialect, std::string_view text, std::string_view data) {
   switch (dialect) {
     case Dialect::krl:
-      return read_krl(text, data);
+      return read_krl_main(text, data);
     case Dialect::rapid:
-      return read_rapid(text);
+      return read_rapid_main(text);
     case Dialect::fanuc:
-      return read_fanuc(text);
+      return read_fanuc_main(text);
     case Dialect::gcode:
-      return read_gcode(text);
+      return read_gcode_main(text);
     case Dialect::urscript:
     case Dialect::ros2:
       break;
