@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "proto/fields.hpp"
+#include "proto/motion/motion_spec.hpp"
 
 namespace sculpt::proto {
 
@@ -48,13 +49,6 @@ struct MillSpec {
   std::optional<double> scallop_m, allowance_m;
 };
 
-/// How fast the plan is to be gone through; meaning as in core/timing/demand/motion_order.hpp.
-struct MotionSpec {
-  std::optional<double> feed_m_s;
-  double rapid_m_s = 0.5;
-  std::optional<double> keep_feed;
-};
-
 struct JobSpec {
   BlobRef mesh;
   std::string robot;        ///< name of a cell on the server; empty if `cell_bundle` is set
@@ -79,10 +73,6 @@ struct CellRef {
 };
 /// The field "robot".
 CellRef read_robot(Fields& fields);
-
-/// As read_job_spec.
-MotionSpec read_motion(Fields fields);
-Json to_json(const MotionSpec& spec);
 
 /// Throws ProtocolError `params_invalid` with the pointer of the field to blame.
 JobSpec read_job_spec(Fields fields);

@@ -156,12 +156,23 @@ std::string read_unsubscribe(const Json& params) {
   return job;
 }
 
+namespace {
+
+std::optional<ProgramSpec> read_wanted_program(Fields& fields, const std::string& artifact) {
+  if (artifact == "program") return read_program(fields.object("program"));
+  if (fields.has("program")) fields.refuse("program", "must be left out: it says which program is wanted");
+  return {};
+}
+
+}  // namespace
+
 ArtifactReadParams read_artifact_read(const Json& params) {
   Fields fields = params_of(params);
   ArtifactReadParams read{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
   if (fields.has("format")) read.format = fields.text("format", max_text_bytes);
   read.offset = fields.count("offset");
   read.bytes = static_cast<std::size_t>(fields.integer("bytes", 1, max_chunk_bytes));
+  read.program = read_wanted_program(fields, read.artifact);
   fields.done();
   return read;
 }
@@ -170,8 +181,18 @@ ArtifactReadParams read_artifact_link(const Json& params) {
   Fields fields = params_of(params);
   ArtifactReadParams wanted{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
   if (fields.has("format")) wanted.format = fields.text("format", max_text_bytes);
+  wanted.program = read_wanted_program(fields, wanted.artifact);
   fields.done();
   return wanted;
+}
+
+CellReadParams read_cell_read(const Json& params) {
+  Fields fields = params_of(params);
+  CellReadParams read{fields.text("job", max_id_bytes), {}, fields.count("offset"), 0};
+  if (fields.has("file")) read.file = fields.sha256("file");
+  read.bytes = static_cast<std::size_t>(fields.integer("bytes", 1, max_chunk_bytes));
+  fields.done();
+  return read;
 }
 
 SamplesParams read_samples(const Json& params) {
@@ -197,11 +218,14 @@ PinParams read_pin(const Json& params) {
   return pin;
 }
 
-std::string read_schema_method(const Json& params) {
+SchemaParams read_schema(const Json& params) {
   Fields fields = params_of(params);
-  std::string method = fields.has("method") ? fields.text("method", max_text_bytes) : std::string();
+  SchemaParams wanted;
+  if (fields.has("method")) wanted.method = fields.text("method", max_text_bytes);
+  if (fields.has("part")) wanted.part = fields.text("part", max_text_bytes);
+  if (!wanted.method.empty() && !wanted.part.empty()) fields.refuse("part", "must be left out beside method");
   fields.done();
-  return method;
+  return wanted;
 }
 
 void read_nothing(const Json& params) {

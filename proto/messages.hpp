@@ -6,6 +6,7 @@
 #include <string>
 
 #include "proto/job_spec.hpp"
+#include "proto/motion/program_spec.hpp"
 
 namespace sculpt::proto {
 
@@ -75,11 +76,21 @@ struct ArtifactReadParams {
   std::string format;  ///< empty: the artifact's own
   std::uint64_t offset = 0;
   std::size_t bytes = 0;
+  std::optional<ProgramSpec> program = {};  ///< of the artifact `program`, and of no other
 };
 ArtifactReadParams read_artifact_read(const Json& params);
 
 /// artifact.link: the whole of a file.
 ArtifactReadParams read_artifact_link(const Json& params);
+
+/// job.cell: a piece of a job's cell bundle, or of one of the files that it names.
+struct CellReadParams {
+  std::string job;
+  std::string file;  ///< hash; empty: the bundle itself
+  std::uint64_t offset = 0;
+  std::size_t bytes = 0;
+};
+CellReadParams read_cell_read(const Json& params);
 
 /// job.samples: a window of a job's motion at a fixed rate. Times are seconds of the motion.
 struct SamplesParams {
@@ -98,8 +109,12 @@ struct PinParams {
 };
 PinParams read_pin(const Json& params);
 
-/// server.schema: the method whose part is wanted; empty: the whole.
-std::string read_schema_method(const Json& params);
+/// server.schema: what of the document is wanted; both empty: the whole.
+struct SchemaParams {
+  std::string method;
+  std::string part;  ///< one that methods' answers leave out; not with a method
+};
+SchemaParams read_schema(const Json& params);
 
 /// A method without params.
 void read_nothing(const Json& params);

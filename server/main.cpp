@@ -22,6 +22,7 @@
 #include "server/listener.hpp"
 #include "server/ops/folder_command.hpp"
 #include "server/ops/migrate_command.hpp"
+#include "server/results/isolated_program.hpp"
 #include "server/results/isolated_timing.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_examination.hpp"
@@ -146,6 +147,7 @@ int main(int argc, char** argv) {
   if (mode == check_cell_option) return run_isolated_examination(make_planner({}));
   if (mode == replay_job_option) return run_isolated_replay(make_planner({}));
   if (mode == time_job_option) return run_isolated_timing(make_planner({}));
+  if (mode == program_job_option) return run_isolated_program(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.

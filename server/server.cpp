@@ -49,12 +49,6 @@ void log_confinement() {
       fmt::join(missing, ", "));
 }
 
-// For the service manager's status line.
-std::string queue_sentence(JobStore& store) {
-  const auto counts = store.counts();
-  return fmt::format("{} running, {} queued", counts.at(JobState::running), counts.at(JobState::queued));
-}
-
 }  // namespace
 
 struct Server::Impl {
@@ -66,9 +60,10 @@ struct Server::Impl {
                                                               : FolderPaths{config.shared}),
         store(open_any_store()),
         blobs(results.blobs(), config.blob_limit_bytes, shared_files()),
-        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner),
-        passed(config.data / "checked"),
         isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
+        programs_of_jobs(blobs, isolation),
+        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner, programs_of_jobs),
+        passed(config.data / "checked"),
         scheduler(*store,
                   with_stage_times(
                       with_shared_files(choose_run(make_run_job(planner, blobs, results.jobs(), job_defaults(config)),
@@ -82,6 +77,7 @@ struct Server::Impl {
         dispatcher(handlers(), streams, waits),
         listener(context, http, tcp_endpoint(config), make_tls(config)) {
     isolation.held = folder.jobs();
+    isolation.result_time = config.result_time;
     if (fleet != nullptr) scheduler.ask_elsewhere([this](const std::string& job) { return fleet->progress(job); });
     if (!config.unix_socket.empty()) unix_listener.emplace(context, http, unix_endpoint(config), nullptr);
     if (const int left = store->recover(); left > 0)
@@ -120,9 +116,9 @@ struct Server::Impl {
                            isolation, admission, checks, passed, change}),
           cell_handlers({answers, config, blobs, planner, job_defaults(config), isolation, admission, checks}),
           job_handlers({answers, config, *store, scheduler, waits, artifacts, blobs, isolation, reads, disk, replays}),
-          sample_handlers({answers, *store, motions, samples}),
+          sample_handlers({answers, *store, motions, samples, laws}),
           control_handlers({answers, *store, scheduler, changes, change}), event_handlers({answers, *store, streams}),
-          artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports})})
+          artifact_handlers({answers, *store, artifacts, tickets, changes, disk, exports, programs})})
       all.merge(group);
     return all;
   }
@@ -211,9 +207,10 @@ struct Server::Impl {
   std::unique_ptr<JobStore> store;
   net::io_context io{1};
   Blobs blobs;
+  Isolation isolation;
+  Programs programs_of_jobs;
   Artifacts artifacts;
   PassedChecks passed;
-  Isolation isolation;
   Counters counters;
   Scheduler scheduler;
   Streams streams;
@@ -225,12 +222,13 @@ struct Server::Impl {
   TaskQueue reads{Pace::prompt}, changes{Pace::prompt}, disk{Pace::prompt}, admission{Pace::prompt};
   CheckDesk checks{std::max(min_checks_at_once, cores())};
   Motions motions{artifacts, blobs, isolation};
-  TaskQueue replays{Pace::background}, exports{Pace::background}, samples{Pace::prompt};
+  TaskQueue replays{Pace::background}, exports{Pace::background}, programs{Pace::background}, samples{Pace::prompt},
+      laws{Pace::prompt};
   Answers answers{io, reads};
   Dispatcher dispatcher;
   ConnectionContext context{io, config, connections, counters, dispatcher};
-  HttpSources http{access, tickets, *store, blobs, artifacts, {*store, counters, workers, started, fleet},
-                   reads,  disk,    exports};
+  HttpSources http{access, tickets, *store,  blobs,   artifacts, {*store, counters, workers, started, fleet},
+                   reads,  disk,    exports, programs};
   Listener listener;
   std::optional<Listener> unix_listener;
   net::steady_timer timer{io};
@@ -264,7 +262,7 @@ void Server::run() {
   const DrainLimit limit(impl_->config.drain);
   impl_->scheduler.stop();
   for (TaskQueue* queue : {&impl_->reads, &impl_->changes, &impl_->disk, &impl_->admission, &impl_->replays,
-                           &impl_->exports, &impl_->samples})
+                           &impl_->exports, &impl_->programs, &impl_->samples, &impl_->laws})
     queue->stop();
   impl_->checks.stop();
   if (impl_->fleet != nullptr) impl_->fleet->leave();

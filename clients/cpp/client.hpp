@@ -55,10 +55,16 @@ double patience_from_environment();
 
 struct ArtifactRequest {
   std::string job;
-  std::string artifact;      ///< trajectory, voxels, stock, residue, report
+  std::string artifact;      ///< trajectory, voxels, stock, residue, report, program
   std::string format = {};   ///< empty: the artifact's own
   std::uint64_t offset = 0;  ///< where to go on
   std::uint32_t chunk_bytes = 1 << 20;
+  Json program = nullptr;  ///< of the artifact program: which one, as PROTOCOL.md says
+};
+
+struct JobCell {
+  std::string name, cell_json;
+  std::map<std::string, std::string> files;  ///< reference -> content
 };
 
 struct ListRequest {
@@ -105,6 +111,10 @@ class Client {
   std::uint64_t read_artifact(const ArtifactRequest& request, std::ostream& out,
                               const std::function<bool()>& waiting = {});
 
+  /// The cell that a job was submitted with, and its files by the name that the cell has for each, every one held
+  /// against its hash.
+  JobCell read_cell(const std::string& job);
+
   /// Events of a job from behind `after` on (0 = all), to be read with next_event.
   void subscribe(const std::string& job, std::uint64_t after = 0);
   void unsubscribe(const std::string& job);
@@ -132,7 +142,10 @@ class Client {
   void keep(Json event);
   /// The next reply or event; nothing when none came in time.
   std::optional<Json> receive(std::optional<double> timeout_s, std::string* chunk);
-  void expect_hash(const ArtifactRequest& request, const std::string& format, const std::string& sha256);
+  /// `last`: the reply to the last piece.
+  void expect_hash(const ArtifactRequest& request, const Json& last, const std::string& sha256);
+  /// A file of a job's cell, or for an empty hash the bundle that names them.
+  std::string read_cell_file(const std::string& job, const std::string& sha256);
   /// Gives `size` bytes from the offset on, which hold until the next call.
   using ReadPiece = std::function<std::string_view(std::uint64_t offset, std::size_t size)>;
   void put_blob(const std::string& sha256, std::uint64_t size, const ReadPiece& read);

@@ -7,6 +7,7 @@
 
 #include "clients/cpp/client.hpp"
 #include "clients/cpp/content_hash.hpp"
+#include "proto/cell_bundle.hpp"
 #include "proto/crc32.hpp"
 
 namespace sculpt::client {
@@ -80,6 +81,7 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
   const std::string method = "artifact.read";
   Json params{{"job", request.job}, {"artifact", request.artifact}};
   if (!request.format.empty()) params["format"] = request.format;
+  if (!request.program.is_null()) params["program"] = request.program;
   std::uint64_t offset = request.offset;
   std::string chunk;
   ContentHash hash;
@@ -95,7 +97,7 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
     if (!out) throw std::runtime_error("cannot write the artifact: check the free space");
     offset += chunk.size();
     if (result.at("eof").get<bool>()) {
-      if (request.offset == 0) expect_hash(request, result.at("format"), hash.hex());
+      if (request.offset == 0) expect_hash(request, result, hash.hex());
       return offset;
     }
     if (!chunk.empty()) continue;
@@ -104,14 +106,38 @@ std::uint64_t Client::read_artifact(const ArtifactRequest& request, std::ostream
   }
 }
 
-void Client::expect_hash(const ArtifactRequest& request, const std::string& format, const std::string& sha256) {
-  const Json listed = call("artifact.list", {{"job", request.job}});
-  const std::string wanted = listed_hash(listed, request.artifact, format);
+void Client::expect_hash(const ArtifactRequest& request, const Json& last, const std::string& sha256) {
+  const std::string wanted = last.contains("sha256") ? last.at("sha256").get<std::string>()
+                                                     : listed_hash(call("artifact.list", {{"job", request.job}}),
+                                                                   request.artifact, last.at("format"));
   if (wanted.empty() || wanted == sha256) return;
   throw ServerError("artifact_damaged", damage_number, false, {},
                     "the " + request.artifact + " of job " + request.job + " came with the hash " + sha256 +
                         ", but was stored with " + wanted + ": fetch it again, or plan it again with 'sculpt retry " +
                         request.job + "'");
+}
+
+std::string Client::read_cell_file(const std::string& job, const std::string& sha256) {
+  const std::string method = "job.cell";
+  Json params{{"job", job}, {"offset", 0}, {"bytes", upload_bytes}};
+  if (!sha256.empty()) params["file"] = sha256;
+  std::string bytes, chunk;
+  while (true) {
+    const Json result = exchange({method, params, {}, &chunk});
+    bytes += chunk;
+    params["offset"] = bytes.size();
+    if (!result.at("eof").get<bool>()) continue;
+    if (content_hash(bytes) != result.at("file").get<std::string>())
+      throw ServerUnreachable("a file of the cell was damaged on its way: ask again");
+    return bytes;
+  }
+}
+
+JobCell Client::read_cell(const std::string& job) {
+  const proto::CellBundle bundle = proto::read_cell_bundle(read_cell_file(job, {}));
+  JobCell cell{bundle.name, bundle.cell_json, {}};
+  for (const auto& [reference, sha256] : bundle.files) cell.files[reference] = read_cell_file(job, sha256);
+  return cell;
 }
 
 }  // namespace sculpt::client

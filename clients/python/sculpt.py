@@ -34,7 +34,7 @@ VERSION = "sculpt.py/0.1.0"
 FINE, FAILED, USAGE, UNREACHABLE, REFUSED = range(5)
 CHUNK = 1 << 20
 PAGE = 1000
-CHUNKED = ("artifact.read", "job.samples")  # whose replies a chunk follows
+CHUNKED = ("artifact.read", "job.cell", "job.samples")  # whose replies a chunk follows
 FINAL = ("succeeded", "failed", "quarantined", "expired", "cancelled")
 
 
@@ -110,7 +110,7 @@ class Client:
         self.socket.close()
 
     def call(self, method, chunk=None, **params):
-        """The result of a request; of artifact.read and job.samples the pair (result, bytes). Events that come meanwhile are kept."""
+        """The result of a request; of artifact.read, job.cell and job.samples the pair (result, bytes). Events that come meanwhile are kept."""
         repeatable = method != "job.retry" and (method != "job.submit" or "key" in params)
         while True:
             try:
@@ -235,7 +235,7 @@ class Client:
             offset += len(chunk)
             digest.update(chunk)
             if result["eof"]:
-                return self._expect_hash(job, artifact, result["format"], digest.hexdigest())
+                return self._expect_hash(job, artifact, result, digest.hexdigest())
             if not chunk and self.call("job.wait", job=job, timeout_s=1)["state"] in FINAL and not result["final"]:
                 result, _ = self.call("artifact.read", job=job, artifact=artifact, offset=offset, bytes=1, **form)
                 if not result["final"]:
@@ -257,13 +257,16 @@ class Client:
                 return
             from_s = behind / rate_hz
 
-    def _expect_hash(self, job, artifact, form, digest):
-        entry = next(entry for entry in self.call("artifact.list", job=job)["artifacts"] if entry["artifact"] == artifact)
-        own = {"format": entry["formats"][0], "sha256": entry.get("sha256", digest)}
-        wanted = next((made["sha256"] for made in [own, *entry.get("made", [])] if made["format"] == form), digest)
+    def _expect_hash(self, job, artifact, last, digest):
+        wanted = last.get("sha256") or self._listed_hash(job, artifact, last["format"], digest)
         if wanted != digest:
             raise Failure(FAILED, "artifact_damaged", f"the {artifact} of job {job} came with the hash {digest}, but was stored with {wanted}: "
                           f"fetch it again, or plan it again with 'sculpt retry {job}'")
+
+    def _listed_hash(self, job, artifact, form, digest):
+        entry = next(entry for entry in self.call("artifact.list", job=job)["artifacts"] if entry["artifact"] == artifact)
+        own = {"format": entry["formats"][0], "sha256": entry.get("sha256", digest)}
+        return next((made["sha256"] for made in [own, *entry.get("made", [])] if made["format"] == form), digest)
 
     def _read_line(self):
         try:
@@ -737,8 +740,20 @@ def run_report(options):
     return FINE
 
 
+def program_of(options):
+    """The field of artifact.read that says which program is wanted; nothing of another artifact."""
+    if (options.artifact == "program") != bool(options.dialect):
+        raise Failure(USAGE, "usage", "--artifact program and --dialect belong together: say both, or none")
+    if not options.dialect:
+        return {}
+    names = ("dialect", "name", "part_keyframes", "part_bytes")
+    fields = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    flags = {name: True for name in ("stock_files", "seams_in_stock") if getattr(options, name)}
+    return {"program": {**fields, **flags, "motion": motion_of(options)}}
+
+
 def run_fetch(options):
-    form = {"format": options.format} if options.format else {}
+    form = {**({"format": options.format} if options.format else {}), **program_of(options)}
     grows = (options.artifact, options.format) in (("trajectory", None), ("trajectory", "ndjson"), ("timeline", None), ("timeline", "tokens"))
     with Client(options.server) as client:
         end = client.call("job.get", job=options.job) if grows else client.wait(options.job)
@@ -919,8 +934,18 @@ def parse_command_line(arguments):
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
     fetch.add_argument("--format", choices=["ndjson", "binary", "csv", "tokens", "gzip"],
                        help="form of the trajectory, default ndjson, or of the timeline, default tokens")
-    fetch.add_argument("--artifact", choices=["trajectory", "timeline", "voxels", "stock", "residue", "report"],
+    fetch.add_argument("--artifact", choices=["trajectory", "timeline", "voxels", "stock", "residue", "report", "program"],
                        default="trajectory")
+    fetch.add_argument("--dialect", choices=["krl", "rapid", "urscript", "fanuc", "gcode", "ros2"],
+                       help="of a program (.zip): the language of the controller")
+    fetch.add_argument("--name", help="of a program: what it is called, default sculpt")
+    for flag, metavar, summary in (("--feed", "M_S", "speed of the ball on cuts"), ("--rapid", "M_S", "speed of the ball on moves; 0.5"),
+                                   ("--keep-feed", "SHARE", "refuse it unless every cut keeps this share of the feed")):
+        fetch.add_argument(flag, type=float, metavar=metavar, help="of a program: " + summary)
+    fetch.add_argument("--part-keyframes", type=positive, metavar="M", help="of a program: keyframes in a part at most")
+    fetch.add_argument("--part-bytes", type=positive, metavar="B", help="of a program: bytes of a part at most")
+    fetch.add_argument("--stock-files", action="store_true", help="of a program: with each part what stands when it begins (.binvox)")
+    fetch.add_argument("--seams-in-stock", action="store_true", help="of a program: let parts begin and end in the material")
     command("verify", run_verify, "let the server replay a job's trajectory; exit 0 only if it is clean")
     cell = command("cell", run_cell, "let the server say what is wrong with a cell, and the cure; exit 0 only if it can be planned with", job=False)
     cell.add_argument("cell", metavar="CELL", help="name of a cell on the server, or a cell file here")

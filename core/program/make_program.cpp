@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/program/part_stock.hpp"
+#include "core/program/read/main_reader.hpp"
 #include "core/program/read/part_reader.hpp"
 #include "core/program/seams.hpp"
 #include "core/program/write/ros2.hpp"
@@ -20,17 +23,6 @@ namespace {
 // and 0.94 of the links', where a time law uses 0.6 and 0.75.
 constexpr double alone = 1.25;
 
-void check_name(const std::string& name) {
-  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-  const bool good = !name.empty() && name.size() <= 19 && is_letter(name[0]) && std::ranges::all_of(name, [&](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
-  });
-  if (!good)
-    throw InputError("name_invalid", "'" + name +
-                                         "' is no name that every controller takes: give a file or folder of up to 19 "
-                                         "lower-case letters, digits and _, beginning with a letter");
-}
-
 class ProgramMaker {
  public:
   ProgramMaker(const PlanPath& path, const Cell& cell, const Chain& chain, const ProgramDemands& demands,
@@ -43,18 +35,17 @@ class ProgramMaker {
         layout_(lay_out_axes(cell, chain, demands.dialect)),
         tools_(path, cell, demands.motion.reserve_m) {
     for (const AxisLayout::Axis& axis : layout_.axes) letters_.push_back(axis.name);
+    if (demands.stock_files) stock_.emplace(path);
   }
 
   ProgramReport run() {
-    const DialectFacts& facts = facts_of(demands_.dialect);
-    const std::vector<Seam> seams = find_seams(
-        path_, cell_, tools_, {demands_.part_keyframes.value_or(facts.part_keyframes), demands_.seams_in_stock});
-    names_ = {demands_.name, 0, seams.size() + 1, {}};
-    begin_part({});
     const Feeds feeds{demands_.motion.feed_m_s, demands_.motion.rapid_m_s};
+    seams_ = find_seams(path_, cell_, tools_, part_size(feeds));
+    names_ = {demands_.name, 0, seams_.size() + 1, {}};
+    begin_part({});
     for_each_stop(path_, tools_, limits_, feeds, [&](std::size_t point, const StopTime& time) {
-      if (names_.part <= seams.size() && seams[names_.part - 1].point == point - 1) {
-        const Seam& seam = seams[names_.part - 1];
+      if (names_.part <= seams_.size() && seams_[names_.part - 1].point == point - 1) {
+        const Seam& seam = seams_[names_.part - 1];
         retreat(seam);
         end_part();
         begin_part(seam);
@@ -63,13 +54,31 @@ class ProgramMaker {
       add({path_.configuration(point), point, tools_.on_edge_to(path_, point), true}, time);
     });
     end_part();
-    if (facts.has_main)
-      for (const ProgramFile& file : write_main(demands_.dialect, demands_.name, names_.parts)) hand_out(file);
+    if (facts_of(demands_.dialect).has_main) write_main_program();
     report_.parts = names_.parts;
     return report_;
   }
 
  private:
+  PartSize part_size(const Feeds& feeds) const {
+    PartSize size{demands_.part_keyframes.value_or(facts_of(demands_.dialect).part_keyframes), demands_.seams_in_stock};
+    if (!demands_.part_bytes) return size;
+    TextMeter meter(demands_.dialect, layout_, {demands_.name, 0, 0, longest_mount()}, path_.configuration(0));
+    for_each_stop(path_, tools_, limits_, feeds, [&](std::size_t point, const StopTime& time) {
+      meter.add({layout_.to_axes(path_.configuration(point)), time.seconds, time.share});
+    });
+    size.text = meter.take(*demands_.part_bytes);
+    return size;
+  }
+
+  std::optional<ToolMount> longest_mount() const {
+    std::optional<ToolMount> longest;
+    if (!path_.header().mill) return longest;
+    for (const MillTool& tool : path_.header().mill->tools)
+      if (!longest || tool.name.size() > longest->name.size()) longest = {std::numeric_limits<int>::max(), tool.name};
+    return longest;
+  }
+
   /// Of the program, as it is planned.
   struct Place {
     Configuration q;
@@ -92,6 +101,11 @@ class ProgramMaker {
   void begin_part(const Seam& seam) {
     ++names_.part;
     names_.mount = mount_at(seam.point);
+    names_.voxels.before = names_.voxels.after;
+    const std::size_t end = names_.part <= seams_.size() ? seams_[names_.part - 1].point : path_.size() - 1;
+    for (std::size_t point = names_.part == 1 ? 0 : seam.point + 1; point <= end; ++point)
+      names_.voxels.after += path_.edge_to(point).removed;
+    if (stock_) hand_out({names_.part_name() + ".binvox", stock_->at(seam.point)});
     const Configuration q = seam.retreat.empty() ? path_.configuration(seam.point) : seam.retreat.back();
     writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(q));
     places_.clear();
@@ -128,6 +142,24 @@ class ProgramMaker {
   void end_part() {
     const std::vector<ProgramFile> files = writer_->finish();
     check(read_part(demands_.dialect, files.front().text, letters_));
+    std::uint64_t bytes = 0;
+    for (const ProgramFile& file : files) bytes += file.text.size();
+    if (demands_.part_bytes && bytes > *demands_.part_bytes)
+      throw InputError("program_damaged",
+                       "a part came out larger than --part-bytes: this is a fault of this program, "
+                       "please report it");
+    for (const ProgramFile& file : files) hand_out(file);
+  }
+
+  void write_main_program() {
+    const std::vector<ProgramFile> files = write_main(demands_.dialect, demands_.name, names_.parts);
+    std::vector<std::string> parts;
+    for (std::size_t part = 1; part <= names_.parts; ++part)
+      parts.push_back(ProgramNames{demands_.name, part, 0, {}}.part_name());
+    if (read_main(demands_.dialect, files.front().text, files.back().text) != parts)
+      throw InputError("program_damaged",
+                       "the main program calls other parts than there are: this is a fault of this "
+                       "program, please report it");
     for (const ProgramFile& file : files) hand_out(file);
   }
 
@@ -154,6 +186,10 @@ class ProgramMaker {
     if (part.tool != (names_.mount ? names_.mount->number : 0))
       throw InputError("program_damaged",
                        "a part that was written mounts another tool than the plan has: this is a fault of this "
+                       "program, please report it");
+    if (part.cut_before != names_.voxels.before || part.cut_after != names_.voxels.after)
+      throw InputError("program_damaged",
+                       "a part that was written tells of other voxels than the plan has: this is a fault of this "
                        "program, please report it");
     check_place(places_.front(), joints_of(part.start, part.radians));
     for (std::size_t at = 0; at < part.moves.size(); ++at) {
@@ -213,11 +249,13 @@ class ProgramMaker {
   const AxisLayout layout_;
   const PathTools tools_;
   std::vector<std::string> letters_;
+  std::vector<Seam> seams_;
   ProgramNames names_;
   std::unique_ptr<PartWriter> writer_;
   std::vector<Place> places_;    // of the part, its start first
   std::vector<StopTime> times_;  // of the moves to the others
   ToolPlace tool_;
+  std::optional<PartStock> stock_;
   ProgramReport report_;
 };
 
@@ -225,17 +263,24 @@ class ProgramMaker {
 
 ProgramReport make_program(const PlanPath& path, const Cell& cell, const ProgramDemands& demands,
                            const std::function<void(const ProgramFile&)>& take) {
-  check_name(demands.name);
+  check_program_name(demands.name);
   check_demands(demands.motion);
+  if (demands.part_bytes && *demands.part_bytes == 0)
+    throw InputError("part_invalid", "a part of 0 bytes says nothing: give --part-bytes 1000 or more");
   if (demands.part_keyframes && *demands.part_keyframes == 0)
     throw InputError("part_invalid", "a part of 0 keyframes does nothing: give --part-keyframes 1 or more");
+  if (demands.stock_files && path.header().mill)
+    throw InputError("part_invalid",
+                     "what a milling tool leaves is not in the path that a program follows: leave out "
+                     "--stock-files");
   const Chain chain = cell.chain();
   check_cell(path, chain, cell);
   if (path.size() < 2) throw InputError("part_invalid", "the plan moves nothing: there is no program to write");
   if (demands.dialect == Dialect::ros2) {
-    if (demands.part_keyframes)
+    if (demands.part_keyframes || demands.part_bytes || demands.stock_files)
       throw InputError("part_invalid",
-                       "a ROS trajectory goes on between keyframes and has no parts: leave out --part-keyframes");
+                       "a ROS trajectory goes on between keyframes and has no parts: leave out --part-keyframes, "
+                       "--part-bytes and --stock-files");
     return write_ros2(path, cell, demands, take);
   }
   return ProgramMaker(path, cell, chain, demands, take).run();

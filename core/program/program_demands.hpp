@@ -14,9 +14,14 @@ struct ProgramDemands {
   Dialect dialect = Dialect::krl;
   std::string name;                           ///< of the program: letters, digits and _, beginning with a letter
   std::optional<std::size_t> part_keyframes;  ///< without it what the dialect takes
+  std::optional<std::uint64_t> part_bytes;    ///< of a part's texts; with both no part has more of either
+  bool stock_files = false;                   ///< with each part comes a .binvox of what stands when it begins
   bool seams_in_stock = false;                ///< parts may begin and end with the tool in the material
   MotionDemands motion;
 };
+
+/// Throws InputError `name_invalid`.
+void check_program_name(const std::string& name);
 
 struct ProgramReport {
   std::size_t parts = 0, files = 0;

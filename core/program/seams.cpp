@@ -88,11 +88,21 @@ std::vector<std::size_t> places_to_try(std::size_t most) {
   return places;
 }
 
-/// The last place that the tool can leave within `most` moves from `begin` on, the way there included.
-std::optional<Seam> find_exit(WayOut& way_out, std::size_t begin, std::size_t most) {
+/// Where a part begins, and how large it may be.
+struct PartStart {
+  std::size_t begin, returning;
+  const PartSize& size;
+  std::size_t most;  ///< moves of the path that fit, without a retreat at the end
+
+  bool fits(std::size_t moves, const Way& leaving) const { return size.fits(begin, returning, moves, leaving.size()); }
+};
+
+/// The last place that the tool can leave, the way there included.
+std::optional<Seam> find_exit(WayOut& way_out, const PartStart& part) {
+  const std::size_t begin = part.begin, most = part.most;
   std::optional<Seam> found;
   const auto take = [&](std::size_t moves, std::optional<Way> way) {
-    if (way && moves + way->size() <= most) found = {begin + moves, std::move(*way)};
+    if (way && part.fits(moves, *way)) found = {begin + moves, std::move(*way)};
   };
   for (const std::size_t moves : places_to_try(most)) {
     take(moves, way_out.straight(begin + moves));
@@ -170,53 +180,94 @@ std::optional<Way> climb_out(const PlanPath& path, const Cell& cell, const PathT
   return Climb(tool, links, q, pose.axis).run(far_m, most);
 }
 
-/// The last place within `most` moves where a milling tool is over the material, on its way from cut to cut; or one
-/// where it can climb out.
-std::optional<Seam> find_way_over(const PlanPath& path, const Cell& cell, const PathTools& tools, std::size_t begin,
-                                  std::size_t most) {
+/// The last place where a milling tool is over the material, on its way from cut to cut; or one where it can climb out.
+std::optional<Seam> find_way_over(const PlanPath& path, const Cell& cell, const PathTools& tools,
+                                  const PartStart& part) {
+  const std::size_t begin = part.begin, most = part.most;
   for (std::size_t point = begin + most; point > begin; --point)
     if (!path.edge_to(point).cut && !path.edge_to(point + 1).cut) return Seam{point, {}};
   for (const std::size_t less : {most / 16, most / 8, most / 4, most / 2}) {
     const std::size_t point = begin + most - less;
-    if (auto way = climb_out(path, cell, tools.on_edge_to(path, point), point, less))
+    if (point == begin) continue;
+    if (auto way = climb_out(path, cell, tools.on_edge_to(path, point), point, less);
+        way && part.fits(point - begin, *way))
       return Seam{point, std::move(*way)};
   }
   return {};
 }
 
-[[noreturn]] void refuse(const PlanPath& path, std::size_t first, std::size_t moves) {
-  throw InputError("part_invalid",
-                   "no part of " + std::to_string(moves) + " moves from keyframe " +
-                       std::to_string(path.edge_to(first + 1).keyframe) +
-                       " on ends where the tool can leave the material: give a larger --part-keyframes, or let parts "
-                       "begin and end in the material with --seams-in-stock");
+[[noreturn]] void refuse(const PlanPath& path, std::size_t first, const PartSize& size) {
+  std::string limit = size.moves > 0 ? std::to_string(size.moves) + " moves" : "", larger = "--part-keyframes";
+  if (size.text.most > 0) {
+    limit += (limit.empty() ? "" : " and ") + std::to_string(size.text.most) + " bytes";
+    larger = size.moves > 0 ? "--part-bytes or --part-keyframes" : "--part-bytes";
+  }
+  throw InputError("part_invalid", "no part of " + limit + " from keyframe " +
+                                       std::to_string(path.edge_to(first + 1).keyframe) +
+                                       " on ends where the tool can leave the material: give a larger " + larger +
+                                       ", or let parts begin and end in the material with --seams-in-stock");
 }
+
+/// That not even one move fits in.
+[[noreturn]] void refuse_small(const PartSize& size) {
+  throw InputError("part_invalid", "a part of " + std::to_string(size.text.most) +
+                                       " bytes holds no move, its text takes more: give a --part-bytes of " +
+                                       std::to_string(size.text.frame + 10 * size.text.retreat) + " or more");
+}
+
+/// One seam after the other.
+class SeamFinder {
+ public:
+  SeamFinder(const PlanPath& path, const Cell& cell, const PathTools& tools, const PartSize& size)
+      : path_(path), cell_(cell), tools_(tools), size_(size) {}
+
+  /// Behind the part that begins at a point with moves that come back from a retreat; nothing where it is the last one.
+  std::optional<Seam> next(std::size_t begin, std::size_t returning) {
+    if (change_ <= begin) find_change(begin);
+    const PartStart part{begin, returning, size_, size_.moves_from(begin, returning, change_ - begin)};
+    if (part.most == change_ - begin) return change_ == last() ? std::nullopt : std::optional(Seam{change_, {}});
+    if (!size_.fits(begin, 0, 1, 0)) refuse_small(size_);
+    if (size_.may_be_inside) return Seam{begin + part.most, {}};
+    std::optional<Seam> found = find_outside(part);
+    if (!found) refuse(path_, begin, size_);
+    return found;
+  }
+
+ private:
+  std::size_t last() const { return path_.size() - 1; }
+
+  /// Of tools, or the end.
+  void find_change(std::size_t begin) {
+    change_ = begin + 1;
+    while (change_ < last() && !is_changed_at(path_, change_)) ++change_;
+  }
+
+  std::optional<Seam> find_outside(const PartStart& part) {
+    if (path_.header().mill) return find_way_over(path_, cell_, tools_, part);
+    if (!way_out_) way_out_.emplace(path_, tools_.first());
+    return find_exit(*way_out_, part);
+  }
+
+  const PlanPath& path_;
+  const Cell& cell_;
+  const PathTools& tools_;
+  const PartSize& size_;
+  std::optional<WayOut> way_out_;  // of a thin tool, once it is needed
+  std::size_t change_ = 0;
+};
 
 }  // namespace
 
 std::vector<Seam> find_seams(const PlanPath& path, const Cell& cell, const PathTools& tools, const PartSize& size) {
   std::vector<Seam> seams;
-  std::optional<WayOut> way_out;
+  SeamFinder finder(path, cell, tools, size);
   std::size_t begin = 0, returning = 0;
-  const std::size_t last = path.size() - 1;
-  while (begin < last) {
-    std::size_t change = begin + 1;
-    while (change < last && !is_changed_at(path, change)) ++change;
-    if (size.moves == 0 || returning + change - begin <= size.moves) {
-      if (change == last) break;
-      seams.push_back({change, {}});
-    } else if (size.may_be_inside) {
-      seams.push_back({begin + size.moves, {}});
-    } else {
-      const std::size_t most = size.moves - std::min(returning, size.moves);
-      if (!path.header().mill && !way_out) way_out.emplace(path, tools.first());
-      std::optional<Seam> found =
-          way_out ? find_exit(*way_out, begin, most) : find_way_over(path, cell, tools, begin, most);
-      if (!found) refuse(path, begin, size.moves);
-      seams.push_back(std::move(*found));
-    }
-    begin = seams.back().point;
-    returning = seams.back().retreat.size();
+  while (begin + 1 < path.size()) {
+    std::optional<Seam> seam = finder.next(begin, returning);
+    if (!seam) break;
+    begin = seam->point;
+    returning = seam->retreat.size();
+    seams.push_back(std::move(*seam));
   }
   return seams;
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/program/part_size.hpp"
 #include "core/timing/path_tool.hpp"
 
 namespace sculpt {
@@ -16,16 +17,10 @@ struct Seam {
   std::vector<Configuration> retreat;
 };
 
-/// What a part is at most.
-struct PartSize {
-  std::size_t moves = 0;       ///< those of the retreats at both ends included; 0: no limit
-  bool may_be_inside = false;  ///< parts end after that many moves wherever the tool is
-};
-
 /// In the order of the path; where a milling tool is changed there always is one. A thin tool leaves along its axis,
 /// certified against all of the stock's cube that is not cut yet; a milling tool is parted from its work on a way over,
 /// or climbs straight out. `tools` are those of `cell`.
-/// Throws InputError `part_invalid` where no place to part was found for so many moves.
+/// Throws InputError `part_invalid` where no place to part was found that fits.
 std::vector<Seam> find_seams(const PlanPath& path, const Cell& cell, const PathTools& tools, const PartSize& size);
 
 }  // namespace sculpt

@@ -33,12 +33,16 @@ PlanPath::PlanPath(std::istream& in) {
   int direction = MillStep{}.direction, tool = 0;
   while (const auto keyframe = reader.next()) {
     ++keyframes_;
+    const auto removed = static_cast<std::uint32_t>(!keyframe->cut   ? 0
+                                                    : keyframe->mill ? keyframe->mill->removed
+                                                                     : run_length(*keyframe));
     if (keyframe->q != at) {
       Edge edge = edge_of(*keyframe, keyframes_, cut_before);
       edge.tool = static_cast<std::uint8_t>(tool);
       edge.placed = keyframe->mill && keyframe->mill->is_placed() && keyframe->mill->direction == direction;
       add(keyframe->q, edge);
     }
+    edges_.back().removed += removed;
     at = keyframe->q;
     if (keyframe->cut) cut_before = keyframe->last;
     if (!keyframe->mill) continue;

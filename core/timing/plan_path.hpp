@@ -20,9 +20,10 @@ class PlanPath {
   struct Edge {
     std::uint32_t keyframe = 0;  ///< number of the point's keyframe in the file, from 1
     std::array<std::int16_t, 3> last{};
-    std::uint16_t voxels = 0;  ///< that a thin tool cuts
-    std::uint8_t way = 0;      ///< 1 to 6: along which of the grid's axes these lie; 0: neither is known
-    std::uint8_t tool = 0;     ///< of the header's milling tools, the one in the spindle
+    std::uint16_t voxels = 0;   ///< that a thin tool cuts
+    std::uint32_t removed = 0;  ///< that any tool does, and keyframes do that are left out behind it
+    std::uint8_t way = 0;       ///< 1 to 6: along which of the grid's axes these lie; 0: neither is known
+    std::uint8_t tool = 0;      ///< of the header's milling tools, the one in the spindle
     bool cut = false;
     bool placed = false;  ///< a milling tool's tip goes straight, in one direction
     bool rest = false;    ///< the motion must come to rest at the point: a tool is changed there

@@ -21,8 +21,8 @@ class Tickets {
   Tickets(std::string secret, std::function<std::uint64_t()> now_ms)
       : secret_(std::move(secret)), now_ms_(std::move(now_ms)) {}
 
-  /// JOB.ARTIFACT.FORMAT.END.SIGNATURE, of letters, digits and dots.
-  std::string issue(const std::string& job, const std::string& artifact, const std::string& format) const;
+  /// JOB.ARTIFACT.FORMAT.PROGRAM.END.SIGNATURE, of letters, digits and dots.
+  std::string issue(const proto::ArtifactReadParams& wanted) const;
   /// The file, from its first byte; throws ProtocolError `gone` for a ticket that has expired or never was.
   proto::ArtifactReadParams redeem(const std::string& ticket) const;
 

@@ -18,6 +18,7 @@ Answer read_chunk(const Artifacts& artifacts, const proto::ArtifactReadParams& w
               {"final", chunk.final},
               {"eof", eof},
               {"crc32", proto::crc32_hex(chunk.bytes)}};
+  if (wanted.program) result["sha256"] = chunk.sha256;
   return {std::move(result), std::move(chunk.bytes)};
 }
 
@@ -43,8 +44,8 @@ void on_artifact_link(const ArtifactGroup& group, Call call) {
   const proto::ArtifactReadParams wanted = proto::read_artifact_link(call.params);
   group.answers.read(std::move(call), [group, wanted] {
     find_job(group.store, wanted.job);
-    const std::string name = group.artifacts.file_name_of(wanted);
-    const std::string ticket = group.tickets.issue(wanted.job, wanted.artifact, wanted.format);
+    const std::string name = download_name(wanted);
+    const std::string ticket = group.tickets.issue(wanted);
     const auto end_ms = unix_ms() + std::chrono::duration_cast<std::chrono::milliseconds>(ticket_time).count();
     return Json{{"job", wanted.job},
                 {"artifact", wanted.artifact},
@@ -65,9 +66,10 @@ void on_artifact_read(const ArtifactGroup& group, Call call) {
         return group.artifacts.needs_export(wanted);
       },
       [group, wanted, so_far = so_far_here](Call known, bool to_export) {
-        group.answers.from(to_export ? group.exports : group.disk, std::move(known),
-                           [&artifacts = group.artifacts, wanted, to_export, so_far](const std::stop_token&) {
-                             if (to_export) artifacts.make_export(wanted);
+        TaskQueue& maker = wanted.program ? group.programs : group.exports;
+        group.answers.from(to_export ? maker : group.disk, std::move(known),
+                           [&artifacts = group.artifacts, wanted, to_export, so_far](const std::stop_token& stop) {
+                             if (to_export) artifacts.make_export(wanted, stop);
                              return read_chunk(artifacts, wanted, *so_far);
                            });
       });

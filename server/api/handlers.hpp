@@ -74,7 +74,7 @@ struct CellGroup {
 };
 Handlers cell_handlers(const CellGroup& group);
 
-/// job.get, job.list, job.wait, job.report, job.verify.
+/// job.get, job.list, job.wait, job.report, job.verify, job.cell.
 struct JobGroup {
   const Answers& answers;
   const Config& config;
@@ -94,8 +94,9 @@ Handlers job_handlers(const JobGroup& group);
 struct SampleGroup {
   const Answers& answers;
   JobStore& store;
-  Motions& motions;  ///< of the thread of `samples`
-  TaskQueue& samples;
+  Motions& motions;
+  TaskQueue& samples;  ///< for windows of motions that are known
+  TaskQueue& laws;     ///< for those whose time law must be found first
 };
 Handlers sample_handlers(const SampleGroup& group);
 
@@ -125,7 +126,8 @@ struct ArtifactGroup {
   const Tickets& tickets;
   TaskQueue& changes;
   TaskQueue& disk;
-  TaskQueue& exports;  ///< for other forms than an artifact's own
+  TaskQueue& exports;   ///< for other forms than an artifact's own
+  TaskQueue& programs;  ///< for robot programs
 };
 Handlers artifact_handlers(const ArtifactGroup& group);
 

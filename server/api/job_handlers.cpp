@@ -1,6 +1,8 @@
-// What is asked of jobs: one, a page of them, their end, a replay.
+// What is asked of jobs: one, a page of them, their end, a replay, their cell.
+#include "proto/crc32.hpp"
 #include "server/api/handlers.hpp"
 #include "server/api/job_page.hpp"
+#include "server/results/job_cell.hpp"
 #include "server/run/isolated_replay.hpp"
 #include "server/run/job_run.hpp"
 
@@ -82,6 +84,32 @@ void on_verify(const JobGroup& group, Call call) {
       });
 }
 
+Answer read_cell_piece(const JobGroup& group, const proto::CellReadParams& wanted) {
+  const std::string file = find_cell_file(group.store, group.blobs, {wanted.job, wanted.file});
+  const std::uint64_t size = group.blobs.size(file, {});
+  if (wanted.offset > size)
+    throw proto::ProtocolError(
+        "params_invalid",
+        "offset " + std::to_string(wanted.offset) + " is beyond the file's " + std::to_string(size) + " bytes",
+        "/params/offset");
+  std::string bytes = group.blobs.read_piece(file, wanted.offset, wanted.bytes);
+  Json result{{"job", wanted.job},
+              {"file", file},
+              {"offset", wanted.offset},
+              {"bytes", bytes.size()},
+              {"size", size},
+              {"eof", wanted.offset + bytes.size() == size},
+              {"crc32", proto::crc32_hex(bytes)}};
+  return {std::move(result), std::move(bytes)};
+}
+
+void on_cell(const JobGroup& group, Call call) {
+  const proto::CellReadParams wanted = proto::read_cell_read(call.params);
+  call.session->hold();
+  group.answers.from(group.disk, std::move(call),
+                     [group, wanted](const std::stop_token&) { return read_cell_piece(group, wanted); });
+}
+
 }  // namespace
 
 Handlers job_handlers(const JobGroup& group) {
@@ -91,6 +119,7 @@ Handlers job_handlers(const JobGroup& group) {
       {"job.wait", [group](Call call) { on_wait(group, std::move(call)); }},
       {"job.report", [group](Call call) { on_report(group, std::move(call)); }},
       {"job.verify", [group](Call call) { on_verify(group, std::move(call)); }},
+      {"job.cell", [group](Call call) { on_cell(group, std::move(call)); }},
   };
 }
 

@@ -27,6 +27,7 @@ constexpr std::array table{
     Method{"job.report", Scope::read},
     Method{"job.verify", Scope::submit},
     Method{"job.samples", Scope::read},
+    Method{"job.cell", Scope::read},
     Method{"queue.pause", Scope::admin},
     Method{"queue.resume", Scope::admin},
     Method{"events.subscribe", Scope::read},

@@ -2,6 +2,7 @@
 #include "proto/crc32.hpp"
 #include "proto/framing.hpp"
 #include "server/api/handlers.hpp"
+#include "server/results/programs.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -29,20 +30,20 @@ void on_samples(const SampleGroup& group, Call call) {
   const proto::SamplesParams wanted = proto::read_samples(call.params);
   group.answers.read_then(
       std::move(call),
-      [&store = group.store, wanted] {
+      [&store = group.store, &motions = group.motions, wanted] {
         JobRecord job = find_job(store, wanted.job);
         if (store.artifacts(job.id).empty())
           throw proto::ProtocolError(
               "wrong_state", "job " + job.id + " is " + name(job.state) + " and has no final trajectory to go through");
-        if (job.error_code == "verify_failed")
-          throw proto::ProtocolError("wrong_state", "the replay of the plan of job " + job.id +
-                                                        " found faults, so it must not be run: plan it again");
-        return job;
+        check_may_run(job);
+        const bool is_kept = motions.has(job, wanted);
+        return std::pair(std::move(job), is_kept);
       },
-      [group, wanted](Call known, const JobRecord& job) {
-        group.answers.from(group.samples, std::move(known), [group, wanted, job](const std::stop_token& stop) {
-          return read_window(group, job, wanted, stop);
-        });
+      [group, wanted](Call known, const std::pair<JobRecord, bool>& found) {
+        const auto& [job, is_kept] = found;
+        group.answers.from(
+            is_kept ? group.samples : group.laws, std::move(known),
+            [group, wanted, job = job](const std::stop_token& stop) { return read_window(group, job, wanted, stop); });
       });
 }
 

@@ -94,8 +94,10 @@ void on_server_info(const ServerGroup& group, Call call) {
 }
 
 void on_server_schema(const ServerGroup& group, Call call) {
-  const std::string method = proto::read_schema_method(call.params);
-  group.answers.read(std::move(call), [method] { return proto::protocol_schema(method); });
+  const proto::SchemaParams wanted = proto::read_schema(call.params);
+  group.answers.read(std::move(call), [wanted] {
+    return wanted.part.empty() ? proto::protocol_schema(wanted.method) : proto::protocol_schema_part(wanted.part);
+  });
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ struct Config {
   bool isolate = true;                              ///< run every job in a process of its own, not only suspects
   std::chrono::milliseconds retry_backoff{10000};   ///< before the second try of a job that failed for a passing reason
   std::filesystem::path worker = "/proc/self/exe";  ///< the program that runs a job with --run-job; not a setting
-  std::uint64_t reply_limit_bytes = 32u << 20;   ///< unsent bytes of one connection; above it the connection is closed
-  std::chrono::milliseconds check_time{120000};  ///< for reading files that nobody has read yet
+  std::uint64_t reply_limit_bytes = 32u << 20;    ///< unsent bytes of one connection; above it the connection is closed
+  std::chrono::milliseconds check_time{120000};   ///< for reading files that nobody has read yet
+  std::chrono::milliseconds result_time{600000};  ///< for what is made of a finished job, as a program
   std::chrono::milliseconds stall{
       30000};  ///< a connection that takes no bytes for so long while there are some is closed
   std::chrono::milliseconds drain{10000};       ///< for running jobs to end in order when the daemon stops

@@ -210,6 +210,8 @@ const std::vector<Setting>& settings() {
       bytes("reply_limit_bytes", &Config::reply_limit_bytes, at_reload,
             "unsent bytes of one connection; above it the connection is closed"),
       seconds("check_s", &Config::check_time, at_reload, "a submitted mesh that is not read in so long is refused"),
+      seconds("result_s", &Config::result_time, at_start,
+              "a time law or a program of a finished job that is not found in so long is given up"),
       seconds("stall_s", &Config::stall, at_reload,
               "a connection that takes no bytes for so long while there are some is closed"),
       seconds("hello_s", &Config::hello_time, at_reload,

@@ -208,11 +208,17 @@ std::uint64_t Blobs::size(const std::string& sha256, const std::string& pointer)
 }
 
 std::string Blobs::read(const std::string& sha256, const std::string& pointer) const {
-  std::string bytes(size(sha256, pointer), '\0');
+  return read_piece(sha256, 0, size(sha256, pointer));
+}
+
+std::string Blobs::read_piece(const std::string& sha256, std::uint64_t offset, std::size_t bytes) const {
+  const std::uint64_t all = size(sha256, {});
+  std::string piece(std::min<std::uint64_t>(bytes, all - std::min(all, offset)), '\0');
   std::ifstream in(place(sha256), std::ios::binary);
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+  in.seekg(static_cast<std::streamoff>(offset));
+  if (!in.read(piece.data(), static_cast<std::streamsize>(piece.size())))
     throw StorageError("cannot read the blob " + sha256);
-  return bytes;
+  return piece;
 }
 
 }  // namespace sculpt::server

@@ -39,9 +39,11 @@ class Blobs {
   void remove_unused(const std::set<std::string>& needed, std::chrono::seconds age);
   /// Stores content made here and returns its hash.
   std::string add(std::string_view bytes);
-  // Both throw ProtocolError `blob_missing` with `pointer`; the blob counts as used now.
+  // All throw ProtocolError `blob_missing`, with `pointer`; the blob counts as used now.
   std::uint64_t size(const std::string& sha256, const std::string& pointer) const;
   std::string read(const std::string& sha256, const std::string& pointer) const;
+  /// Of it as many bytes from `offset` on as there are, `bytes` at most.
+  std::string read_piece(const std::string& sha256, std::uint64_t offset, std::size_t bytes) const;
 
  private:
   std::filesystem::path place(const std::string& sha256) const;

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 bool is_of_a_result(const fs::path& file) {
   const std::string kind = file.extension();
-  return kind == ".csv" || kind == ".sct" || kind == ".gz" || kind == ".seal" || kind == ".law";
+  return kind == ".csv" || kind == ".sct" || kind == ".gz" || kind == ".seal" || kind == ".law" || kind == ".zip" ||
+         kind == ".program";
 }
 
 // Of the job, but this one; the last comes first. Drafts of folders are attempt 0, which no run has.

@@ -89,12 +89,13 @@ void HttpConnection::on_request(const boost::system::error_code& error) {
 
 void HttpConnection::serve(Route route) {
   if (route.choose) {
-    return do_on(sources_.reads, std::move(route.choose),
-                 [work = std::move(route.work)](HttpConnection& self, TaskQueue* queue) {
-                   self.serve({queue, work});
-                 });
+    return do_on(
+        sources_.reads, [choose = std::move(route.choose)](const std::stop_token&) { return choose(); },
+        [work = std::move(route.work)](HttpConnection& self, TaskQueue* queue) {
+          self.serve({queue, work});
+        });
   }
-  if (route.queue == nullptr) return reply(route.work());
+  if (route.queue == nullptr) return reply(route.work({}));
   do_on(*route.queue, std::move(route.work),
         [](HttpConnection& self, HttpReply result) { self.reply(std::move(result)); });
 }
@@ -113,12 +114,12 @@ void HttpConnection::upgrade() {
 
 template <class Work, class Next>
 void HttpConnection::do_on(TaskQueue& queue, Work work, Next next) {
-  queue.add([self = shared_from_this(), work = std::move(work), next](const std::stop_token&) mutable {
-    using Result = decltype(work());
+  queue.add([self = shared_from_this(), work = std::move(work), next](const std::stop_token& stop) mutable {
+    using Result = decltype(work(stop));
     std::optional<Result> result;
     Json error;
     try {
-      result = work();
+      result = work(stop);
     } catch (...) {
       error = current_error();
     }
@@ -170,7 +171,7 @@ void HttpConnection::send_piece(FilePart rest) {
   rest.at.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(rest.at.bytes, rest.bytes));
   do_on(
       sources_.disk,
-      [&artifacts = sources_.artifacts, at = rest.at, so_far = rest.so_far] {
+      [&artifacts = sources_.artifacts, at = rest.at, so_far = rest.so_far](const std::stop_token&) {
         return artifacts.read(at, *so_far).bytes;
       },
       [rest](HttpConnection& self, std::string piece) { self.write_piece(std::move(piece), rest); });

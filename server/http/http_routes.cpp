@@ -6,10 +6,11 @@
 #include <string_view>
 
 #include "proto/schema.hpp"
+#include "server/http/artifact_path.hpp"
 #include "server/http/byte_range.hpp"
 #include "server/http/health.hpp"
 #include "server/http/http_guard.hpp"
-#include "server/http/job_cell.hpp"
+#include "server/http/job_cell_reply.hpp"
 #include "server/http/page.hpp"
 
 namespace sculpt::server {
@@ -19,6 +20,7 @@ constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
 constexpr std::string_view artifacts_path = "/v1/artifacts/", jobs_path = "/v1/jobs/";
 constexpr std::string_view schema_path = "/schema.json";
 constexpr std::size_t piece_bytes = 1 << 20;
+constexpr int first_of_input = 5001, last_of_input = 5089;  // numbers of errors that say what cannot be made of what
 
 HttpReply ready_reply(const std::string& reason) {
   if (reason.empty()) return {200, "text/plain; charset=utf-8", "ready\n"};
@@ -32,49 +34,26 @@ void authorize(const HttpSources& sources, const Peer& peer, const HttpRequest& 
   require_scope(sources.access.identify(peer, token), Scope::read);
 }
 
-// JOB/NAME[?format=FORMAT]
-proto::ArtifactReadParams read_artifact_path(std::string_view path) {
-  const std::size_t query = std::min(path.find('?'), path.size()), slash = path.find('/');
-  if (slash > query) {
-    throw proto::ProtocolError("not_found", "an artifact's path is /v1/artifacts/JOB/NAME[?format=FORMAT]");
-  }
-  proto::ArtifactReadParams wanted{
-      std::string(path.substr(0, slash)), std::string(path.substr(slash + 1, query - slash - 1)), {}, 0, piece_bytes};
-  if (query == path.size()) return wanted;
-  constexpr std::string_view format = "?format=";
-  if (!path.substr(query).starts_with(format)) {
-    throw proto::ProtocolError("params_invalid", "the only thing that may follow an artifact's path is ?format=FORMAT");
-  }
-  wanted.format = path.substr(query + format.size());
-  return wanted;
-}
-
 const char* media_type(const std::string& format) {
   if (format == "gzip") return "application/gzip";
+  if (format == "zip") return "application/zip";
   if (format == "json") return "application/json";
   if (format == "ndjson") return "application/x-ndjson";
   return format == "csv" ? "text/csv; charset=utf-8" : "application/octet-stream";
-}
-
-// Of an artifact's own form its hash; the others are always made alike from it.
-std::string entity_tag(const std::vector<StoredArtifact>& stored, const proto::ArtifactReadParams& wanted,
-                       const std::string& format) {
-  const auto found = std::ranges::find(stored, wanted.artifact, &StoredArtifact::artifact);
-  if (found == stored.end()) {
-    throw proto::ProtocolError("wrong_state",
-                               "the " + wanted.artifact + " of job " + wanted.job +
-                                   " still grows: HTTP gives what is final; follow it with artifact.read");
-  }
-  return "\"" + found->sha256 + (format == found->format ? "" : "-" + format) + "\"";
 }
 
 HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams wanted, const HttpRequest& request) {
   wanted.bytes = 0;
   const auto so_far = std::make_shared<WholeRead>();
   const ArtifactChunk now = sources.artifacts.read(wanted, *so_far);
+  if (!now.final) {
+    throw proto::ProtocolError("wrong_state",
+                               "the " + wanted.artifact + " of job " + wanted.job +
+                                   " still grows: HTTP gives what is final; follow it with artifact.read");
+  }
   wanted.format = now.format;
   wanted.bytes = piece_bytes;
-  const std::string tag = entity_tag(sources.store.artifacts(wanted.job), wanted, now.format);
+  const std::string tag = "\"" + now.sha256 + "\"";
   HttpReply reply{200, media_type(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
   if (is_known(request, tag)) {
     reply.status = 304;
@@ -105,13 +84,14 @@ HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams w
 
 Route artifact_route(const HttpSources& sources, const proto::ArtifactReadParams& wanted, const HttpRequest& request) {
   return {nullptr,
-          [sources, wanted, request] {
-            sources.artifacts.make_export(wanted);
+          [sources, wanted, request](const std::stop_token& stop) {
+            sources.artifacts.make_export(wanted, stop);
             return artifact_reply(sources, wanted, request);
           },
           [sources, wanted] {
             find_job(sources.store, wanted.job);
-            return sources.artifacts.needs_export(wanted) ? &sources.exports : &sources.disk;
+            if (!sources.artifacts.needs_export(wanted)) return &sources.disk;
+            return wanted.program ? &sources.programs : &sources.exports;
           }};
 }
 
@@ -129,7 +109,8 @@ Route cell_route(const HttpSources& sources, const HttpRequest& request) {
   const std::size_t middle = path.find(cell);
   if (middle == std::string::npos)
     throw proto::ProtocolError("not_found", "of a job there is /v1/jobs/JOB/cell/, and /v1/jobs/JOB/cell/HASH");
-  return {&sources.disk, [sources, request, job = path.substr(0, middle), file = path.substr(middle + cell.size())] {
+  return {&sources.disk, [sources, request, job = path.substr(0, middle),
+                          file = path.substr(middle + cell.size())](const std::stop_token&) {
             return job_cell_reply(sources.store, sources.blobs, {job, file}, request);
           }};
 }
@@ -143,6 +124,8 @@ unsigned status_of(std::string_view code) {
   if (code == "method_refused") return 405;
   if (code == "wrong_state") return 409;
   if (code == "host_refused") return 421;
+  if (const int number = proto::find_error(code).number; number >= first_of_input && number <= last_of_input)
+    return 422;
   return code == "stopping" || code == "too_many_connections" ? 503 : 500;
 }
 
@@ -194,26 +177,29 @@ Route find_route(const HttpSources& sources, const ConnectionContext& context, c
                                                      std::string(web_socket_path) + " or newline-delimited JSON-RPC");
   }
   if (request.target == live_path)
-    return {nullptr, [] { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
+    return {nullptr, [](const std::stop_token&) { return HttpReply{200, "text/plain; charset=utf-8", "alive\n"}; }};
   if (request.target == ready_path) {
     // Copied here: a reload changes the config while the disk is looked at.
     return {&sources.disk, [&store = sources.store, fleet = sources.metrics.fleet, data = context.config.data,
-                            floor = context.config.disk_floor_bytes] {
+                            floor = context.config.disk_floor_bytes](const std::stop_token&) {
               return ready_reply(why_not_ready(data, floor, store, fleet));
             }};
   }
   if (is_page(request.target))
-    return {&sources.disk, [folder = context.config.web, request] { return page_reply(folder, request); }};
+    return {&sources.disk,
+            [folder = context.config.web, request](const std::stop_token&) { return page_reply(folder, request); }};
   if (request.target.starts_with(links_path)) return link_route(sources, request);
   authorize(sources, peer, request);
   if (request.target == "/metrics") {
-    return {&sources.reads,
-            [metrics = sources.metrics, open = context.connections.count(), data = context.config.data] {
+    return {&sources.reads, [metrics = sources.metrics, open = context.connections.count(),
+                             data = context.config.data](const std::stop_token&) {
               return HttpReply{200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(metrics, open, data)};
             }};
   }
   if (request.target == schema_path) {
-    return {nullptr, [] { return HttpReply{200, "application/schema+json", std::string(proto::schema_text())}; }};
+    return {nullptr, [](const std::stop_token&) {
+              return HttpReply{200, "application/schema+json", std::string(proto::schema_text())};
+            }};
   }
   if (request.target.starts_with(artifacts_path))
     return artifact_route(sources, read_artifact_path(std::string_view(request.target).substr(artifacts_path.size())),

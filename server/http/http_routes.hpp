@@ -24,15 +24,16 @@ struct HttpSources {
   const Blobs& blobs;
   Artifacts& artifacts;
   MetricSources metrics;
-  TaskQueue& reads;    ///< questions to the store
-  TaskQueue& disk;     ///< pieces of files
-  TaskQueue& exports;  ///< other forms than an artifact's own
+  TaskQueue& reads;     ///< questions to the store
+  TaskQueue& disk;      ///< pieces of files
+  TaskQueue& exports;   ///< other forms than an artifact's own
+  TaskQueue& programs;  ///< robot programs
 };
 
 /// Work that gives the reply, and may throw as a handler does.
 struct Route {
   TaskQueue* queue = nullptr;  ///< where the work is done; null: at once, on the I/O thread
-  std::function<HttpReply()> work;
+  std::function<HttpReply(const std::stop_token&)> work;
   std::function<TaskQueue*()> choose = {};  ///< where there is one: asked on the thread of reads for the queue
 };
 

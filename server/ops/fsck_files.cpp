@@ -7,6 +7,7 @@
 #include "server/files/stored_file.hpp"
 #include "server/ops/fsck.hpp"
 #include "server/results/exported_file.hpp"
+#include "server/results/programs.hpp"
 #include "server/run/job_run.hpp"
 #include "server/store/job_store.hpp"
 #include "server/store/sqlite/sqlite.hpp"
@@ -108,6 +109,7 @@ std::vector<Fault> find_artifact_faults(const FolderPaths& folder, Database& dat
     if (file == "timeline.tokens") check_export(folder.jobs(), job, "timeline.gz", faults);
     if (file != "trajectory.ndjson") continue;
     for (const char* made : {"trajectory.csv", "trajectory.sct"}) check_export(folder.jobs(), job, made, faults);
+    for (const std::string& made : program_files(folder.jobs(), job)) check_export(folder.jobs(), job, made, faults);
   }
   Statement empty(database,
                   "SELECT id FROM job WHERE state='succeeded' AND NOT EXISTS(SELECT 1 FROM artifact WHERE artifact.job "

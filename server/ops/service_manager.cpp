@@ -62,4 +62,10 @@ void ServiceManager::tell(const std::string& lines) {
            reinterpret_cast<const sockaddr*>(&address_), address_bytes_);
 }
 
+std::string queue_sentence(JobStore& store) {
+  const auto counts = store.counts();
+  return std::to_string(counts.at(JobState::running)) + " running, " + std::to_string(counts.at(JobState::queued)) +
+         " queued";
+}
+
 }  // namespace sculpt::server

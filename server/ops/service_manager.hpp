@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "server/store/job_store.hpp"
+
 namespace sculpt::server {
 
 /// Does nothing where nobody asked to be told. One thread.
@@ -44,5 +46,8 @@ class ServiceManager {
   Clock::time_point told_at_{};
   std::string status_;
 };
+
+/// Of the queue, as a status.
+std::string queue_sentence(JobStore& store);
 
 }  // namespace sculpt::server

@@ -9,6 +9,8 @@
 #include "core/base/sha256.hpp"
 #include "proto/messages.hpp"
 #include "server/files/job_files.hpp"
+#include "server/results/artifact_form.hpp"
+#include "server/results/programs.hpp"
 #include "server/run/planner.hpp"
 #include "server/store/job_store.hpp"
 
@@ -19,12 +21,13 @@ struct ArtifactChunk {
   std::string bytes;
   std::uint64_t size = 0;  ///< of the artifact, now
   bool final = false;      ///< it will not grow any more
+  std::string sha256;      ///< of the whole, when it is final
 };
 
 /// One reader's way through an artifact, piece by piece. Read from its first byte to its last it is held against its
 /// hash; who begins elsewhere, or leaps, has to do that himself.
 struct WholeRead {
-  std::string job, artifact, format;
+  std::string job, file;
   std::uint64_t next = 0;
   Sha256 hash;
 };
@@ -32,8 +35,9 @@ struct WholeRead {
 /// Safe from any thread, but `make_export` belongs to one.
 class Artifacts {
  public:
-  Artifacts(JobFiles files, JobStore& store, const Planner& planner)
-      : files_(std::move(files)), store_(store), planner_(planner) {}
+  /// What it refers to must outlive it.
+  Artifacts(JobFiles files, JobStore& store, const Planner& planner, const Programs& programs)
+      : files_(std::move(files)), store_(store), planner_(planner), programs_(programs) {}
 
   const JobFiles& files() const { return files_; }
 
@@ -49,29 +53,28 @@ class Artifacts {
   ArtifactChunk read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const;
   /// True when `read` needs make_export first.
   bool needs_export(const proto::ArtifactReadParams& wanted) const;
-  /// Makes another form from the final artifact's own. Throws as read.
-  void make_export(const proto::ArtifactReadParams& wanted) const;
+  /// Makes another form from the final artifact's own, or a program of the trajectory. Throws as read, and as
+  /// Programs::make.
+  void make_export(const proto::ArtifactReadParams& wanted, const std::stop_token& stop) const;
   /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
   /// Its file is the one that was stored, and at files().folder(), under its name, for programs that want a path.
   /// Throws as read_whole.
   void check_whole(const JobRecord& job, const std::string& artifact) const;
-  /// What a download of it is called, whether it is there or not. Throws ProtocolError `params_invalid`.
-  std::string file_name_of(const proto::ArtifactReadParams& wanted) const;
 
  private:
-  std::optional<FileSeal> seal_of(const JobRecord& job, const std::string& artifact, const std::string& format) const;
-  std::optional<StoredFile> open(const JobRecord& job, const std::string& artifact, const std::string& format) const;
+  std::optional<FileSeal> seal_of(const JobRecord& job, const ArtifactForm& form) const;
+  std::optional<StoredFile> open(const JobRecord& job, const ArtifactForm& form) const;
   void follow(const JobRecord& job, const proto::ArtifactReadParams& wanted, const ArtifactChunk& chunk,
-              const FileSeal& seal, WholeRead& so_far) const;
-  [[noreturn]] void refuse_damaged(const JobRecord& record, const std::string& artifact, const std::string& file,
-                                   const std::string& fault) const;
+              WholeRead& so_far) const;
+  [[noreturn]] void refuse_damaged(const JobRecord& record, const ArtifactForm& form, const std::string& fault) const;
 
   const std::filesystem::path& folder() const { return files_.folder(); }
 
   JobFiles files_;
   JobStore& store_;
   const Planner& planner_;
+  const Programs& programs_;
 };
 
 }  // namespace sculpt::server

@@ -5,11 +5,7 @@
 namespace sculpt::server {
 
 void time_in_child(const StoredSpec& stored, const Isolation& isolation, const std::stop_token& stop) {
-  const ChildAnswer answer = ask_child(stored, isolation, time_job_option, std::nullopt, stop);
-  if (!answer.said)
-    throw std::runtime_error("the process that timed the job ended with " +
-                             (answer.end.empty() ? "no word" : answer.end));
-  rethrow_reported(*answer.said);
+  ask_about_result(stored, isolation, {time_job_option, "timed the job"}, stop);
 }
 
 int run_isolated_timing(const Planner& planner) {

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t motions_kept = 2;
-
 std::string text(double value) {
   std::ostringstream out;
   out << value;
@@ -52,19 +50,25 @@ struct Motions::LoadedMotion {
   LoadedMotion(std::string of, PlanPath&& along, TimeLaw&& by)
       : key(std::move(of)), path(std::move(along)), law(std::move(by)), sampler(path, law) {}
 
-  std::string key;
-  PlanPath path;
-  TimeLaw law;
+  std::size_t bytes() const {
+    return path.size() * (path.dof() * sizeof(double) + sizeof(PlanPath::Edge)) +
+           law.corners.size() * sizeof(LawCorner);
+  }
+
+  const std::string key;
+  const PlanPath path;
+  const TimeLaw law;
+  std::mutex turn;  ///< of whoever uses the two below
   MotionSampler sampler;
-  std::vector<double> holds_s = {};
+  std::optional<std::vector<double>> holds_s = std::vector<double>{};  ///< nothing: the sampler's are not whole
 };
 
-Motions::Motions(const Artifacts& artifacts, const Blobs& blobs, const Isolation& isolation)
-    : artifacts_(artifacts), blobs_(blobs), isolation_(isolation) {}
+Motions::Motions(const Artifacts& artifacts, const Blobs& blobs, const Isolation& isolation, std::size_t most)
+    : artifacts_(artifacts), blobs_(blobs), isolation_(isolation), most_(most) {}
 
 Motions::~Motions() = default;
 
-std::unique_ptr<Motions::LoadedMotion> Motions::make(const JobRecord& job, const proto::SamplesParams& wanted,
+std::shared_ptr<Motions::LoadedMotion> Motions::make(const JobRecord& job, const proto::SamplesParams& wanted,
                                                      const std::stop_token& stop) {
   artifacts_.check_whole(job, "trajectory");
   fetch_blobs(job, blobs_);
@@ -76,28 +80,43 @@ std::unique_ptr<Motions::LoadedMotion> Motions::make(const JobRecord& job, const
   PlanPath path = read_path(artifacts_.files().folder() / job.folder / "trajectory.ndjson");
   if (mark_of(path) != law.plan)
     throw StorageError("the time law of job " + job.id + " is not that of its trajectory: ask again");
-  return std::make_unique<LoadedMotion>(key_of(job, wanted), std::move(path), std::move(law.law));
+  return std::make_shared<LoadedMotion>(key_of(job, wanted), std::move(path), std::move(law.law));
 }
 
-Motions::LoadedMotion& Motions::find(const JobRecord& job, const proto::SamplesParams& wanted,
-                                     const std::stop_token& stop) {
-  const std::string key = key_of(job, wanted);
+std::shared_ptr<Motions::LoadedMotion> Motions::find_kept(const std::string& key) {
+  const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(kept_, key, [](const auto& motion) { return motion->key; });
-  if (found != kept_.end()) {
-    kept_.splice(kept_.begin(), kept_, found);
-  } else {
-    if (kept_.size() >= motions_kept) kept_.pop_back();  // before there is another one
-    kept_.push_front(make(job, wanted, stop));
-  }
-  return *kept_.front();
+  if (found == kept_.end()) return nullptr;
+  kept_.splice(kept_.begin(), kept_, found);
+  return kept_.front();
+}
+
+bool Motions::has(const JobRecord& job, const proto::SamplesParams& wanted) {
+  return find_kept(key_of(job, wanted)) != nullptr;
+}
+
+std::shared_ptr<Motions::LoadedMotion> Motions::find(const JobRecord& job, const proto::SamplesParams& wanted,
+                                                     const std::stop_token& stop) {
+  const std::string key = key_of(job, wanted);
+  if (auto kept = find_kept(key)) return kept;
+  const std::lock_guard alone(making_);
+  if (auto kept = find_kept(key)) return kept;  // somebody else was faster
+  std::shared_ptr<LoadedMotion> made = make(job, wanted, stop);
+  const std::lock_guard lock(mutex_);
+  kept_.push_front(made);
+  std::size_t bytes = 0;
+  for (const auto& motion : kept_) bytes += motion->bytes();
+  for (; bytes > most_ && kept_.size() > 1; kept_.pop_back()) bytes -= kept_.back()->bytes();
+  return made;
 }
 
 SampleWindow Motions::window(const JobRecord& job, const proto::SamplesParams& wanted, std::size_t max_bytes,
                              const std::stop_token& stop) {
-  LoadedMotion& motion = find(job, wanted, stop);
+  const std::shared_ptr<LoadedMotion> found = find(job, wanted, stop);
+  LoadedMotion& motion = *found;
+  const std::lock_guard turn(motion.turn);
   if (motion.holds_s != wanted.holds_s) {
-    motion.holds_s.clear();  // where these cannot be, the next ones begin anew
-    motion.sampler.hold({});
+    motion.holds_s.reset();  // where these cannot be, the next ones begin anew
     motion.sampler.hold(wanted.holds_s);
     motion.holds_s = wanted.holds_s;
   }

@@ -1,8 +1,9 @@
-// Finished jobs -> their motions at fixed rates, window by window. The last few that were asked for are kept in memory.
+// Finished jobs -> their motions at fixed rates, window by window. Those that were asked for last are kept in memory.
 #pragma once
 
 #include <list>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 
 #include "core/timing/motion/held_pieces.hpp"
@@ -23,29 +24,38 @@ struct SampleWindow {
   std::string rows;  ///< core/timing/motion/sample_table.hpp
 };
 
-/// Belongs to one thread at a time.
+/// Safe from any thread.
 class Motions {
  public:
+  /// What is kept of all motions together, in bytes; but the last one always is.
+  static constexpr std::size_t usual_bytes = 512u << 20;
   /// All must outlive the object.
-  Motions(const Artifacts& artifacts, const Blobs& blobs, const Isolation& isolation);
+  Motions(const Artifacts& artifacts, const Blobs& blobs, const Isolation& isolation, std::size_t most = usual_bytes);
   ~Motions();
 
+  /// Whether it was asked for of late, so that `window` finds it and need not find its time law first.
+  bool has(const JobRecord& job, const proto::SamplesParams& wanted);
   /// At most so many bytes of rows, and at least one sample. Finds the time law first, in a process of its own, unless
-  /// it is that of a motion that was asked for of late. Throws ProtocolError `wrong_state`, `artifact_damaged`,
-  /// `window_empty` (nothing of the motion is in it); InputError as time_plan; Cancelled.
+  /// it has the motion. Throws ProtocolError `wrong_state`, `artifact_damaged`, `window_empty` (nothing of the motion
+  /// is in it); InputError as time_plan and `run_time_exceeded`; Cancelled.
   SampleWindow window(const JobRecord& job, const proto::SamplesParams& wanted, std::size_t max_bytes,
                       const std::stop_token& stop);
 
  private:
   struct LoadedMotion;
-  LoadedMotion& find(const JobRecord& job, const proto::SamplesParams& wanted, const std::stop_token& stop);
-  std::unique_ptr<LoadedMotion> make(const JobRecord& job, const proto::SamplesParams& wanted,
+  std::shared_ptr<LoadedMotion> find_kept(const std::string& key);
+  std::shared_ptr<LoadedMotion> find(const JobRecord& job, const proto::SamplesParams& wanted,
+                                     const std::stop_token& stop);
+  std::shared_ptr<LoadedMotion> make(const JobRecord& job, const proto::SamplesParams& wanted,
                                      const std::stop_token& stop);
 
   const Artifacts& artifacts_;
   const Blobs& blobs_;
   const Isolation& isolation_;
-  std::list<std::unique_ptr<LoadedMotion>> kept_;  ///< the one that was asked for last comes first
+  const std::size_t most_;
+  std::mutex making_;  ///< one law at a time: each comes as the same file of its job's folder
+  std::mutex mutex_;   ///< of what is kept
+  std::list<std::shared_ptr<LoadedMotion>> kept_;  ///< the one that was asked for last comes first
 };
 
 }  // namespace sculpt::server

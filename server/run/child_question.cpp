@@ -43,6 +43,18 @@ ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, cons
   return {};
 }
 
+void ask_about_result(StoredSpec stored, const Isolation& isolation, const ResultQuestion& question,
+                      const std::stop_token& stop) {
+  stored.time_s = std::chrono::ceil<std::chrono::seconds>(isolation.result_time).count();
+  const ChildAnswer answer = ask_child(stored, isolation, question.option, isolation.result_time, stop);
+  const std::string who = std::string("the process that ") + question.deed;
+  if (answer.too_late)
+    throw InputError("run_time_exceeded", who + " did not end within " + std::to_string(stored.time_s) +
+                                              " s (result_s): ask for a smaller plan, or let the server wait longer");
+  if (!answer.said) throw std::runtime_error(who + " ended with " + (answer.end.empty() ? "no word" : answer.end));
+  rethrow_reported(*answer.said);
+}
+
 int answer_parent(FolderUse use, const std::function<Json(const DescribedJob&, const Job&)>& find) {
   return answer_parent(
       [&](const DescribedJob& described) { return find(described, load_and_confine(described, use)); });

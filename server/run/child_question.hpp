@@ -21,6 +21,16 @@ struct ChildAnswer {
 ChildAnswer ask_child(const StoredSpec& stored, const Isolation& isolation, const char* option,
                       std::optional<std::chrono::milliseconds> patience, const std::stop_token& stop);
 
+/// What is asked about a finished job, and what the process does for that: "timed the job".
+struct ResultQuestion {
+  const char* option;
+  const char* deed;
+};
+/// The same for Isolation::result_time at most, of a process that has nothing to say when it has done its work. Throws
+/// InputError as reported and `run_time_exceeded`, std::runtime_error when it dies.
+void ask_about_result(StoredSpec stored, const Isolation& isolation, const ResultQuestion& question,
+                      const std::stop_token& stop);
+
 /// The child's side: lets `find`, which confines this process, work on the job, and prints what it returns, or what it
 /// throws as {"code","sentence"}. Gives the exit code.
 int answer_parent(const std::function<Json(const DescribedJob&)>& find);

@@ -35,6 +35,7 @@ std::string describe(const StoredSpec& stored, const Isolation& isolation) {
                             {"cell_bundle", stored.cell_bundle},
                             {"inherited", stored.inherited},
                             {"folder", stored.folder},
+                            {"asked", stored.asked},
                             {"held", (isolation.held.empty() ? isolation.jobs : isolation.held).string()},
                             {"time_s", stored.time_s},
                             {"blobs", isolation.blobs.string()},
@@ -56,6 +57,7 @@ std::optional<DescribedJob> take_description(std::istream& in) try {
   described.job.cell_bundle = told.at("cell_bundle");
   described.job.inherited = told.at("inherited");
   described.job.folder = told.at("folder");
+  described.asked = told.at("asked");
   described.time_s = told.at("time_s");
   described.defaults = {told.at("threads"), told.at("memory_cap_bytes")};
   return described;

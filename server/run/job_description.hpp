@@ -19,6 +19,8 @@ struct Isolation {
   std::filesystem::path blobs, jobs;
   JobDefaults defaults;
   std::chrono::milliseconds cancel_grace{10000};  ///< a child that was asked to stop is killed after so long
+  /// What is made of a finished job, such as a time law or a program, takes so long at most.
+  std::chrono::milliseconds result_time{600000};
   std::filesystem::path held{};  ///< what such a process holds until it ends (folder_lock.hpp); empty: `jobs`
 };
 
@@ -29,11 +31,13 @@ struct StoredSpec {
   std::int64_t time_s = 0;  ///< each of its threads may compute so long; 0: no limit
   std::string inherited = {};
   std::string folder = {};  ///< of its files, among those of all jobs
+  Json asked = nullptr;     ///< what else a process is told that answers a question about it
 };
 std::string describe(const StoredSpec& stored, const Isolation& isolation);
 
 struct DescribedJob {
   JobRecord job;  ///< id, spec, cell_bundle, inherited and folder
+  Json asked;     ///< StoredSpec::asked
   std::int64_t time_s = 0;
   std::filesystem::path blobs, jobs;
   JobDefaults defaults;

@@ -7,7 +7,9 @@
 #include "core/doctor/findings_json.hpp"
 #include "core/material/binvox.hpp"
 #include "core/plan/output/job_time.hpp"
+#include "core/program/make_program.hpp"
 #include "core/trajectory/export.hpp"
+#include "server/files/zip_writer.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -38,16 +40,39 @@ Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
           std::move(verdict.exempt_pairs)};
 }
 
-void time(const Job& job, const fs::path& trajectory, const fs::path& law) {
+PlanPath read_path(const fs::path& trajectory) {
   std::ifstream in(trajectory, std::ios::binary);
-  const PlanPath path(in);
+  return PlanPath(in);
+}
+
+MotionDemands demands_of(const Job& job, const PlanPath& path) {
   const auto& mill = path.header().mill;
-  const TimedPlan plan =
-      time_plan(path, parse_cell(job.cell), demands_of(*job.motion, mill ? mill->tools : std::vector<MillTool>{}));
-  std::ofstream out(law, std::ios::binary | std::ios::trunc);
-  write_law(out, plan.law, mark_of(path));
+  return demands_of(*job.motion, mill ? mill->tools : std::vector<MillTool>{});
+}
+
+void write_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  write(out);
   out.close();
-  if (!out) throw InputError("file_unwritable", "cannot write '" + law.string() + "': check the free space");
+  if (!out) throw InputError("file_unwritable", "cannot write '" + file.string() + "': check the free space");
+}
+
+void time(const Job& job, const fs::path& trajectory, const fs::path& law) {
+  const PlanPath path = read_path(trajectory);
+  const TimedPlan plan = time_plan(path, parse_cell(job.cell), demands_of(job, path));
+  write_file(law, [&](std::ostream& out) { write_law(out, plan.law, mark_of(path)); });
+}
+
+void program(const Job& job, const ProgramDemands& wanted, const fs::path& trajectory, const fs::path& zip) {
+  const PlanPath path = read_path(trajectory);
+  ProgramDemands demands = wanted;
+  demands.motion = demands_of(job, path);
+  write_file(zip, [&](std::ostream& out) {
+    ZipWriter writer(out);
+    make_program(path, parse_cell(job.cell), demands,
+                 [&](const ProgramFile& file) { writer.add(demands.name + "/" + file.name, file.text); });
+    writer.finish();
+  });
 }
 
 std::string examine(const CellFiles& cell, int resolution, int threads) {
@@ -68,6 +93,7 @@ Planner make_planner(std::vector<fs::path> folders) {
   planner.run = run;
   planner.verify = verify;
   planner.time = time;
+  planner.program = program;
   planner.to_csv = export_csv;
   planner.to_binary = export_binary;
   return planner;

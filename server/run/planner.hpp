@@ -10,6 +10,7 @@
 
 #include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
+#include "core/program/program_demands.hpp"
 #include "core/verify/verify.hpp"
 
 namespace sculpt::server {
@@ -50,6 +51,10 @@ struct Planner {
   std::function<Replay(const Job&, const std::filesystem::path& trajectory, const Watch&)> verify;
   /// Writes the time law of a job that has `motion` (core/law/law_file).
   std::function<void(const Job&, const std::filesystem::path& trajectory, const std::filesystem::path& law)> time;
+  /// Writes the robot program of a job that has `motion`, as a .zip of a folder of the program's name.
+  std::function<void(const Job&, const ProgramDemands&, const std::filesystem::path& trajectory,
+                     const std::filesystem::path& zip)>
+      program;
   /// ndjson in, other format out.
   std::function<void(std::istream&, std::ostream&)> to_csv, to_binary;
 };

@@ -107,6 +107,17 @@ Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blo
   return job;
 }
 
+ProgramDemands to_program_demands(const proto::ProgramSpec& spec) {
+  ProgramDemands demands;
+  demands.dialect = parse_dialect(spec.dialect);
+  demands.name = spec.name;
+  if (spec.part_keyframes) demands.part_keyframes = static_cast<std::size_t>(*spec.part_keyframes);
+  demands.part_bytes = spec.part_bytes;
+  demands.stock_files = spec.stock_files;
+  demands.seams_in_stock = spec.seams_in_stock;
+  return demands;
+}
+
 std::string store_cell(const CellFiles& files, Blobs& blobs) {
   proto::CellBundle bundle{files.name, files.cell_json, {}};
   for (const auto& [reference, bytes] : files.files) bundle.files[reference] = blobs.add(bytes);

@@ -3,8 +3,10 @@
 
 #include "core/plan/intake.hpp"
 #include "core/plan/plan.hpp"
+#include "core/program/program_demands.hpp"
 #include "proto/cell_bundle.hpp"
 #include "proto/job_spec.hpp"
+#include "proto/motion/program_spec.hpp"
 #include "server/files/blobs.hpp"
 
 namespace sculpt::server {
@@ -25,6 +27,9 @@ JobSizes measure(const proto::JobSpec& spec, const std::string& cell_bundle, con
 /// Loads every blob that the spec refers to; `cell_bundle` is the hash of the cell's bundle. Throws ProtocolError
 /// `blob_missing` or `params_invalid`.
 Job to_job(const proto::JobSpec& spec, const std::string& cell_bundle, const Blobs& blobs, const JobDefaults& defaults);
+
+/// All but how fast: a job's `motion` says that. Throws InputError `dialect_unknown`.
+ProgramDemands to_program_demands(const proto::ProgramSpec& spec);
 
 /// Bytes of a cell: its file and, as often as it names them, its other files. `pointer`: of the bundle's hash, for
 /// errors.

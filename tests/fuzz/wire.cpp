@@ -16,7 +16,7 @@ constexpr std::size_t line_limit = 4096;  // reached by inputs of a fuzzer's siz
 
 // Any method's params may come with any other's name.
 void read_params(const Json& params) {
-  const std::array<void (*)(const Json&), 13> readers{[](const Json& json) { proto::read_hello(json); },
+  const std::array<void (*)(const Json&), 16> readers{[](const Json& json) { proto::read_hello(json); },
                                                       [](const Json& json) { proto::read_blob_put(json); },
                                                       [](const Json& json) { proto::read_blob_name(json); },
                                                       [](const Json& json) { to_json(proto::read_submit(json).spec); },
@@ -27,7 +27,10 @@ void read_params(const Json& params) {
                                                       [](const Json& json) { proto::read_nothing(json); },
                                                       [](const Json& json) { proto::read_artifact_read(json); },
                                                       [](const Json& json) { proto::read_pin(json); },
-                                                      [](const Json& json) { proto::read_schema_method(json); },
+                                                      [](const Json& json) { proto::read_artifact_link(json); },
+                                                      [](const Json& json) { proto::read_samples(json); },
+                                                      [](const Json& json) { proto::read_cell_read(json); },
+                                                      [](const Json& json) { proto::read_schema(json); },
                                                       [](const Json& json) { proto::read_unsubscribe(json); }};
   for (const auto& read : readers) {
     try {

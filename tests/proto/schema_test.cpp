@@ -83,12 +83,36 @@ TEST(Schema, EveryObjectIsClosedAndEveryDefinitionSaysWhatItIs) {
   }
 }
 
+std::set<std::string> parts_of_their_own() {
+  return protocol_schema()["$defs"]["schema_part"]["enum"].get<std::set<std::string>>();
+}
+
+// What is referred to, but for parts of their own.
+std::set<std::string> needed_by(const Json& part) {
+  std::set<std::string> used = references(part);
+  for (const std::string& own : parts_of_their_own()) used.erase(own);
+  return used;
+}
+
+TEST(Schema, APartOfItsOwnIsLeftOutAndAskedForByItself) {
+  const Json whole = protocol_schema();
+  for (const std::string& name : parts_of_their_own()) {
+    const Json part = protocol_schema_part(name);
+    std::set<std::string> used = needed_by(part);
+    used.insert(name);
+    EXPECT_EQ(used, names(part["$defs"])) << name;
+    EXPECT_EQ(part["$defs"][name], whole["$defs"][name]);
+  }
+  EXPECT_FALSE(protocol_schema("job.report")["$defs"].contains("report_time"));
+  EXPECT_THROW(protocol_schema_part("job_view"), ProtocolError);
+}
+
 TEST(Schema, APartIsWhatAMethodNeedsAndNoMore) {
   const Json whole = protocol_schema();
   for (const Json& method : whole["$defs"]["method"]["enum"]) {
     const Json part = protocol_schema(method);
     const std::set<std::string> defined = names(part["$defs"]);
-    std::set<std::string> used = references(part);
+    std::set<std::string> used = needed_by(part);
     used.insert({method.get<std::string>() + ".params", method.get<std::string>() + ".result"});
     EXPECT_EQ(used, defined) << method;
     for (const std::string& name : defined) EXPECT_EQ(part["$defs"][name], whole["$defs"][name]);

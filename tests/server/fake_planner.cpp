@@ -14,7 +14,9 @@
 #include <ostream>
 #include <thread>
 
+#include "core/law/law_file.hpp"
 #include "proto/json.hpp"
+#include "tests/server/fake_motion.hpp"
 
 namespace sculpt::server {
 
@@ -127,6 +129,28 @@ Planner FakePlanner::planner() {
     if (!replay.clean) replay.collisions = 3;
     if (!replay.clean) replay.findings.push_back({2, "tool touches keep"});
     return replay;
+  };
+  planner.time = [](const Job& job, const std::filesystem::path& trajectory, const std::filesystem::path& law) {
+    const double feed_m_s = job.motion->feed_m_s.value_or(0);
+    if (feed_m_s == feed_refused) throw InputError("feed_invalid", "no such feed");
+    if (feed_m_s == feed_crashes) std::abort();
+    if (feed_m_s == feed_endless) std::this_thread::sleep_for(std::chrono::hours(24));
+    if (feed_m_s == feed_writes_none) return;
+    std::ifstream in(trajectory, std::ios::binary);
+    const PlanPath path(in);
+    PlanMark mark = mark_of(path);
+    if (feed_m_s == feed_of_another_plan) ++mark.crc;
+    std::ofstream out(law, std::ios::binary);
+    write_law(out, fake_law(path, feed_m_s), mark);
+  };
+  planner.program = [](const Job& job, const ProgramDemands& demands, const std::filesystem::path&,
+                       const std::filesystem::path& zip) {
+    if (demands.name == "refused") throw InputError("axes_unfit", "no such program can be written for this cell");
+    if (demands.name == "crashes") std::abort();
+    if (demands.name == "endless") std::this_thread::sleep_for(std::chrono::hours(24));
+    if (demands.name == "writes_none") return;
+    std::ofstream(zip) << facts_of(demands.dialect).name << ' ' << demands.name << ' '
+                       << job.motion->feed_m_s.value_or(0) << " of " << job.mesh.bytes;
   };
   planner.to_csv = [](std::istream& in, std::ostream& out) { out << "csv\n" << in.rdbuf(); };
   planner.to_binary = [](std::istream& in, std::ostream& out) { out << "sct\n" << in.rdbuf(); };

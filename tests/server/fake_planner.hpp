@@ -1,7 +1,8 @@
 // A planner that does what the text of its "mesh" says, without a robot: "plain", "hold" (stops half-way until the gate
 // opens), "bad input" (refused before planning), "fails", "throws", "no memory", "unclean" (the replay finds
 // something), "big" (8 MB of trajectory); in a process of their own "segfault", "abort", "exit", "deaf" (hears no
-// stop), "prints" (to standard output), "spies" (fails with a list of what it could get hold of).
+// stop), "prints" (to standard output), "spies" (fails with a list of what it could get hold of). Of programs the name
+// says what becomes of them: "refused", "crashes", "endless", "writes_none".
 #pragma once
 
 #include <atomic>

@@ -159,6 +159,7 @@ class Requests(unittest.TestCase):
         for method in ("ping", "server.info", "queue.pause", "queue.resume"):
             yield method, {}
         yield "server.schema", {"method": "ping"}
+        yield "server.schema", {"part": "report_time"}
         yield "blob.has", {"sha256": blob}
         yield "blob.put", {"sha256": blob, "size": 1 << 40, "offset": 0, "bytes": 8}
         yield "cell.check", {"robot": "gantry", "resolution": 8}
@@ -181,6 +182,10 @@ class Requests(unittest.TestCase):
             yield "artifact.read", {"job": self.job, "artifact": artifact, "format": format, "offset": 0, "bytes": 8}
         for artifact, format in (("trajectory", "csv"), ("timeline", "gzip")):
             yield "artifact.link", {"job": self.job, "artifact": artifact, "format": format}
+        program = {"dialect": "gcode", "name": "bust", "motion": motion, "part_keyframes": 100, "part_bytes": 100000, "stock_files": True, "seams_in_stock": True}
+        yield "artifact.read", {"job": self.job, "artifact": "program", "format": "zip", "offset": 0, "bytes": 8, "program": program}
+        yield "artifact.link", {"job": self.job, "artifact": "program", "format": "zip", "program": program}
+        yield "job.cell", {"job": nobody, "file": blob, "offset": 0, "bytes": 8}
         yield "artifact.pin", {"job": nobody, "pinned": False}
 
     def ask(self, request):

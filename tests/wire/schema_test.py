@@ -58,6 +58,14 @@ class Live(unittest.TestCase):
             part = ask(self.connect(max_line=8192), "server.schema", method=method)["result"]
             Draft202012Validator.check_schema(part)
             self.assertEqual(part["$defs"][method + ".params"], SCHEMA["$defs"][method + ".params"])
+        for name in SCHEMA["$defs"]["schema_part"]["enum"]:
+            part = ask(self.connect(max_line=8192), "server.schema", part=name)["result"]
+            Draft202012Validator.check_schema(part)
+            self.assertEqual(part["$defs"][name], SCHEMA["$defs"][name])
+
+    def test_every_part_has_room_for_more(self):
+        for method in SCHEMA["$defs"]["method"]["enum"]:
+            self.assertIn("result", ask(self.connect(max_line=7680), "server.schema", method=method))
 
     def submit_long(self, connection, **params):
         """A job that would take minutes."""

@@ -6,7 +6,7 @@
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
-#include "clients/cli/motion_options.hpp"
+#include "clients/cli/motion/motion_options.hpp"
 #include "core/program/make_program.hpp"
 
 namespace sculpt::cli {
@@ -18,20 +18,23 @@ namespace {
 struct ProgramOptions {
   MotionOptions motion;
   std::string dialect, output;
-  std::size_t part_keyframes = 0;
-  bool has_parts = false, in_stock = false, json = false;
+  std::optional<std::size_t> part_keyframes;
+  std::optional<std::uint64_t> part_bytes;
+  bool stock_files = false, in_stock = false, json = false;
 };
 
 int run_program(const std::string& server, const ProgramOptions& options) {
   const PlanPath path = read_path(server, options.motion);
-  const Cell cell = read_cell_of(path, options.motion);
+  const Cell cell = read_cell_of(server, path, options.motion);
   ProgramDemands demands;
   demands.dialect = parse_dialect(options.dialect);
   const fs::path folder = fs::path(options.output).lexically_normal();
   demands.name = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   demands.motion = to_demands(options.motion, path);
+  demands.stock_files = options.stock_files;
   demands.seams_in_stock = options.in_stock;
-  if (options.has_parts) demands.part_keyframes = options.part_keyframes;
+  demands.part_keyframes = options.part_keyframes;
+  demands.part_bytes = options.part_bytes;
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed)
@@ -69,14 +72,15 @@ void add_program(CLI::App& app, Invocation& invocation) {
       ->required()
       ->check(CLI::IsMember({"krl", "rapid", "urscript", "fanuc", "gcode", "ros2"}));
   command
-      .add_option_function<std::size_t>(
-          "--part-keyframes",
-          [options](const std::size_t& count) {
-            options->part_keyframes = count;
-            options->has_parts = true;
-          },
-          "Keyframes in a part at most; without it what the controller takes")
+      .add_option("--part-keyframes", options->part_keyframes,
+                  "Keyframes in a part at most; without it what the controller takes")
       ->type_name("M");
+  command
+      .add_option("--part-bytes", options->part_bytes,
+                  "Bytes of a part's files at most, also where it has fewer keyframes")
+      ->type_name("B");
+  command.add_flag("--stock-files", options->stock_files,
+                   "With each part what stands when it begins (.binvox): the stock's cube less what is cut");
   command.add_flag("--seams-in-stock", options->in_stock,
                    "Let parts begin and end with the tool in the material: such a part cannot simply be run again");
   command.add_flag("--json", options->json, "Print the figures as one JSON document");

@@ -11,13 +11,15 @@
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/job_end.hpp"
+#include "clients/cli/motion/program_order.hpp"
 #include "clients/cli/report_table.hpp"
 
 namespace sculpt::cli {
 
 namespace {
 
-const std::vector<std::string> artifact_names{"trajectory", "timeline", "voxels", "stock", "residue", "report"},
+const std::vector<std::string> artifact_names{"trajectory", "timeline", "voxels", "stock",
+                                              "residue",    "report",   "program"},
     format_names{"ndjson", "binary", "csv", "tokens", "gzip"};
 
 struct ReportOptions {
@@ -28,10 +30,12 @@ struct ReportOptions {
 struct FetchOptions {
   std::string job, output, format;
   std::string artifact = "trajectory";
+  ProgramOrder program;
 };
 
 struct LinkOptions {
   std::string job, artifact = "trajectory", format;
+  ProgramOrder program;
   bool json = false;
 };
 
@@ -47,9 +51,11 @@ std::string url_of(const std::string& server) {
 
 int run_link(const std::string& server, const LinkOptions& options) {
   const std::string url = url_of(server);
+  const Json program = program_field(options.program, options.artifact);
   client::Client client = connect(server);
   Json request{{"job", options.job}, {"artifact", options.artifact}};
   if (!options.format.empty()) request["format"] = options.format;
+  if (!program.is_null()) request["program"] = program;
   Json link = client.call("artifact.link", request);
   link["url"] = url + link.at("path").get<std::string>();
   std::cout << (options.json ? proto::write_json(link) : link.at("url").get<std::string>()) << "\n";
@@ -77,14 +83,15 @@ bool is_whole(const Json& end) {
 }
 
 int run_fetch(const std::string& server, const FetchOptions& options) {
-  client::Client client = connect(server);
-  Json end = grows(options) ? client.call("job.get", {{"job", options.job}}) : wait_job(client, options.job);
-  if (client::is_final(end.value("state", "")) && !is_whole(end)) return end_exit_code(end);
-
   client::ArtifactRequest request;
   request.job = options.job;
   request.artifact = options.artifact;
   request.format = options.format;
+  request.program = program_field(options.program, options.artifact);
+  client::Client client = connect(server);
+  Json end = grows(options) ? client.call("job.get", {{"job", options.job}}) : wait_job(client, options.job);
+  if (client::is_final(end.value("state", "")) && !is_whole(end)) return end_exit_code(end);
+
   if (options.output == "-") {
     client.read_artifact(request, std::cout);
     end = wait_job(client, options.job);
@@ -128,9 +135,10 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--artifact", options->artifact,
                   "trajectory, timeline (what goes when), voxels (.binvox), "
-                  "stock (left over, .binvox), residue (ndjson) or report (json)")
+                  "stock (left over, .binvox), residue (ndjson), report (json) or program (for a controller, .zip)")
       ->check(CLI::IsMember(artifact_names))
       ->capture_default_str();
+  add_program_options(command, options->program);
 }
 
 void add_link(CLI::App& app, Invocation& invocation) {
@@ -145,6 +153,7 @@ void add_link(CLI::App& app, Invocation& invocation) {
       ->check(CLI::IsMember(artifact_names))
       ->capture_default_str();
   command.add_option("--format", options->format, "As of fetch")->check(CLI::IsMember(format_names));
+  add_program_options(command, options->program);
   command.add_flag("--json", options->json, "Print {job, artifact, path, url, expires_at} as one JSON document");
 }
 

@@ -8,7 +8,7 @@
 #include "clients/cli/commands/commands.hpp"
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
-#include "clients/cli/motion_options.hpp"
+#include "clients/cli/motion/motion_options.hpp"
 #include "core/timing/motion/sampler.hpp"
 
 namespace sculpt::cli {
@@ -44,7 +44,7 @@ void write_row(std::ostream& out, double time_s, const MotionSample& sample) {
 
 int run_sample(const std::string& server, const SampleOptions& options) {
   const PlanPath path = read_path(server, options.motion);
-  const Cell cell = read_cell_of(path, options.motion);
+  const Cell cell = read_cell_of(server, path, options.motion);
   const TimedPlan plan = time_plan(path, cell, to_demands(options.motion, path));
   MotionSampler sampler(path, plan.law);
   sampler.hold(options.holds_s);

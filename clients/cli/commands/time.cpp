@@ -9,7 +9,7 @@
 #include "clients/cli/exit_code.hpp"
 #include "clients/cli/files.hpp"
 #include "clients/cli/interrupt.hpp"
-#include "clients/cli/motion_options.hpp"
+#include "clients/cli/motion/motion_options.hpp"
 #include "clients/cli/time_table.hpp"
 #include "core/law/law_file.hpp"
 #include "core/verify/timed/check_motion.hpp"
@@ -64,7 +64,7 @@ int run_time(const std::string& server, const TimeOptions& options) {
     throw Failure(exit_usage, "usage",
                   "--check reads the plan twice: fetch " + options.motion.subject + " first, and name the file");
   const PlanPath path = read_path(server, options.motion);
-  const Cell cell = read_cell_of(path, options.motion);
+  const Cell cell = read_cell_of(server, path, options.motion);
   TimedPlan plan = time_plan(path, cell, to_demands(options.motion, path));
   Json report = time_report(path, plan);
   LawFile law{std::move(plan.law), {}};

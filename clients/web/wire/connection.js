@@ -2,6 +2,8 @@
 
 import {token} from './token.js';
 
+/** Methods whose results are followed by a chunk. */
+const CHUNKED = ['artifact.read', 'job.cell', 'job.samples'];
 const PATIENCE_MS = [500, 1000, 2000, 4000, 8000];
 
 /** An error of the server, in its words. */
@@ -45,13 +47,13 @@ export class Connection extends EventTarget {
    * @param {string} method
    * @param {object} [params]
    * @param {Uint8Array} [chunk] of blob.put
-   * @returns {Promise<any>} the result; of artifact.read and job.samples with the bytes as `chunk`. Throws ServerError or Lost.
+   * @returns {Promise<any>} the result; of methods in CHUNKED with the bytes as `chunk`. Throws ServerError or Lost.
    */
   call(method, params = {}, chunk) {
     const id = this.next_id++;
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Lost('there is no connection to the server'));
-      this.waiting.set(id, {resolve, reject, reads: method === 'artifact.read' || method === 'job.samples'});
+      this.waiting.set(id, {resolve, reject, reads: CHUNKED.includes(method)});
       this.socket.send(JSON.stringify({jsonrpc: '2.0', id, method, params}));
       if (chunk) this.socket.send(chunk);
     });

@@ -1,34 +1,13 @@
 #include "core/program/read/part_reader.hpp"
 
 #include <cmath>
-#include <map>
 
 #include "core/base/error.hpp"
-#include "core/program/read/program_line.hpp"
+#include "core/program/read/fanuc_reader.hpp"
+#include "core/program/read/part_clauses.hpp"
 
 namespace sculpt {
 namespace {
-
-/// Of "MOUNT TOOL 2 D12", which stands before the first move.
-int mounted(ProgramLine& line, const ReadPart& part) {
-  line.need("MOUNT TOOL ");
-  const double number = line.number();
-  if (!(number >= 1) || number != std::floor(number)) line.refuse("a tool has no number");
-  if (part.tool != 0 || !part.start.empty() || !part.moves.empty()) line.refuse("a tool is mounted after the start");
-  return static_cast<int>(number);
-}
-
-/// The statement behind it, that the controller waits at, must be in the very next line.
-void need_stop(ProgramLine& line, bool& awaited, std::string_view word) {
-  if (!awaited) return;
-  awaited = false;
-  line.blanks();
-  if (line.rest() != word) line.refuse("it goes on before the tool is mounted");
-}
-
-double as_float(double value) {
-  return static_cast<double>(static_cast<float>(value));
-}
 
 ReadPart read_krl(std::string_view text, std::size_t axes) {
   ReadPart part;
@@ -36,7 +15,9 @@ ReadPart read_krl(std::string_view text, std::size_t axes) {
   bool ended = false, awaited = false;
   for_lines(text, true, [&](ProgramLine& line) {
     need_stop(line, awaited, "HALT");
-    if (line.rest().starts_with("; MOUNT")) {
+    if (line.take("; VOXELS CUT ")) {
+      take_voxels(line, part);
+    } else if (line.rest().starts_with("; MOUNT")) {
       line.need("; ");
       part.tool = mounted(line, part);
       awaited = true;
@@ -53,7 +34,9 @@ ReadPart read_krl(std::string_view text, std::size_t axes) {
       line.need(part.start.size() < 6 ? "A" : "E");
       line.number();
       line.need("-(");
-      part.start.push_back(as_float(line.number()));
+      take_start(line, part, as_float(line.number()));
+      line.need("))>0.01 THEN");
+      awaited = true;
     } else if (line.take("PTP {")) {
       ReadMove move;
       for (std::size_t at = 0; at < axes; ++at) {
@@ -78,7 +61,9 @@ ReadPart read_rapid(std::string_view text, std::size_t axes) {
   bool ended = false, awaited = false;
   for_lines(text, true, [&](ProgramLine& line) {
     need_stop(line, awaited, "Stop;");
-    if (line.take("TPWrite \"")) {
+    if (line.take("! VOXELS CUT ")) {
+      take_voxels(line, part);
+    } else if (line.take("TPWrite \"")) {
       part.tool = mounted(line, part);
       awaited = true;
     } else if (line.take("IF Abs(here.")) {
@@ -87,7 +72,9 @@ ReadPart read_rapid(std::string_view text, std::size_t axes) {
       const std::size_t at = rest.find("-(");
       if (at == std::string_view::npos) line.refuse("a check of the start is damaged");
       line.need(rest.substr(0, at + 2));
-      part.start.push_back(as_float(line.number()));
+      take_start(line, part, as_float(line.number()));
+      line.need("))>0.01 THEN");
+      awaited = true;
     } else if (line.take("MoveAbsJ [[")) {
       ReadMove move;
       for (std::size_t at = 0; at < 12; ++at) {
@@ -116,18 +103,25 @@ ReadPart read_rapid(std::string_view text, std::size_t axes) {
 ReadPart read_urscript(std::string_view text) {
   ReadPart part;
   part.radians = true;
-  bool ended = false;
+  bool ended = false, awaited = false, told = false;
   for_lines(text, false, [&](ProgramLine& line) {
     const bool is_outer_end = line.rest() == "end";  // others are indented
     line.blanks();
-    if (line.rest().starts_with("popup(\"MOUNT")) {
+    need_stop(line, told, "halt");
+    told = awaited;
+    need_stop(line, awaited, "popup(");
+    if (line.take("# VOXELS CUT ")) {
+      take_voxels(line, part);
+    } else if (line.rest().starts_with("popup(\"MOUNT")) {
       line.need("popup(\"");
       part.tool = mounted(line, part);
       if (!line.rest().ends_with("blocking=True)")) line.refuse("it goes on before the tool is mounted");
     } else if (line.take("if norm(here[")) {
       line.number();
       line.need("] - (");
-      part.start.push_back(line.number());
+      take_start(line, part, line.number());
+      line.need(")) > 0.00018:");
+      awaited = true;
     } else if (line.take("movej([")) {
       ReadMove move;
       for (int at = 0; at < 6; ++at) {
@@ -147,67 +141,14 @@ ReadPart read_urscript(std::string_view text) {
   return part;
 }
 
-ReadPart read_fanuc(std::string_view text, std::size_t axes) {
-  ReadPart part;
-  std::vector<std::pair<int, double>> moves;  // position, seconds
-  std::map<int, std::vector<double>> positions;
-  int position = 0, lines = 0;
-  bool ended = false, awaited = false;
-  for_lines(text, true, [&](ProgramLine& line) {
-    if (line.take("P[")) {
-      position = static_cast<int>(line.number());
-      line.need("]{");
-    } else if (position > 0 && line.take("};")) {
-      if (positions[position].size() != axes) line.refuse("a position has another number of axes");
-      position = 0;
-    } else if (position > 0 && !line.take("GP1:") && !line.take("UF")) {
-      while (!line.empty()) {
-        if (!line.take("J")) line.need("E");
-        line.number();
-        line.need("=");
-        positions[position].push_back(line.number());
-        if (!line.take("deg")) line.need("mm");
-        line.take(",");
-      }
-    } else if (position == 0 && !line.empty() && line.rest().front() >= '0' && line.rest().front() <= '9') {
-      if (static_cast<int>(line.number()) != ++lines) line.refuse("the lines are not numbered one after the other");
-      line.need(":");
-      if (awaited) {
-        awaited = false;
-        line.need("PAUSE");
-      } else if (line.take("!")) {
-        awaited = line.rest().starts_with("MOUNT");
-        if (awaited) part.tool = mounted(line, part);
-      } else if (line.take("J P[")) {
-        const int wanted = static_cast<int>(line.number());
-        line.need("]");
-        moves.emplace_back(wanted, line.number() / 1000);
-        line.need("msec FINE");
-        line.need(";");
-      } else if (line.take("R[90]=PR[90,")) {
-        line.number();
-        line.need("]-(");
-        part.start.push_back(line.number());
-      }
-    } else if (line.rest() == "/END") {
-      ended = true;
-    }
-  });
-  if (!ended) throw InputError("program_damaged", "a program has no /END: write it again");
-  for (const auto& [wanted, seconds] : moves) {
-    const auto found = positions.find(wanted);
-    if (found == positions.end())
-      throw InputError("program_damaged", "position " + std::to_string(wanted) + " is missing: write it again");
-    part.moves.push_back({found->second, seconds, 0});
-  }
-  return part;
-}
-
 ReadPart read_gcode(std::string_view text, const std::vector<std::string>& letters) {
   ReadPart part;
-  bool ended = false, by_time = false;
+  bool ended = false, by_time = false, awaited = false;
   for_lines(text, false, [&](ProgramLine& line) {
-    if (line.take("T")) {
+    need_stop(line, awaited, "(ABORT,");
+    if (line.take("; VOXELS CUT ")) {
+      take_voxels(line, part);
+    } else if (line.take("T")) {
       const double number = line.number();
       line.need("M6 ; ");
       part.tool = mounted(line, part);
@@ -220,7 +161,9 @@ ReadPart read_gcode(std::string_view text, const std::vector<std::string>& lette
       const std::size_t at = line.rest().find("- [");
       if (at == std::string_view::npos) line.refuse("a check of the start is damaged");
       ProgramLine value(line.rest().substr(at + 3), 0);
-      part.start.push_back(value.number());
+      take_start(line, part, value.number());
+      value.need("]] GT 0.01]");
+      awaited = true;
     } else if (line.take("G1 ")) {
       if (!by_time) line.refuse("a move is not by time");
       ReadMove move;

@@ -14,6 +14,8 @@ class FanucPart : public PartWriter {
   FanucPart(const AxisLayout& layout, const ProgramNames& names, const Configuration& start)
       : layout_(layout), names_(names) {
     add_line("  !PART " + std::to_string(names.part) + " OF " + std::to_string(names.parts));
+    add_line("  !" + names.voxels.text_before());
+    add_line("  !" + names.voxels.text_after());
     if (names.mount) {
       add_line("  !" + names.mount->text());
       add_line("  PAUSE");
@@ -33,6 +35,8 @@ class FanucPart : public PartWriter {
     const auto milliseconds = static_cast<long long>(std::ceil(1000 * move.seconds - 1e-9));
     add_line("J P[" + std::to_string(positions_) + "] " + std::to_string(std::max(1ll, milliseconds)) + "msec FINE   ");
   }
+
+  std::uint64_t bytes() const override { return text_.size() + positions_text_.size(); }
 
   std::vector<ProgramFile> finish() override {
     add_line("  END");

@@ -13,8 +13,8 @@ class GcodePart : public PartWriter {
       : layout_(layout), names_(names) {
     const std::string name = names.part_name();
     text_ = "; part " + std::to_string(names.part) + " of " + std::to_string(names.parts) +
-            "; mm and degrees; joint by joint, so trivial kinematics\n" + "o<" + name +
-            "> sub\nG21 G90 G61 G40 G49 G80\n";
+            "; mm and degrees; joint by joint, so trivial kinematics\n; " + names.voxels.text_before() + "\n; " +
+            names.voxels.text_after() + "\no<" + name + "> sub\nG21 G90 G61 G40 G49 G80\n";
     if (names.mount) text_ += "T" + std::to_string(names.mount->number) + " M6 ; " + names.mount->text() + "\n";
     text_ += "G93\n; it must begin where it begins, within 0.01\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
@@ -36,6 +36,8 @@ class GcodePart : public PartWriter {
     append_fixed(text_, 60 / move.seconds - 0.000005, feed_decimals);  // moves a minute, rounded down
     text_ += '\n';
   }
+
+  std::uint64_t bytes() const override { return text_.size(); }
 
   std::vector<ProgramFile> finish() override {
     const std::string name = names_.part_name();

@@ -19,7 +19,8 @@ class KrlPart : public PartWriter {
     const std::string name = names.part_name();
     text_ = "&ACCESS RVP\r\n&REL 1\r\nDEF " + name + "()\r\n; part " + std::to_string(names.part) + " of " +
             std::to_string(names.parts) + "; angles in degrees, lengths in mm; every PTP ends with an exact stop\r\n" +
-            "INT I\r\nBAS(#INITMOV,0)\r\n";
+            "; " + names.voxels.text_before() + "\r\n; " + names.voxels.text_after() +
+            "\r\nINT I\r\nBAS(#INITMOV,0)\r\n";
     if (names.mount) text_ += "; " + names.mount->text() + "\r\nHALT\r\n";
     text_ += "$ADVANCE=1\r\nFOR I=1 TO 6\r\n  $ACC_AXIS[I]=100\r\nENDFOR\r\n";
     text_ += "; it must begin where it begins, within 0.01 degree or mm\r\n";
@@ -39,6 +40,8 @@ class KrlPart : public PartWriter {
     }
     text_ += "}\r\n";
   }
+
+  std::uint64_t bytes() const override { return text_.size(); }
 
   std::vector<ProgramFile> finish() override {
     const std::string name = names_.part_name();

@@ -38,7 +38,7 @@ std::string fanuc_main(const std::string& name, std::size_t parts) {
     std::string number = std::to_string(++count);
     lines += std::string(number.size() < 4 ? 4 - number.size() : 0, ' ') + number + ":  " + text + " ;\r\n";
   };
-  add("!R[1] IS THE NEXT PART, KEPT OVER A POWER CUT");
+  add("!R[1]: NEXT PART, OUTLIVES POWER");
   add("IF R[1]>0,JMP LBL[32000]");
   add("R[1]=1");
   add("LBL[32000]");
@@ -75,6 +75,14 @@ std::string ToolMount::text() const {
   return text;
 }
 
+std::string VoxelsCut::text_before() const {
+  return "VOXELS CUT BEFORE " + std::to_string(before);
+}
+
+std::string VoxelsCut::text_after() const {
+  return "VOXELS CUT AFTER " + std::to_string(after);
+}
+
 std::string ProgramNames::part_name() const {
   return numbered(program, part);
 }
@@ -103,7 +111,7 @@ std::vector<ProgramFile> write_main(Dialect dialect, const std::string& program,
     case Dialect::krl:
       return {{program + ".src", krl_main(program, parts)},
               {program + ".dat",
-               "&ACCESS RVP\r\n&REL 1\r\nDEFDAT " + program + "\r\nGLOBAL INT NEXT_PART=1\r\nENDDAT\r\n"}};
+               "&ACCESS RVP\r\n&REL 1\r\nDEFDAT " + program + " PUBLIC\r\nDECL GLOBAL INT NEXT_PART=1\r\nENDDAT\r\n"}};
     case Dialect::rapid:
       return {{program + ".mod", rapid_main(program, parts)}};
     case Dialect::fanuc:

@@ -1,6 +1,7 @@
 // The text of a program in each dialect.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,11 +24,20 @@ struct ToolMount {
   std::string text() const;
 };
 
+/// Voxels that are removed before a part, and with it.
+struct VoxelsCut {
+  std::uint64_t before = 0, after = 0;
+  /// One of them as a comment.
+  std::string text_before() const;
+  std::string text_after() const;
+};
+
 /// What the texts of a program's parts share.
 struct ProgramNames {
   std::string program;              ///< a word: letters, digits, _; begins with a letter
   std::size_t part = 0, parts = 0;  ///< from 1 on
   std::optional<ToolMount> mount;   ///< that the part stops for before anything moves
+  VoxelsCut voxels = {};
   std::string part_name() const;
 };
 
@@ -37,6 +47,8 @@ class PartWriter {
  public:
   virtual ~PartWriter() = default;
   virtual void add(const ProgramMove& move) = 0;
+  /// Of what was written so far.
+  virtual std::uint64_t bytes() const = 0;
   /// The files of the part.
   virtual std::vector<ProgramFile> finish() = 0;
 };

@@ -13,8 +13,8 @@ class RapidPart : public PartWriter {
       : layout_(layout), names_(names) {
     const std::string name = names.part_name();
     text_ = "MODULE " + name + "\r\n  ! part " + std::to_string(names.part) + " of " + std::to_string(names.parts) +
-            "; angles in degrees, lengths in mm; every move ends in a fine point\r\n  PROC " + name +
-            "_run()\r\n    VAR jointtarget here;\r\n";
+            "; angles in degrees, lengths in mm; every move ends in a fine point\r\n  ! " + names.voxels.text_before() +
+            "\r\n  ! " + names.voxels.text_after() + "\r\n  PROC " + name + "_run()\r\n    VAR jointtarget here;\r\n";
     if (names.mount) text_ += "    TPWrite \"" + names.mount->text() + "\";\r\n    Stop;\r\n";
     text_ += "    here:=CJointT();\r\n    ! it must begin where it begins, within 0.01 degree or mm\r\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
@@ -47,6 +47,8 @@ class RapidPart : public PartWriter {
     append_fixed(text_, move.seconds + 0.0005, time_decimals);  // rounded up
     text_ += ",fine,tool0;\r\n";
   }
+
+  std::uint64_t bytes() const override { return text_.size(); }
 
   std::vector<ProgramFile> finish() override {
     return {{names_.part_name() + ".mod", text_ + "  ENDPROC\r\nENDMODULE\r\n"}};

@@ -12,7 +12,8 @@ class UrPart : public PartWriter {
   UrPart(const AxisLayout& layout, const ProgramNames& names, const Configuration& start)
       : layout_(layout), names_(names) {
     text_ = "def " + names.part_name() + "():\n  # part " + std::to_string(names.part) + " of " +
-            std::to_string(names.parts) + "; angles in rad; every move ends at rest\n";
+            std::to_string(names.parts) + "; angles in rad; every move ends at rest\n  # " +
+            names.voxels.text_before() + "\n  # " + names.voxels.text_after() + "\n";
     if (names.mount) text_ += "  popup(\"" + names.mount->text() + "\", title=\"sculpt\", blocking=True)\n";
     text_ += "  # it must begin where it begins, within 0.01 degree\n  local here = get_actual_joint_positions()\n";
     for (std::size_t at = 0; at < 6; ++at) {
@@ -34,6 +35,8 @@ class UrPart : public PartWriter {
     append_fixed(text_, move.seconds + 0.00005, time_decimals);
     text_ += ")\n";
   }
+
+  std::uint64_t bytes() const override { return text_.size(); }
 
   std::vector<ProgramFile> finish() override {
     return {{names_.part_name() + ".script", text_ + "end\n" + names_.part_name() + "()\n"}};

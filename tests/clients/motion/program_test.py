@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import unittest
@@ -28,6 +29,29 @@ class Program(ClientTest):
             for path in folder.iterdir():
                 self.assertNotIn(b"\n", path.read_bytes().replace(b"\r\n", b""))
         self.refused(4, "axes_unfit", "program", "bust.sct", "--dialect", "urscript", "--feed", 0.05, "-o", "ur")
+
+    def test_stock_files_and_counts_of_voxels(self):
+        self.plan("six-axis-turntable")
+        report, folder = self.program("krl", "--part-keyframes", 100, "--stock-files")
+        self.assertEqual(report["files"], 3 * report["parts"] + 2)
+        removed = 0
+        for part in range(1, report["parts"] + 1):
+            self.assertTrue((folder / f"krl_{part:04}.binvox").read_bytes().startswith(b"#binvox 1"))
+            before, after = map(int, re.findall(r"; VOXELS CUT (?:BEFORE|AFTER) (\d+)", (folder / f"krl_{part:04}.src").read_text()))
+            self.assertEqual(before, removed)
+            removed = after
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 8, "--robot", "six-axis-turntable", "-o", "bust.ndjson")
+        self.assertEqual(removed, json.loads((self.scratch / "bust.ndjson").read_text().splitlines()[-1])["removed"])
+
+    def test_parts_of_so_many_bytes(self):
+        self.plan("six-axis-turntable")
+        for dialect, limit in (("krl", 30000), ("rapid", 20000), ("fanuc", 30000)):
+            report, folder = self.program(dialect, "--part-bytes", limit)
+            self.assertGreater(report["parts"], 2)
+            for part in range(1, report["parts"] + 1):
+                self.assertLessEqual(sum(path.stat().st_size for path in folder.glob(f"{dialect}_{part:04}.*")), limit)
+            self.assertIn("--part-bytes", self.refused(4, "part_invalid", "program", "bust.sct", "--dialect", dialect, "--feed", 0.05,
+                                                       "--part-bytes", 1000, "-o", "small"))
 
     def test_a_universal_robot_and_ros(self):
         self.plan("ur10e-plinth")

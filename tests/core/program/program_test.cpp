@@ -1,62 +1,12 @@
 // Programs of every dialect, read back and held against the plan; what does not fit is refused with its cure.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <numbers>
 
-#include "core/base/error.hpp"
-#include "core/program/make_program.hpp"
-#include "core/program/read/part_reader.hpp"
-#include "tests/core/timing/made_up_paths.hpp"
+#include "tests/core/program/program_cases.hpp"
 
 namespace sculpt {
 namespace {
-
-struct Made {
-  std::map<std::string, std::string> files;
-  ProgramReport report;
-};
-
-Made make(const PlanPath& path, const Cell& cell, ProgramDemands demands) {
-  Made made;
-  made.report = make_program(path, cell, demands, [&](const ProgramFile& file) {
-    EXPECT_FALSE(made.files.contains(file.name)) << file.name;
-    made.files[file.name] = file.text;
-  });
-  return made;
-}
-
-std::string refusal(const PlanPath& path, const Cell& cell, const ProgramDemands& demands) {
-  try {
-    make(path, cell, demands);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.code() + ": " + error.what();
-  }
-}
-
-struct Case {
-  Dialect dialect;
-  const char* cell;
-  std::vector<std::string> letters;
-};
-
-const std::vector<Case> cases{
-    {Dialect::krl, "six-axis-turntable", {"A1", "A2", "A3", "A4", "A5", "A6", "E1"}},
-    {Dialect::rapid, "six-axis-turntable", {"A1", "A2", "A3", "A4", "A5", "A6", "E1"}},
-    {Dialect::fanuc, "six-axis-turntable", {"A1", "A2", "A3", "A4", "A5", "A6", "E1"}},
-    {Dialect::urscript, "ur10e-plinth", {"J1", "J2", "J3", "J4", "J5", "J6"}},
-    {Dialect::gcode, "gantry", {"X", "Y", "Z"}},
-};
-
-ProgramDemands demands_of(Dialect dialect) {
-  ProgramDemands demands;
-  demands.dialect = dialect;
-  demands.name = "bust";
-  demands.motion = {0.05, 0.5, {}, 0};
-  demands.seams_in_stock = true;  // these paths are certified by nobody
-  return demands;
-}
 
 // The axes in the order of the letters, as joints of the plan. A1 is a1, E1 the table.
 std::vector<std::string> joints_of(const Case& one) {
@@ -106,39 +56,23 @@ TEST(Program, EveryPartSaysWhatThePlanSays) {
   }
 }
 
-TEST(Program, ATextThatIsCutShortOrDamagedIsNotReadAsAWholeOne) {
+TEST(Program, EachPartSaysHowManyVoxelsAreCutBeforeItAndWithIt) {
   for (const Case& one : cases) {
     SCOPED_TRACE(facts_of(one.dialect).name);
     const Cell cell = shipped_cell(one.cell);
-    Random random(3);
-    const PlanPath path = path_of(cell, wander(cell, random, 12), 8);
-    const Made made = make(path, cell, demands_of(one.dialect));
-    const std::string text = made.files.at("bust_0001" + std::string(facts_of(one.dialect).extension));
-    const std::size_t moves = read_part(one.dialect, text, one.letters).moves.size();
-    // Behind the last word of a part a script calls it: what is before that may not be missing.
-    const std::size_t whole = one.dialect == Dialect::urscript ? text.rfind("end\n") + 4 : text.size();
-    for (std::size_t size = 0; size < whole; ++size) {
-      const std::string cut = text.substr(0, size);
-      try {
-        const ReadPart read = read_part(one.dialect, cut, one.letters);
-        EXPECT_LT(read.moves.size(), moves) << size;
-      } catch (const InputError& error) {
-        EXPECT_EQ(error.code(), "program_damaged");
-      }
+    Random random(5);
+    const std::vector<Keyframe> keyframes = wander(cell, random, 60);
+    const PlanPath path = path_of(cell, keyframes, 8);
+    ProgramDemands demands = demands_of(one.dialect);
+    demands.part_keyframes = 9;
+    std::uint64_t cut = 0;
+    for (const ReadPart& part : read_parts(one, make(path, cell, demands))) {
+      EXPECT_EQ(part.cut_before, cut);
+      EXPECT_GE(part.cut_after, cut);
+      cut = part.cut_after;
     }
-    for (const char* wrong : {"nan", "1e5", "-0.0", "x"}) {
-      std::string damaged = text;
-      const std::size_t at = damaged.find(one.dialect == Dialect::krl        ? "PTP {A1 "
-                                          : one.dialect == Dialect::rapid    ? "MoveAbsJ [["
-                                          : one.dialect == Dialect::urscript ? "movej(["
-                                          : one.dialect == Dialect::fanuc    ? "J1= "
-                                                                             : "G1 X");
-      ASSERT_NE(at, std::string::npos);
-      const std::size_t number = damaged.find_first_of("-0123456789", damaged.find_first_of(" [=X", at + 4)),
-                        end = damaged.find_first_not_of("-0123456789.", number);
-      damaged.replace(number, end - number, wrong);
-      EXPECT_THROW(read_part(one.dialect, damaged, one.letters), InputError) << wrong;
-    }
+    const auto is_cut = [](const Keyframe& keyframe) { return keyframe.cut; };
+    EXPECT_EQ(cut, static_cast<std::uint64_t>(std::ranges::count_if(keyframes, is_cut))) << "of one voxel each";
   }
 }
 

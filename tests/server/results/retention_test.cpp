@@ -50,7 +50,9 @@ class RetentionTest : public testing::Test {
     return id;
   }
   std::vector<std::string> sweep(const RetentionRules& rules) {
-    const Artifacts artifacts(JobFiles(jobs()), *store, planner);
+    const Isolation isolation{};
+    const Programs programs(blobs, isolation);
+    const Artifacts artifacts(JobFiles(jobs()), *store, planner, programs);
     return Retention(*store, blobs, artifacts).sweep(rules, now);
   }
 

@@ -1,4 +1,4 @@
-#include "clients/cli/motion_options.hpp"
+#include "clients/cli/motion/motion_options.hpp"
 
 #include <unistd.h>
 
@@ -54,7 +54,9 @@ void add_motion_options(CLI::App& command, MotionOptions& options) {
   command.add_option("plan", options.subject, "A trajectory (.ndjson or .sct), or the id of a job")
       ->type_name("PLAN|JOB")
       ->required();
-  command.add_option("--robot", options.robot, "The cell that it was planned for; without it the one that it names")
+  command
+      .add_option("--robot", options.robot,
+                  "The cell that it was planned for; without it that of the job, or the one that the file names")
       ->type_name("CELL");
   command
       .add_option_function<double>(
@@ -116,8 +118,11 @@ PlanPath read_path(const std::string& server, const MotionOptions& options) {
   return PlanPath(in);
 }
 
-Cell read_cell_of(const PlanPath& path, const MotionOptions& options) {
-  return parse_cell(read_cell(options.robot.empty() ? path.header().cell : options.robot));
+Cell read_cell_of(const std::string& server, const PlanPath& path, const MotionOptions& options) {
+  if (!options.robot.empty()) return parse_cell(read_cell(options.robot));
+  if (is_file(options.subject)) return parse_cell(read_cell(path.header().cell));
+  client::JobCell cell = connect(server).read_cell(options.subject);
+  return parse_cell(CellFiles{std::move(cell.name), std::move(cell.cell_json), std::move(cell.files)});
 }
 
 }  // namespace sculpt::cli

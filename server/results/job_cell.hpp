@@ -4,7 +4,6 @@
 #include <string>
 
 #include "server/files/blobs.hpp"
-#include "server/http/http_reply.hpp"
 #include "server/store/job_store.hpp"
 
 namespace sculpt::server {
@@ -14,7 +13,7 @@ struct CellPath {
   std::string file;  ///< hash of one that the bundle names; empty: the bundle itself
 };
 
-/// Any thread. Throws ProtocolError `not_found`, `gone`, StorageError.
-HttpReply job_cell_reply(JobStore& store, const Blobs& blobs, const CellPath& path, const HttpRequest& request);
+/// The blob that it is. Any thread. Throws ProtocolError `not_found`, `gone`, StorageError.
+std::string find_cell_file(JobStore& store, const Blobs& blobs, const CellPath& path);
 
 }  // namespace sculpt::server
