@@ -26,17 +26,19 @@ int floor_to(double x, int low, int high) {
 
 }  // namespace
 
-Material::Material(const VoxelSet& standing) : solid_(standing) {
-  const int size = solid_.n();
-  for (int level = 1; (1 << level) <= size; ++level) {
-    const int m = size >> level;
-    std::vector<std::uint32_t> sums(static_cast<std::size_t>(m) * m * m);
-    for (int k = 0; k < 2 * m; ++k)
-      for (int j = 0; j < 2 * m; ++j)
-        for (int i = 0; i < 2 * m; ++i)
-          sums[static_cast<std::size_t>(i / 2) +
-               static_cast<std::size_t>(m) * (static_cast<std::size_t>(j / 2) +
-                                              static_cast<std::size_t>(m) * (k / 2))] += count(level - 1, {i, j, k});
+Material::Material(const VoxelSet& standing) : solid_(standing), levels_(level_of(standing.n())) {
+  for (int level = lowest_kept; level <= levels_; ++level) {
+    const int m = n() >> level;
+    std::vector<std::uint32_t, LargePages<std::uint32_t>> sums;
+    sums.reserve(static_cast<std::size_t>(m) * m * m);
+    for (int k = 0; k < m; ++k)
+      for (int j = 0; j < m; ++j)
+        for (int i = 0; i < m; ++i) {
+          std::uint32_t sum = 0;
+          for (int child = 0; child < 8; ++child)
+            sum += count(level - 1, {2 * i + (child & 1), 2 * j + (child >> 1 & 1), 2 * k + (child >> 2)});
+          sums.push_back(sum);
+        }
     counts_.push_back(std::move(sums));
   }
 }
@@ -44,16 +46,16 @@ Material::Material(const VoxelSet& standing) : solid_(standing) {
 void Material::remove(Voxel v) {
   if (!solid_.contains(v)) return;
   solid_.erase(v);
-  for (std::size_t level = 1; level <= counts_.size(); ++level) {
+  for (int level = lowest_kept; level <= levels_; ++level) {
     const std::size_t m = static_cast<std::size_t>(n()) >> level;
     const auto at = [level](int x) { return static_cast<std::size_t>(x) >> level; };
-    --counts_[level - 1][at(v.i) + m * (at(v.j) + m * at(v.k))];
+    --counts_[static_cast<std::size_t>(level - lowest_kept)][at(v.i) + m * (at(v.j) + m * at(v.k))];
   }
 }
 
 bool Material::meets_capsule(const Segment& segment, double radius, const Exempt& exempt) const {
   if (radius < thin_radius) return meets_thin_capsule(segment, radius, exempt);
-  return cube_meets_capsule(static_cast<int>(counts_.size()), {0, 0, 0}, segment, radius, exempt);
+  return cube_meets_capsule(levels_, {0, 0, 0}, segment, radius, exempt);
 }
 
 bool Material::cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,

@@ -69,14 +69,28 @@ class Material {
   /// Standing voxels in the cube of edge 2^level at position `at` among cubes of that size.
   std::uint32_t count(int level, Voxel at) const {
     if (level == 0) return solid_.contains(at) ? 1 : 0;
+    if (level < lowest_kept) return count_eight(at * 2);
     const std::size_t m = static_cast<std::size_t>(n() >> level);
-    return counts_[static_cast<std::size_t>(level) - 1]
+    return counts_[static_cast<std::size_t>(level - lowest_kept)]
                   [static_cast<std::size_t>(at.i) +
                    m * (static_cast<std::size_t>(at.j) + m * static_cast<std::size_t>(at.k))];
   }
+  /// Standing voxels in the cube of 2 voxels an edge at `corner`.
+  std::uint32_t count_eight(Voxel corner) const {
+    std::uint32_t sum = 0;
+    for (int row = 0; row < 4; ++row) {
+      const std::size_t at = solid_.index(corner + Voxel{0, row & 1, row >> 1});
+      sum += static_cast<std::uint32_t>(std::popcount(solid_.words()[at >> 6] >> (at & 63) & 3));
+    }
+    return sum;
+  }
+
+  static constexpr int lowest_kept = 2;  ///< below it voxels are counted as quickly as a count is read
 
   VoxelSet solid_;
-  std::vector<std::vector<std::uint32_t>> counts_;  // [level - 1]: standing voxels per aligned cube of edge 2^level
+  /// [level - lowest_kept]: standing voxels per aligned cube of edge 2^level.
+  std::vector<std::vector<std::uint32_t, LargePages<std::uint32_t>>> counts_;
+  int levels_ = 0;  ///< the level of the one cube that is all of the grid
 };
 
 }  // namespace sculpt

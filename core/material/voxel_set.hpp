@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
+#include "core/base/large_pages.hpp"
 #include "core/material/voxel.hpp"
 
 namespace sculpt {
@@ -45,8 +45,8 @@ class VoxelSet {
     return sum;
   }
   /// The bits, lowest index in the lowest bit of the first word. n^3 is a multiple of 64 for every n >= 4.
-  const std::vector<std::uint64_t>& words() const { return words_; }
-  std::vector<std::uint64_t>& words() { return words_; }
+  const Words& words() const { return words_; }
+  Words& words() { return words_; }
 
   VoxelSet& operator-=(const VoxelSet& other) {
     for (std::size_t at = 0; at < words_.size(); ++at) words_[at] &= ~other.words_[at];
@@ -57,7 +57,7 @@ class VoxelSet {
 
  private:
   int n_ = 0;
-  std::vector<std::uint64_t> words_;
+  Words words_;
 };
 
 /// Calls `visit` with every voxel of the set, by index.

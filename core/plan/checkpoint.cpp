@@ -114,8 +114,8 @@ SweepMemory sweeping_of(const Json& json) {
   for (const Json& opening : json.at("openings")) {
     const VoxelSet none(opening.at("n").get<int>());
     auto& [standing, wanted] = sweeping.openings.emplace_back(Opening{none, none});
-    standing.words() = opening.at("standing").get<std::vector<std::uint64_t>>();
-    wanted.words() = opening.at("wanted").get<std::vector<std::uint64_t>>();
+    standing.words() = opening.at("standing").get<Words>();
+    wanted.words() = opening.at("wanted").get<Words>();
   }
   sweeping.asked_with = json.at("asked_with").get<std::uint64_t>();
   sweeping.tilted = json.at("tilted").get<bool>();

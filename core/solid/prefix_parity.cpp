@@ -15,7 +15,7 @@ std::uint64_t reach_of(std::size_t shift, std::size_t span) {
 }
 
 /// Columns that step from bit to bit inside a word.
-void prefix_parity_narrow(std::vector<std::uint64_t>& words, std::size_t stride, std::size_t span) {
+void prefix_parity_narrow(Words& words, std::size_t stride, std::size_t span) {
   const std::size_t in_word = std::min<std::size_t>(span, 64), words_a_span = span / in_word;
   std::array<std::uint64_t, 7> reach{};
   for (std::size_t s = 0; stride << s < in_word; ++s) reach[s] = reach_of(stride << s, in_word);
@@ -34,7 +34,7 @@ void prefix_parity_narrow(std::vector<std::uint64_t>& words, std::size_t stride,
 
 }  // namespace
 
-void prefix_parity(std::vector<std::uint64_t>& words, std::size_t stride, std::size_t span) {
+void prefix_parity(Words& words, std::size_t stride, std::size_t span) {
   if (stride < 64) return prefix_parity_narrow(words, stride, span);
   const std::size_t step = stride / 64, block = span / 64;
   for (std::size_t first = 0; first < words.size(); first += block)

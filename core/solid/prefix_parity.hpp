@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
+
+#include "core/base/large_pages.hpp"
 
 namespace sculpt {
 
 /// Each bit becomes the parity of itself and all bits before it in its column: columns step by `stride` bits and fill
 /// `span` bits, both powers of two.
-void prefix_parity(std::vector<std::uint64_t>& words, std::size_t stride, std::size_t span);
+void prefix_parity(Words& words, std::size_t stride, std::size_t span);
 
 }  // namespace sculpt

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "core/base/large_pages.hpp"
 #include "core/material/voxel_set.hpp"
 #include "core/sweep/reach/tool_view.hpp"
 
@@ -32,7 +32,7 @@ class CellRows {
   void turn(const ToolView& view, const VoxelSet& voxels);
 
   int chunks_, rows_;
-  std::vector<std::uint64_t> words_;
+  Words words_;
 };
 
 /// Calls `visit(chunk, mask)` for the words of a row that cells first..last lie in; the mask has their bits.

@@ -32,7 +32,7 @@ StandingVoxels::StandingVoxels(const VoxelSet& standing, double voxel_mm, bool t
     : n_(standing.n()), count_(0), voxel_mm_(voxel_mm), side_mm_(standing.n() * voxel_mm), thorough_(thorough) {
   for (auto side = static_cast<std::size_t>(n_); side > 1;) {
     side = (side + 3) / 4;
-    levels_.push_back({side, std::vector<std::uint64_t>(side * side * side)});
+    levels_.push_back({side, Words(side * side * side)});
   }
   // Rows of a brick are four voxels of a row of the set, and n is a multiple of four.
   const auto n = static_cast<std::size_t>(n_);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/large_pages.hpp"
 #include "core/material/voxel_set.hpp"
 #include "core/verify/material/material_tree.hpp"
 
@@ -39,8 +40,8 @@ class StandingVoxels {
 
  private:
   struct Level {
-    std::size_t side;                  ///< in bricks
-    std::vector<std::uint64_t> words;  ///< by brick; bit x + 4 y + 16 z
+    std::size_t side;  ///< in bricks
+    Words words;       ///< by brick; bit x + 4 y + 16 z
 
     std::size_t index(Voxel brick) const {
       return static_cast<std::size_t>(brick.i) +
