@@ -1,4 +1,4 @@
-// What of the material the table holds: a plain flood over faces of voxels. Internal to verify/.
+// What of the material the table holds. Internal to verify/.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,7 @@ class HeldVoxels {
 
  private:
   VoxelSet standing_, held_;
+  std::uint64_t hanging_;  ///< stand and are not held
   std::vector<Voxel> here_, next_;
 };
 

@@ -1,0 +1,98 @@
+#include "core/verify/material/reached.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/material/voxel_rows.hpp"
+
+namespace sculpt {
+namespace {
+
+/// All of the runs of `open` that hold one of `met`. Bits are added as numbers are: a bit that is added to the lowest
+/// of a run of ones carries through to its end, and changes all that it passes.
+std::uint64_t fill_up(std::uint64_t met, std::uint64_t open) {
+  return met | (((open + met) ^ open) & open);
+}
+
+/// The lowest voxels of the runs of `open` that hold one of `met`, and those in between.
+std::uint64_t fill_down(std::uint64_t met, std::uint64_t open) {
+  for (int by = 1; by < 64; by *= 2) {
+    met |= (met >> by) & open;
+    open &= open >> by;
+  }
+  return met;
+}
+
+class Reached {
+ public:
+  Reached(const VoxelSet& open, const VoxelSet& seeds)
+      : rows_(open.n()), open_(open), met_(seeds), stale_(static_cast<std::size_t>(rows_.n) * rows_.n, true) {
+    for (std::size_t at = 0; at < met_.words().size(); ++at) met_.words()[at] &= open.words()[at];
+  }
+
+  VoxelSet run() {
+    const int rows = rows_.n * rows_.n;
+    for (bool grew = true; grew;) {
+      grew = false;
+      for (int row = 0; row < rows; ++row) grew |= renew(row);
+      for (int row = rows - 1; row >= 0; --row) grew |= renew(row);
+    }
+    return std::move(met_);
+  }
+
+ private:
+  /// From the rows around it, if any of them grew since that was last done. Says whether the row grew.
+  bool renew(int row) {
+    if (!stale_[static_cast<std::size_t>(row)]) return false;
+    stale_[static_cast<std::size_t>(row)] = false;
+    const int j = row % rows_.n, k = row / rows_.n;
+    bool grew = false;
+    std::uint64_t carry = 0;
+    for (int chunk = 0; chunk < rows_.chunks; ++chunk) {
+      const std::uint64_t open = rows_.get(open_, j, k, chunk);
+      std::uint64_t met = rows_.get(met_, j, k, chunk) | carry;
+      if (j > 0) met |= rows_.get(met_, j - 1, k, chunk);
+      if (j + 1 < rows_.n) met |= rows_.get(met_, j + 1, k, chunk);
+      if (k > 0) met |= rows_.get(met_, j, k - 1, chunk);
+      if (k + 1 < rows_.n) met |= rows_.get(met_, j, k + 1, chunk);
+      met = fill_up(met & open, open);
+      grew |= put(j, k, chunk, met);
+      carry = met >> (rows_.width - 1);
+    }
+    carry = 0;
+    for (int chunk = rows_.chunks - 1; chunk >= 0; --chunk) {
+      const std::uint64_t open = rows_.get(open_, j, k, chunk);
+      const std::uint64_t met =
+          fill_down((rows_.get(met_, j, k, chunk) | (carry << (rows_.width - 1))) & open, open);
+      grew |= put(j, k, chunk, met);
+      carry = met & 1;
+    }
+    if (grew) {
+      if (j > 0) stale_[static_cast<std::size_t>(row - 1)] = true;
+      if (j + 1 < rows_.n) stale_[static_cast<std::size_t>(row + 1)] = true;
+      if (k > 0) stale_[static_cast<std::size_t>(row - rows_.n)] = true;
+      if (k + 1 < rows_.n) stale_[static_cast<std::size_t>(row + rows_.n)] = true;
+    }
+    return grew;
+  }
+
+  bool put(int j, int k, int chunk, std::uint64_t met) {
+    if (met == rows_.get(met_, j, k, chunk)) return false;
+    rows_.put(met_, j, k, chunk, met);
+    return true;
+  }
+
+  VoxelRows rows_;
+  const VoxelSet& open_;
+  VoxelSet met_;
+  std::vector<bool> stale_;  ///< rows that a row beside them grew since they were renewed
+};
+
+}  // namespace
+
+VoxelSet reached_through(const VoxelSet& open, const VoxelSet& seeds) {
+  return Reached(open, seeds).run();
+}
+
+}  // namespace sculpt
