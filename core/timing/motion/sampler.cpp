@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace sculpt {
+
 MotionSampler::MotionSampler(const PlanPath& path, const TimeLaw& law) : path_(path), law_(law), pieces_(path, law) {
   hold({});
 }
@@ -18,65 +19,73 @@ void MotionSampler::hold(const std::vector<double>& begins_s) {
 // All pieces that overlap the times are held.
 void MotionSampler::reach(double from_s, double to_s) {
   constexpr double far_s = 1;
-  const bool behind = !held_.empty() && from_s < held_.front().begin_s,
-             far_ahead = !held_.empty() && !ended_ && from_s > held_.back().end_s() + far_s;
+  const bool behind = !held_.empty() && from_s < held_.front().piece.begin_s,
+             far_ahead = !held_.empty() && !ended_ && from_s > held_.back().piece.end_s() + far_s;
   if (held_.empty() || behind || far_ahead) {
     held_.clear();
     ended_ = false;
     pieces_.go_to(from_s);
   }
+  const auto let_go = [&] {
+    while (held_.size() > 1 && held_.front().piece.end_s() < from_s) held_.pop_front();
+  };
   MotionPiece piece;
-  while (!ended_ && (held_.empty() || held_.back().end_s() < to_s)) {
-    if (!pieces_.next(piece)) {
-      ended_ = true;
-      break;
-    }
-    held_.push_back(piece);
-    while (held_.size() > 1 && held_.front().end_s() < from_s) held_.pop_front();
+  while (!ended_ && (held_.empty() || held_.back().piece.end_s() < to_s)) {
+    ended_ = !pieces_.next(piece);
+    if (ended_) break;
+    held_.push_back({piece, piece.integral(0, piece.seconds)});
+    let_go();
   }
-  while (held_.size() > 1 && held_.front().end_s() < from_s) held_.pop_front();
+  let_go();
+}
+
+const MotionPiece* MotionSampler::piece_at(double time_s) const {
+  const auto at = std::ranges::find_if(held_, [time_s](const Held& held) { return time_s <= held.piece.end_s(); });
+  return at == held_.end() || time_s < at->piece.begin_s ? nullptr : &at->piece;
 }
 
 MotionSample MotionSampler::at(double time_s) {
   const double from = std::clamp(time_s - law_.window_s, 0.0, duration_s_), to = std::clamp(time_s, 0.0, duration_s_);
   const Configuration home = path_.configuration(0), end = path_.configuration(path_.size() - 1);
-  if (path_.size() == 1 || time_s <= 0) return {home, Configuration::Zero(home.size())};
-  if (time_s >= duration_s_) return {end, Configuration::Zero(home.size())};
+  const Configuration still = Configuration::Zero(home.size());
+  if (path_.size() == 1 || time_s <= 0) return {home, still};
+  if (time_s >= duration_s_) return {end, still};
   reach(from, to);
-  const auto place = [&](double time) -> std::pair<Configuration, Configuration> {
-    if (time <= 0) return {home, Configuration::Zero(home.size())};
-    for (const MotionPiece& piece : held_)
-      if (time >= piece.begin_s && time <= piece.end_s())
-        return {piece.q(time - piece.begin_s), piece.velocity(time - piece.begin_s)};
-    return {end, Configuration::Zero(home.size())};
-  };
   if (law_.window_s == 0) {
-    const auto [q, velocity] = place(to);
-    return {q, velocity};
+    const MotionPiece* const piece = piece_at(to);
+    return piece == nullptr ? MotionSample{end, still}
+                            : MotionSample{piece->q(to - piece->begin_s), piece->velocity(to - piece->begin_s)};
   }
   const double window = law_.window_s;
-  Configuration sum = Configuration::Zero(home.size());
+  Configuration sum = still;
   double covered = 0;
   if (time_s < window) {
     sum += home * (window - time_s);
     covered += window - time_s;
   }
-  for (const MotionPiece& piece : held_) {
+  for (const auto& [piece, integral] : held_) {
     const double begin = std::max(from, piece.begin_s), finish = std::min(to, piece.end_s());
     if (finish <= begin) continue;
-    sum += piece.integral(begin - piece.begin_s, finish - piece.begin_s);
+    if (begin == piece.begin_s && finish == piece.end_s())
+      sum += integral;
+    else
+      sum += piece.integral(begin - piece.begin_s, finish - piece.begin_s);
     covered += finish - begin;
   }
   sum += end * (window - covered);
-  return {sum / window, (place(time_s).first - place(time_s - window).first) / window};
+  const auto q_at = [&](double time) -> Configuration {
+    if (time <= 0) return home;
+    const MotionPiece* const piece = piece_at(time);
+    return piece == nullptr ? end : piece->q(time - piece->begin_s);
+  };
+  return {sum / window, (q_at(time_s) - q_at(time_s - window)) / window};
 }
 
 std::size_t MotionSampler::point_at(double time_s) {
   const double time = std::clamp(time_s - law_.window_s / 2, 0.0, duration_s_);
   reach(time, time);
-  for (const MotionPiece& piece : held_)
-    if (time <= piece.end_s()) return piece.point;
-  return path_.size() - 1;
+  const MotionPiece* const piece = piece_at(time);
+  return piece == nullptr ? path_.size() - 1 : piece->point;
 }
 
 std::vector<double> MotionSampler::times_of_points() const {

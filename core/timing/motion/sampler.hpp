@@ -32,12 +32,20 @@ class MotionSampler {
   std::size_t point_at(double time_s);
 
  private:
+  /// A piece, and the integral of q over all of it: windows that follow each other mostly have whole pieces in them.
+  struct Held {
+    MotionPiece piece;
+    Configuration integral;
+  };
+
   void reach(double from_s, double to_s);
+  /// Of what is held.
+  const MotionPiece* piece_at(double time_s) const;
 
   const PlanPath& path_;
   const TimeLaw& law_;
   HeldPieces pieces_;
-  std::deque<MotionPiece> held_;  // what windows of late were in, without a gap
+  std::deque<Held> held_;  // what windows of late were in, without a gap
   bool ended_ = false;
   double duration_s_ = 0;
 };
