@@ -98,12 +98,12 @@ void CellMaker::slim_spindle() {
     };
     return is_added(links.first) != is_added(links.second) && find_drives(chain, links.first, links.second).size() > 1;
   };
-  for (; spindle_radius_m_ > least_of_stock * stock_m_; spindle_radius_m_ *= slimmer) {
+  for (has_room_ = false; spindle_radius_m_ > least_of_stock * stock_m_; spindle_radius_m_ *= slimmer) {
     const Cell cell = make(places().front()).cell;
     const Chain chain = cell.chain();
-    if (std::ranges::none_of(find_link_pairs(cell).unchecked,
-                             [&](const UncheckedLinks& pair) { return is_stuck(cell, chain, pair.links); }))
-      return;
+    has_room_ = std::ranges::none_of(find_link_pairs(cell).unchecked,
+                                     [&](const UncheckedLinks& pair) { return is_stuck(cell, chain, pair.links); });
+    if (has_room_) return;
   }
 }
 
@@ -154,6 +154,10 @@ std::vector<std::string> CellMaker::remarks(const Vec3& table_m) const {
   if (needs_nose() && spindle_length_m_ > 0 && !wishes_.spindle_length_m)
     said.push_back("a spindle of " + in_m(2 * spindle_radius_m_) + " by " + in_m(spindle_length_m_) +
                    " is assumed on it: give yours with --spindle");
+  if (!has_room_)
+    said.push_back(
+        "a spindle of any width touches the wrist: give a link farther out with --tool-link, or leave the "
+        "spindle out with --spindle 0,0");
   if (!wishes_.stickout_m) said.push_back("a tool that sticks out by " + in_m(stickout_m_) + " is assumed");
   if (!wishes_.stock_size_m) said.push_back("a stock of " + in_m(stock_m_) + " is assumed");
   if (wishes_.table != Table::none && !wishes_.table_at_m)

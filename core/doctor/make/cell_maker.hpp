@@ -55,7 +55,8 @@ class CellMaker {
   std::vector<IgnoredPair> ignored_;
   int flange_ = -1;
   Vec3 out_;
-  bool hangs_ = false;  ///< the arm, from what stands still
+  bool hangs_ = false;    ///< the arm, from what stands still
+  bool has_room_ = true;  ///< a spindle that was made as slim as the wrist needs
   double arm_m_ = 0, stock_m_ = 0, stickout_m_ = 0, spindle_radius_m_ = 0, spindle_length_m_ = 0, floor_m_ = 0;
 };
 

@@ -17,8 +17,9 @@ struct NewCell {
   bool has_home = false;             ///< else its home is no more than joints at 0
 };
 
-/// Where nothing is wished: tool_link the flange, the stock an eighth of the arm's length, a tool a little longer than
-/// the stock, a spindle of its size, a table where most of the stock is reached of 16 places in front of the arm.
+/// Where nothing is wished: tool_link the flange, the stock a seventh of the arm's length, a tool a little longer than
+/// the stock, a spindle of its size, a table where most of the stock is reached of some places in front of the arm, or
+/// below one that hangs.
 /// Throws InputError (`urdf_invalid`, `cell_invalid`), Cancelled.
 NewCell make_cell(const MakersRobot& robot, const CellWishes& wishes, const RunContext& run);
 

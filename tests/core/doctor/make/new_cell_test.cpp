@@ -178,6 +178,19 @@ TEST(NewCell, ASpindleThatTheForkOfTheWristHasNoRoomForIsMadeSlimmer) {
   EXPECT_GT(spindle.shapes.front().radius_m, 0.03);
 }
 
+TEST(NewCell, ThatAWristHasNoRoomForASpindleOfAnyWidthIsSaid) {
+  std::string urdf = without_branch(makers_arm, "hand");
+  urdf.insert(urdf.find("</link>\n  <joint name=\"j4\""),
+              "<collision><origin xyz='0.2 0 0'/><geometry><box size='0.6 0.4 0.4'/></geometry></collision>");
+  const auto says_so = [](const NewCell& made) {
+    return std::ranges::any_of(made.remarks, [](const std::string& said) {
+      return said.find("a spindle of any width touches the wrist: give a link farther out with --tool-link") == 0;
+    });
+  };
+  EXPECT_TRUE(says_so(make({}, maker(urdf))));
+  EXPECT_FALSE(says_so(make({}, maker(without_branch(makers_arm, "hand")))));
+}
+
 TEST(NewCell, Tool0PointsOutAlongItsZ) {
   std::string urdf = without_branch(makers_arm, "hand");
   const std::string flange = "<link name=\"flange\"/>", at = "<child link=\"flange\"/><origin xyz=\"0.07 0 0\"/>";
