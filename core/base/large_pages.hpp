@@ -11,8 +11,8 @@
 
 namespace sculpt {
 
-/// An allocator that asks for pages of 2 MiB (MADV_HUGEPAGE) where a block is several of them; where the kernel has none
-/// it gives ordinary ones.
+/// An allocator that asks for pages of 2 MiB (MADV_HUGEPAGE) where a block is several of them; where the kernel has
+/// none it gives ordinary ones.
 template <typename T>
 struct LargePages {
   using value_type = T;

@@ -63,8 +63,7 @@ class Reached {
     carry = 0;
     for (int chunk = rows_.chunks - 1; chunk >= 0; --chunk) {
       const std::uint64_t open = rows_.get(open_, j, k, chunk);
-      const std::uint64_t met =
-          fill_down((rows_.get(met_, j, k, chunk) | (carry << (rows_.width - 1))) & open, open);
+      const std::uint64_t met = fill_down((rows_.get(met_, j, k, chunk) | (carry << (rows_.width - 1))) & open, open);
       grew |= put(j, k, chunk, met);
       carry = met & 1;
     }
