@@ -44,41 +44,39 @@ const MotionPiece* MotionSampler::piece_at(double time_s) const {
   return at == held_.end() || time_s < at->piece.begin_s ? nullptr : &at->piece;
 }
 
-MotionSample MotionSampler::at(double time_s) {
-  const double from = std::clamp(time_s - law_.window_s, 0.0, duration_s_), to = std::clamp(time_s, 0.0, duration_s_);
-  const Configuration home = path_.configuration(0), end = path_.configuration(path_.size() - 1);
-  const Configuration still = Configuration::Zero(home.size());
-  if (path_.size() == 1 || time_s <= 0) return {home, still};
-  if (time_s >= duration_s_) return {end, still};
-  reach(from, to);
-  if (law_.window_s == 0) {
-    const MotionPiece* const piece = piece_at(to);
-    return piece == nullptr ? MotionSample{end, still}
-                            : MotionSample{piece->q(to - piece->begin_s), piece->velocity(to - piece->begin_s)};
-  }
-  const double window = law_.window_s;
-  Configuration sum = still;
+Configuration MotionSampler::q_at(double time_s) const {
+  if (time_s <= 0) return path_.configuration(0);
+  const MotionPiece* const piece = piece_at(time_s);
+  return piece == nullptr ? path_.configuration(path_.size() - 1) : piece->q(time_s - piece->begin_s);
+}
+
+Configuration MotionSampler::integral_until(double time_s) const {
+  const double window = law_.window_s, from = std::clamp(time_s - window, 0.0, duration_s_);
+  Configuration sum = Configuration::Zero(static_cast<Eigen::Index>(path_.dof()));
   double covered = 0;
   if (time_s < window) {
-    sum += home * (window - time_s);
+    sum += path_.configuration(0) * (window - time_s);
     covered += window - time_s;
   }
   for (const auto& [piece, integral] : held_) {
-    const double begin = std::max(from, piece.begin_s), finish = std::min(to, piece.end_s());
+    const double begin = std::max(from, piece.begin_s), finish = std::min(time_s, piece.end_s());
     if (finish <= begin) continue;
-    if (begin == piece.begin_s && finish == piece.end_s())
-      sum += integral;
-    else
-      sum += piece.integral(begin - piece.begin_s, finish - piece.begin_s);
+    const bool whole = begin == piece.begin_s && finish == piece.end_s();
+    sum += whole ? integral : piece.integral(begin - piece.begin_s, finish - piece.begin_s);
     covered += finish - begin;
   }
-  sum += end * (window - covered);
-  const auto q_at = [&](double time) -> Configuration {
-    if (time <= 0) return home;
-    const MotionPiece* const piece = piece_at(time);
-    return piece == nullptr ? end : piece->q(time - piece->begin_s);
-  };
-  return {sum / window, (q_at(time_s) - q_at(time_s - window)) / window};
+  return sum + path_.configuration(path_.size() - 1) * (window - covered);
+}
+
+MotionSample MotionSampler::at(double time_s) {
+  const Configuration still = Configuration::Zero(static_cast<Eigen::Index>(path_.dof()));
+  if (path_.size() == 1 || time_s <= 0) return {path_.configuration(0), still};
+  if (time_s >= duration_s_) return {path_.configuration(path_.size() - 1), still};
+  const double window = law_.window_s;
+  reach(std::max(0.0, time_s - window), time_s);
+  if (window > 0) return {integral_until(time_s) / window, (q_at(time_s) - q_at(time_s - window)) / window};
+  const MotionPiece* const piece = piece_at(time_s);
+  return {q_at(time_s), piece == nullptr ? still : piece->velocity(time_s - piece->begin_s)};
 }
 
 std::size_t MotionSampler::point_at(double time_s) {

@@ -41,6 +41,10 @@ class MotionSampler {
   void reach(double from_s, double to_s);
   /// Of what is held.
   const MotionPiece* piece_at(double time_s) const;
+  /// The joints, not averaged, with the pieces at that time held.
+  Configuration q_at(double time_s) const;
+  /// Their integral over a window of the law that ends at that time, its pieces held.
+  Configuration integral_until(double time_s) const;
 
   const PlanPath& path_;
   const TimeLaw& law_;

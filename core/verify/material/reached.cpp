@@ -47,33 +47,45 @@ class Reached {
     if (!stale_[static_cast<std::size_t>(row)]) return false;
     stale_[static_cast<std::size_t>(row)] = false;
     const int j = row % rows_.n, k = row / rows_.n;
+    const bool up = fill_row_up(j, k), down = fill_row_down(j, k);
+    if (!up && !down) return false;
+    for_each_beside(j, k, [this](int jb, int kb) { stale_[static_cast<std::size_t>(jb + rows_.n * kb)] = true; });
+    return true;
+  }
+
+  /// From the rows beside it too.
+  bool fill_row_up(int j, int k) {
     bool grew = false;
     std::uint64_t carry = 0;
     for (int chunk = 0; chunk < rows_.chunks; ++chunk) {
       const std::uint64_t open = rows_.get(open_, j, k, chunk);
       std::uint64_t met = rows_.get(met_, j, k, chunk) | carry;
-      if (j > 0) met |= rows_.get(met_, j - 1, k, chunk);
-      if (j + 1 < rows_.n) met |= rows_.get(met_, j + 1, k, chunk);
-      if (k > 0) met |= rows_.get(met_, j, k - 1, chunk);
-      if (k + 1 < rows_.n) met |= rows_.get(met_, j, k + 1, chunk);
+      for_each_beside(j, k, [&](int jb, int kb) { met |= rows_.get(met_, jb, kb, chunk); });
       met = fill_up(met & open, open);
       grew |= put(j, k, chunk, met);
       carry = met >> (rows_.width - 1);
     }
-    carry = 0;
+    return grew;
+  }
+
+  bool fill_row_down(int j, int k) {
+    bool grew = false;
+    std::uint64_t carry = 0;
     for (int chunk = rows_.chunks - 1; chunk >= 0; --chunk) {
       const std::uint64_t open = rows_.get(open_, j, k, chunk);
       const std::uint64_t met = fill_down((rows_.get(met_, j, k, chunk) | (carry << (rows_.width - 1))) & open, open);
       grew |= put(j, k, chunk, met);
       carry = met & 1;
     }
-    if (grew) {
-      if (j > 0) stale_[static_cast<std::size_t>(row - 1)] = true;
-      if (j + 1 < rows_.n) stale_[static_cast<std::size_t>(row + 1)] = true;
-      if (k > 0) stale_[static_cast<std::size_t>(row - rows_.n)] = true;
-      if (k + 1 < rows_.n) stale_[static_cast<std::size_t>(row + rows_.n)] = true;
-    }
     return grew;
+  }
+
+  template <typename Visit>
+  void for_each_beside(int j, int k, const Visit& visit) const {
+    if (j > 0) visit(j - 1, k);
+    if (j + 1 < rows_.n) visit(j + 1, k);
+    if (k > 0) visit(j, k - 1);
+    if (k + 1 < rows_.n) visit(j, k + 1);
   }
 
   bool put(int j, int k, int chunk, std::uint64_t met) {
