@@ -32,24 +32,28 @@ class Reached {
   }
 
   VoxelSet run() {
-    const int rows = rows_.n * rows_.n;
     for (bool grew = true; grew;) {
       grew = false;
-      for (int row = 0; row < rows; ++row) grew |= renew(row);
-      for (int row = rows - 1; row >= 0; --row) grew |= renew(row);
+      for (int k = 0; k < rows_.n; ++k)
+        for (int j = 0; j < rows_.n; ++j) grew |= renew(j, k);
+      for (int k = rows_.n - 1; k >= 0; --k)
+        for (int j = rows_.n - 1; j >= 0; --j) grew |= renew(j, k);
     }
     return std::move(met_);
   }
 
  private:
+  std::size_t row(int j, int k) const {
+    return static_cast<std::size_t>(j) + static_cast<std::size_t>(rows_.n) * static_cast<std::size_t>(k);
+  }
+
   /// From the rows around it, if any of them grew since that was last done. Says whether the row grew.
-  bool renew(int row) {
-    if (!stale_[static_cast<std::size_t>(row)]) return false;
-    stale_[static_cast<std::size_t>(row)] = false;
-    const int j = row % rows_.n, k = row / rows_.n;
+  bool renew(int j, int k) {
+    if (!stale_[row(j, k)]) return false;
+    stale_[row(j, k)] = false;
     const bool up = fill_row_up(j, k), down = fill_row_down(j, k);
     if (!up && !down) return false;
-    for_each_beside(j, k, [this](int jb, int kb) { stale_[static_cast<std::size_t>(jb + rows_.n * kb)] = true; });
+    for_each_beside(j, k, [this](int jb, int kb) { stale_[row(jb, kb)] = true; });
     return true;
   }
 
