@@ -69,6 +69,25 @@ class SlowPlaces {
     return {static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())};
   }
 
+  /// What is no slower changes nothing.
+  double slow_enough(double feed) const {
+    const double wanted = found_.size() < max_places ? kept * feed : std::min(kept * feed, found_.back().feed_m_s);
+    return demands_.keep_feed ? std::max(wanted, *demands_.keep_feed * feed) : wanted;
+  }
+
+  /// A lower bound of the ball's speed (m by r) at both ends of the edge, without kinematics: of a thin tool's cut
+  /// behind another one both places of the ball are known, so its mean speed is, which the ends differ from by no more
+  /// than half of what its speed changes. 0 where nothing is known.
+  double least_ball_rate(std::size_t point, const Configuration& way, double length, const ToolRates& rates) const {
+    constexpr double off_centre = 0.02;  // voxels, of both together: certificates allow 0.005 each
+    if (path_.header().mill || point < 2 || !path_.edge_to(point - 1).cut) return 0;
+    const auto centre = [](const PlanPath::Edge& edge) { return Vec3(edge.last[0], edge.last[1], edge.last[2]); };
+    const double chord_m = ((centre(path_.edge_to(point)) - centre(path_.edge_to(point - 1))).norm() - off_centre) *
+                           path_.header().grid.voxel_m;
+    const double second = rates.orders(2) * rates.turn.dot(way.cwiseAbs()) * rates.travel.dot(way.cwiseAbs());
+    return std::max(0.0, chord_m / length - second * length / 2);
+  }
+
   /// The ball's slowest speed on the edge, without the voxels at the ends of a line of cuts.
   void look_at(std::size_t point) {
     const PlanPath::Edge& edge = path_.edge_to(point);
@@ -86,16 +105,17 @@ class SlowPlaces {
     const float x_before = point > 1 ? corner(point - 1).x_mid : 0, x_after = corner(point).x_mid;
     const bool by_joints = cruise * way.cwiseAbs().cwiseQuotient(velocity_).maxCoeff() > kept;
     if (!by_joints && std::sqrt(static_cast<double>(std::min(x_before, x_after))) >= kept * cruise) return;
-    double slowest = feed;
-    ToolPlace tool;
-    const auto at_end = [&](std::size_t end, float x, double share, bool is_line_end) {
-      tool.put(rates, path_.configuration(end));
+    const auto rate_at = [&](float x, bool is_line_end) {
       // One voxel from where the line of cuts ends the motion may have risen again.
-      const double there = static_cast<double>(x) + (is_line_end ? 2 * rise * share * length : 0);
-      slowest = std::min(slowest, std::sqrt(std::min(there, cruise * cruise)) * tool.ball(way).norm());
+      const double there = static_cast<double>(x) + (is_line_end ? 2 * rise * voxel * length : 0);
+      return std::sqrt(std::min(there, cruise * cruise));
     };
-    at_end(point - 1, x_before, voxel, begins);
-    at_end(point, x_after, voxel, ends);
+    const double rate_before = rate_at(x_before, begins), rate_after = rate_at(x_after, ends);
+    if (std::min(rate_before, rate_after) * least_ball_rate(point, way, length, rates) >= slow_enough(feed)) return;
+    ToolPlace before, after;
+    before.put(rates, path_.configuration(point - 1));
+    after.put(rates, path_.configuration(point));
+    const double slowest = std::min({feed, rate_before * before.ball(way).norm(), rate_after * after.ball(way).norm()});
     if (slowest >= kept * feed) return;
     if (demands_.keep_feed && slowest < *demands_.keep_feed * feed) refuse({point, slowest});
     if (found_.size() == max_places && slowest >= found_.back().feed_m_s) return;
