@@ -1,6 +1,7 @@
 """What the benchmarks in Python share: running a program to its end, progress on stderr, and how a run of theirs fails."""
 
 import collections
+import contextlib
 import os
 import pathlib
 import resource
@@ -48,6 +49,23 @@ def check_sculpt(path):
     if not is_program(path):
         raise Failure(USAGE, f"there is no program {path}: build it (cmake --preset release && "
                              "cmake --build --preset release), or name it with --sculpt PATH")
+
+
+@contextlib.contextmanager
+def daemon(program, data, *options):
+    """Gives the address of a sculptd that runs meanwhile; its log is beside the data folder."""
+    log = data.parent / "log"
+    with log.open("ab") as said:
+        process = subprocess.Popen([str(program), "--listen", "127.0.0.1:0", "--data", str(data), "--log", "warn", *map(str, options)],
+                                   env={"SCULPT_CELLS": str(SOURCE / "config/cells"), **os.environ}, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=said, text=True)
+    try:
+        line = process.stdout.readline().strip()
+        if " listening on " not in line:
+            raise Failure(FAILED, f"{program} did not start:\n" + log.read_text())
+        yield line.rpartition(" ")[2]
+    finally:
+        stop(process)
 
 
 class Program:

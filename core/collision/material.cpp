@@ -26,8 +26,8 @@ int floor_to(double x, int low, int high) {
 
 }  // namespace
 
-Material::Material(const VoxelSet& standing) : solid_(standing), levels_(level_of(standing.n())) {
-  for (int level = lowest_kept; level <= levels_; ++level) {
+Material::Material(const VoxelSet& standing) : solid_(standing) {
+  for (int level = lowest_kept; level <= level_of(n()); ++level) {
     const int m = n() >> level;
     std::vector<std::uint32_t, LargePages<std::uint32_t>> sums;
     sums.reserve(static_cast<std::size_t>(m) * m * m);
@@ -46,7 +46,7 @@ Material::Material(const VoxelSet& standing) : solid_(standing), levels_(level_o
 void Material::remove(Voxel v) {
   if (!solid_.contains(v)) return;
   solid_.erase(v);
-  for (int level = lowest_kept; level <= levels_; ++level) {
+  for (int level = lowest_kept; level <= level_of(n()); ++level) {
     const std::size_t m = static_cast<std::size_t>(n()) >> level;
     const auto at = [level](int x) { return static_cast<std::size_t>(x) >> level; };
     --counts_[static_cast<std::size_t>(level - lowest_kept)][at(v.i) + m * (at(v.j) + m * at(v.k))];
@@ -55,7 +55,7 @@ void Material::remove(Voxel v) {
 
 bool Material::meets_capsule(const Segment& segment, double radius, const Exempt& exempt) const {
   if (radius < thin_radius) return meets_thin_capsule(segment, radius, exempt);
-  return cube_meets_capsule(levels_, {0, 0, 0}, segment, radius, exempt);
+  return cube_meets_capsule(level_of(n()), {0, 0, 0}, segment, radius, exempt);
 }
 
 bool Material::cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius,

@@ -90,7 +90,6 @@ class Material {
   VoxelSet solid_;
   /// [level - lowest_kept]: standing voxels per aligned cube of edge 2^level.
   std::vector<std::vector<std::uint32_t, LargePages<std::uint32_t>>> counts_;
-  int levels_ = 0;  ///< the level of the one cube that is all of the grid
 };
 
 }  // namespace sculpt

@@ -41,13 +41,13 @@ void MotionSampler::reach(double from_s, double to_s) {
 
 const MotionPiece* MotionSampler::piece_at(double time_s) const {
   const auto at = std::ranges::find_if(held_, [time_s](const Held& held) { return time_s <= held.piece.end_s(); });
-  return at == held_.end() || time_s < at->piece.begin_s ? nullptr : &at->piece;
+  return at == held_.end() ? nullptr : &at->piece;
 }
 
 Configuration MotionSampler::q_at(double time_s) const {
   if (time_s <= 0) return path_.configuration(0);
   const MotionPiece* const piece = piece_at(time_s);
-  return piece == nullptr ? path_.configuration(path_.size() - 1) : piece->q(time_s - piece->begin_s);
+  return piece == nullptr ? path_.configuration(path_.size() - 1) : piece->q(std::max(0.0, time_s - piece->begin_s));
 }
 
 Configuration MotionSampler::integral_until(double time_s) const {
@@ -76,7 +76,7 @@ MotionSample MotionSampler::at(double time_s) {
   reach(std::max(0.0, time_s - window), time_s);
   if (window > 0) return {integral_until(time_s) / window, (q_at(time_s) - q_at(time_s - window)) / window};
   const MotionPiece* const piece = piece_at(time_s);
-  return {q_at(time_s), piece == nullptr ? still : piece->velocity(time_s - piece->begin_s)};
+  return {q_at(time_s), piece == nullptr ? still : piece->velocity(std::max(0.0, time_s - piece->begin_s))};
 }
 
 std::size_t MotionSampler::point_at(double time_s) {

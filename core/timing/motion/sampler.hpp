@@ -39,7 +39,8 @@ class MotionSampler {
   };
 
   void reach(double from_s, double to_s);
-  /// Of what is held.
+  /// The held piece that is not over by then; none behind the last. Pieces follow each other without a gap, but for
+  /// what their times are rounded by.
   const MotionPiece* piece_at(double time_s) const;
   /// The joints, not averaged, with the pieces at that time held.
   Configuration q_at(double time_s) const;

@@ -12,7 +12,7 @@ VoxelSet on_the_table(const VoxelSet& standing) {
   VoxelSet lowest(standing.n());
   for (int j = 0; j < standing.n(); ++j)
     for (int i = 0; i < standing.n(); ++i) lowest.insert({i, j, 0});
-  return reached_through(standing, lowest);
+  return reached_through(standing, std::move(lowest));
 }
 
 // What is not the target and can be come at from the sides or from above.
@@ -24,7 +24,7 @@ VoxelSet spread_from_outside(const VoxelSet& keep) {
     for (int b = 0; b <= last; ++b)
       for (const Voxel v : {Voxel{0, a, b}, Voxel{last, a, b}, Voxel{a, 0, b}, Voxel{a, last, b}, Voxel{a, b, last}})
         shell.insert(v);
-  return reached_through(open, shell);
+  return reached_through(open, std::move(shell));
 }
 
 }  // namespace

@@ -26,8 +26,11 @@ std::uint64_t fill_down(std::uint64_t met, std::uint64_t open) {
 
 class Reached {
  public:
-  Reached(const VoxelSet& open, const VoxelSet& seeds)
-      : rows_(open.n()), open_(open), met_(seeds), stale_(static_cast<std::size_t>(rows_.n) * rows_.n, true) {
+  Reached(const VoxelSet& open, VoxelSet seeds)
+      : rows_(open.n()),
+        open_(open),
+        met_(std::move(seeds)),
+        stale_(static_cast<std::size_t>(rows_.n) * rows_.n, true) {
     for (std::size_t at = 0; at < met_.words().size(); ++at) met_.words()[at] &= open.words()[at];
   }
 
@@ -106,8 +109,8 @@ class Reached {
 
 }  // namespace
 
-VoxelSet reached_through(const VoxelSet& open, const VoxelSet& seeds) {
-  return Reached(open, seeds).run();
+VoxelSet reached_through(const VoxelSet& open, VoxelSet seeds) {
+  return Reached(open, std::move(seeds)).run();
 }
 
 }  // namespace sculpt

@@ -8,6 +8,6 @@ namespace sculpt {
 
 /// The voxels of `open` that paths over faces inside it join to one of `seeds` that is in `open`, that one included.
 /// Both n x n x n, n a power of two, n >= 4.
-VoxelSet reached_through(const VoxelSet& open, const VoxelSet& seeds);
+VoxelSet reached_through(const VoxelSet& open, VoxelSet seeds);
 
 }  // namespace sculpt
