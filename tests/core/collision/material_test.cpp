@@ -2,20 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
 #include "tests/core/base/cases.hpp"
+#include "tests/core/material/random_voxels.hpp"
 
 namespace sculpt {
 namespace {
-
-VoxelSet random_voxels(int n, double share, Random& random) {
-  VoxelSet voxels(n);
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        if (random.unit() < share) voxels.insert({i, j, k});
-  return voxels;
-}
 
 bool meets_by_brute_force(const VoxelSet& voxels, const Segment& segment, double radius, std::optional<Voxel> exempt) {
   for (int k = 0; k < voxels.n(); ++k)

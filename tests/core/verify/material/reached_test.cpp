@@ -5,19 +5,10 @@
 
 #include <vector>
 
-#include "core/base/random.hpp"
+#include "tests/core/material/random_voxels.hpp"
 
 namespace sculpt {
 namespace {
-
-VoxelSet random_set(int n, double share, Random& random) {
-  VoxelSet set(n);
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        if (random.unit() < share) set.insert({i, j, k});
-  return set;
-}
 
 VoxelSet reached_one_by_one(const VoxelSet& open, const VoxelSet& seeds) {
   const Grid grid{open.n(), 1, Vec3::Zero()};
@@ -43,7 +34,8 @@ TEST(Reached, IsWhatOneVoxelAfterTheOtherComesTo) {
     Random random(seed);
     const int n = std::vector{4, 8, 16, 32, 64}[seed % 5];
     // Around a third, where voxels just hang together, ways are longest.
-    const VoxelSet open = random_set(n, 0.2 + 0.5 * random.unit(), random), seeds = random_set(n, 2.0 / n / n, random);
+    const VoxelSet open = random_voxels(n, 0.2 + 0.5 * random.unit(), random),
+                   seeds = random_voxels(n, 2.0 / n / n, random);
     ASSERT_EQ(reached_through(open, seeds), reached_one_by_one(open, seeds));
   }
 }
