@@ -49,25 +49,23 @@ TEST_F(FleetStoreTest, AClaimThatWasStoredAndNotAnsweredIsGivenBackAtTheNext) {
     other->ask({"SELECT pg_reload_conf()"});
   };
   set_standby("nobody");
-  await([&] { return other->ask({"SHOW synchronous_standby_names"}).text(0, 0) == "nobody"; });
-  bool unanswered = false;
-  std::thread claiming([&] {
-    try {
-      first->claim();
-    } catch (const DatabaseUnavailable&) {
-      unanswered = true;
-    }
-  });
   const auto cut_off = [&] {
     return other
                ->ask({"SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE wait_event='SyncRep' AND "
                       "datname=current_database()"})
                .rows() > 0;
   };
+  // Commits wait as soon as the checkpointer has read the settings, which nobody else can see.
+  Postgres any({test_database(file), {}}, std::chrono::seconds(30));
+  std::thread committing([&any] {
+    EXPECT_THROW(while (true) any.ask({"SELECT pg_logical_emit_message(true, 'test', '')"}), DatabaseUnavailable);
+  });
+  await(cut_off);
+  committing.join();
+  std::thread claiming([this] { EXPECT_THROW(first->claim(), DatabaseUnavailable); });
   await(cut_off);
   set_standby("");
   claiming.join();
-  ASSERT_TRUE(unanswered);
   ASSERT_EQ(second->find(next)->state, running) << "the commit itself was done";
   const std::optional<JobRecord> again = first->claim();
   ASSERT_TRUE(again);
