@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/mill/drive/hop.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 /// Beyond the stock the tip needs room for its cutter and to turn around in.
 constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
+/// Tips are whole numbers of quanta.
+constexpr double same_place_m = 1e-6;
 /// Nails: of a square of the finest stepover, but no more and no fewer than these.
 constexpr double nails_a_stepover = 2;
 constexpr std::size_t fewest_nails = 20000, max_nails = 150000;
@@ -104,9 +107,7 @@ bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>
 }
 
 bool Carver::hold(std::size_t number, const Site& site, const PostureField& field) {
-  std::optional<Vec3> hub;
-  for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
-    if (!hub) hub = find_hub(site, site.top() + above_m);
+  const std::optional<Vec3> hub = find_hub(site, field);
   if (!hub || !arm_.hold(field, static_cast<int>(number), site.frame().point(*hub))) return false;
   hub_ = *hub;
   axis_ = site.frame().w;
@@ -116,12 +117,12 @@ bool Carver::hold(std::size_t number, const Site& site, const PostureField& fiel
 }
 
 void Carver::draw_back(const Site& site) {
-  for (;;) {
-    std::vector<MillStroke> strokes;
-    hop(site, tip(site), hub_, hub_.z(), job_.wishes.stray_m(), strokes);
-    if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes == strokes.size()) {
-      go(std::move(followed));
-      return;
+  while ((tip(site) - hub_).norm() > same_place_m) {
+    for (const double min_height : {-std::numeric_limits<double>::infinity(), hub_.z()}) {
+      std::vector<MillStroke> strokes;
+      hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);
+      if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes == strokes.size())
+        return go(std::move(followed));
     }
     if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");
     // Back to where the tip was before, and try from there.
@@ -173,18 +174,31 @@ void Carver::go(FollowedMill followed) {
   arm_.commit(std::move(followed));
 }
 
-/// A place above everything that the robot reaches, as near to the middle as there is one.
-std::optional<Vec3> Carver::find_hub(const Site& site, double height) const {
+/// A place above everything, from where the robot comes down, as near to the middle as there is one; else one from where
+/// it does not, or one that is above what stands about it: along a tilted axis the tip may have no room above everything.
+std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field) const {
   const Lattice& lattice = site.lattice();
-  const double u = lattice.u(lattice.width / 2), v = lattice.v(lattice.height / 2);
-  std::vector<Vec3> places;
+  std::vector<Point2> columns;
   for (int b = 0; b < lattice.height; b += 4)
-    for (int a = 0; a < lattice.width; a += 4)
-      if (const Vec3 at(lattice.u(a), lattice.v(b), height); floor_->allows(at)) places.push_back(at);
-  std::ranges::stable_sort(places, {}, [&](const Vec3& at) { return std::hypot(at.x() - u, at.y() - v); });
-  const auto found =
-      std::ranges::find_if(places, [&](const Vec3& at) { return site.clear_height(at, at, 0) <= height; });
-  return found == places.end() ? std::nullopt : std::optional(*found);
+    for (int a = 0; a < lattice.width; a += 4) columns.emplace_back(lattice.u(a), lattice.v(b));
+  const Point2 middle(lattice.u(lattice.width / 2), lattice.v(lattice.height / 2));
+  std::ranges::stable_sort(columns, {}, [&](const Point2& at) { return (at - middle).norm(); });
+  const auto is_held = [&](const Vec3& at) {
+    return floor_->allows(at) && field.usable(HeldTool::cell_of(field, around_, site.frame().point(at)));
+  };
+  const auto low = [&](const Point2& column) {
+    const Vec3 at(column.x(), column.y(), 0);
+    return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m));
+  };
+  for (const bool comes_down : {true, false})
+    for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
+      for (const Point2& column : columns)
+        if (const Vec3 at(column.x(), column.y(), site.top() + above_m);
+            is_held(at) && low(column).z() <= at.z() && (!comes_down || floor_->allows(low(column))))
+          return at;
+  for (const Point2& column : columns)
+    if (const Vec3 at = low(column); is_held(at)) return at;
+  return std::nullopt;
 }
 
 }  // namespace sculpt

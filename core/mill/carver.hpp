@@ -61,7 +61,7 @@ class Carver {
   void count(const std::vector<Keyframe>& keyframes);
   void go(FollowedMill followed);
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
-  std::optional<Vec3> find_hub(const Site& site, double height) const;
+  std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;
 
   const MillJob& job_;
   const RunContext& run_;

@@ -1,7 +1,6 @@
 #include "core/sweep/directions.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "core/base/helpers.hpp"
@@ -70,7 +69,7 @@ void Directions::find_straight_fields() {
   run_.helpers.for_each_index(apart, [&](std::size_t number) { found[number] = search(views[number], number); });
   for (std::size_t number = apart; number < views.size(); ++number) {
     for (const auto& field : found[first_side])
-      if (auto other = turned(*field, views[number], static_cast<double>(number - first_side)))
+      if (auto other = turned(*field, *turn_, views[number], static_cast<int>(number - first_side)))
         found[number].push_back(std::move(other));
     if (found[number].empty()) found[number] = search(views[number], number);
   }
@@ -141,7 +140,8 @@ std::size_t Directions::number_of(const PostureField& field) const {
 std::unique_ptr<PostureField> Directions::find_tilted(std::size_t direction) {
   const std::size_t quarters = (direction - straight_) % sides;
   if (turn_ && quarters > 0)
-    if (auto other = turned(field(direction - quarters), ways_[direction].view, static_cast<double>(quarters)))
+    if (auto other =
+            turned(field(direction - quarters), *turn_, ways_[direction].view, static_cast<int>(quarters)))
       return other;
   Fields found = search(ways_[direction].view, tool_views(scene_.grid().n).size() + direction - straight_);
   return std::move(*std::ranges::max_element(found, {}, [](const auto& field) { return field->usable_cells(); }));
@@ -170,18 +170,6 @@ Directions::Fields Directions::search_anew(const ToolView& view, std::uint64_t n
   const auto from_top = solve_ik(scene_.chain(), {down.ball_m(scene_.grid(), above), down.axis()}, home_);
   if (from_top && number != top) known.push_back(*from_top);
   return find_fields(scene_, view, home_, known, {mix(run_.seed, number), run_.helpers, run_.watch});
-}
-
-/// Nothing if the joint does not turn so far.
-std::unique_ptr<PostureField> Directions::turned(const PostureField& field, const ToolView& view,
-                                                 double quarters) const {
-  for (double rounds : {0, -1, 1}) {
-    const double by = turn_->direction * (quarters / 4 + rounds) * 2 * std::numbers::pi;
-    if (field.can_turn(turn_->coordinate, by))
-      return std::make_unique<PostureField>(field, view,
-                                            by * Configuration::Unit(scene_.chain().dof(), turn_->coordinate));
-  }
-  return nullptr;
 }
 
 }  // namespace sculpt

@@ -69,7 +69,6 @@ class Directions {
   Fields search(const ToolView& view, std::uint64_t number) const;
   Fields search_anew(const ToolView& view, std::uint64_t number) const;
   std::unique_ptr<PostureField> find_tilted(std::size_t direction);
-  std::unique_ptr<PostureField> turned(const PostureField& field, const ToolView& view, double quarters) const;
   void find_reach(Way& way) const;
 
   const Scene& scene_;

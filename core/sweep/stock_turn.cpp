@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/collision/shape/motion_bound.hpp"
 
@@ -60,6 +61,17 @@ std::optional<StockTurn> find_stock_turn(const Chain& chain, const Grid& grid) {
     for (const Shape& shape : robot.links[link].shapes)
       if (side[link] && !is_alike_all_around(shape, poses[link], middle)) return std::nullopt;
   return StockTurn{first.coordinate, first.rate * axis.z() > 0 ? 1.0 : -1.0};
+}
+
+std::unique_ptr<PostureField> turned(const PostureField& field, const StockTurn& turn, const ToolView& view,
+                                     int quarters) {
+  for (const double rounds : {0, -1, 1}) {
+    const double by = turn.direction * (quarters / 4.0 + rounds) * 2 * std::numbers::pi;
+    if (field.can_turn(turn.coordinate, by))
+      return std::make_unique<PostureField>(field, view,
+                                            by * Configuration::Unit(field.chain().dof(), turn.coordinate));
+  }
+  return nullptr;
 }
 
 }  // namespace sculpt

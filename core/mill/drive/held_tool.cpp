@@ -1,6 +1,7 @@
 #include "core/mill/drive/held_tool.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -12,6 +13,8 @@ namespace sculpt {
 namespace {
 
 constexpr int cells_around = 64;
+/// Of all parts of a field: no better one is looked for.
+constexpr std::size_t enough_percent = 97;
 
 /// Columns along that axis of the grid, up or sideways, that is nearest to the direction.
 ToolView view_of(const Direction& direction) {
@@ -20,6 +23,16 @@ ToolView view_of(const Direction& direction) {
   ToolView view = *std::ranges::max_element(views, {}, [&](const ToolView& each) { return each.axis().dot(axis); });
   view.held = axis;
   return view;
+}
+
+Direction quarter_turned(const Direction& direction) {
+  return {-direction[1], direction[0], direction[2]};
+}
+
+std::size_t usable_cells(const HeldTool::Fields& fields) {
+  std::size_t usable = 0;
+  for (const auto& field : fields) usable += field->usable_cells();
+  return usable;
 }
 
 template <typename Visit>
@@ -74,7 +87,8 @@ HeldTool::HeldTool(const Cell& cell, const MillTool& tool, const Grid& stock, co
       around_(around),
       carried_(sculpt::carrying(cell, tool)),
       guided_(guided_by_maps(cell, tool)),
-      guided_scene_(guided_, around, cells_of(stock, around)) {
+      guided_scene_(guided_, around, cells_of(stock, around)),
+      turn_(find_stock_turn(guided_scene_.chain(), around)) {
   see(cells_of(stock, around));
 }
 
@@ -84,16 +98,46 @@ void HeldTool::see(const VoxelSet& cells) {
   cells_ = cells;
 }
 
+HeldTool::Fields HeldTool::search(const Direction& direction, const ToolView& view, const Configuration& home,
+                                  const RunContext& run) const {
+  std::uint64_t number = 0;
+  for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component) + 1000);
+  Fields fields = find_fields(guided_scene_, view, home, {home}, {mix(run.seed, number), run.helpers, run.watch});
+  std::erase_if(fields, [](const auto& field) { return field->usable_cells() == 0; });
+  return fields;
+}
+
+/// Where the stock can be turned, a field suits four directions. A search finds other postures for each of them, and
+/// the best are turned into the others'.
+HeldTool::Fields HeldTool::find_turned(const Direction& direction, const Configuration& home, const RunContext& run) {
+  std::array<Direction, 4> quarters{direction};
+  for (std::size_t quarter = 1; quarter < quarters.size(); ++quarter)
+    quarters[quarter] = quarter_turned(quarters[quarter - 1]);
+  std::ranges::rotate(quarters, std::ranges::max_element(quarters));
+  std::array<ToolView, 4> views{view_of(quarters[0])};
+  for (std::size_t quarter = 1; quarter < views.size(); ++quarter) views[quarter] = quarter_turned(views[quarter - 1]);
+  const auto [at, is_new] = found_.try_emplace(quarters[0]);
+  Found& best = at->second;
+  for (std::size_t quarter = 0; quarter < quarters.size() && is_new; ++quarter) {
+    if (100 * usable_cells(best.fields) >= enough_percent * PostureField::all_cells()) break;
+    if (quarter > 0 && quarters[quarter] == quarters[0]) break;
+    Fields fields = search(quarters[quarter], views[quarter], home, run);
+    if (usable_cells(fields) > usable_cells(best.fields)) best = {std::move(fields), static_cast<int>(quarter)};
+  }
+  const auto asked = static_cast<int>(std::ranges::find(quarters, direction) - quarters.begin());
+  Fields fields;
+  for (const auto& field : best.fields)
+    if (asked == best.quarter)
+      fields.push_back(std::make_unique<PostureField>(*field));
+    else if (auto other = turned(*field, *turn_, views[static_cast<std::size_t>(asked)], asked - best.quarter))
+      fields.push_back(std::move(other));
+  return fields;
+}
+
 const HeldTool::Fields& HeldTool::fields(const Direction& direction, const Configuration& home, const RunContext& run) {
   const auto [at, is_new] = opened_.try_emplace(direction);
   auto& [fields, standing] = at->second;
-  if (is_new) {
-    std::uint64_t number = 0;
-    for (const int component : direction) number = mix(number, static_cast<std::uint64_t>(component) + 1000);
-    fields =
-        find_fields(guided_scene_, view_of(direction), home, {home}, {mix(run.seed, number), run.helpers, run.watch});
-    std::erase_if(fields, [](const auto& field) { return field->usable_cells() == 0; });
-  }
+  if (is_new) fields = turn_ ? find_turned(direction, home, run) : search(direction, view_of(direction), home, run);
   if (!is_new && standing == cells_) return fields;
   standing = cells_;
   const VoxelSet all(PostureLattice::fine, true);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.hpp"
@@ -10,6 +11,7 @@
 #include "core/mill/map/assembly.hpp"
 #include "core/mill/map/tool_frame.hpp"
 #include "core/sweep/field/posture_field.hpp"
+#include "core/sweep/stock_turn.hpp"
 
 namespace sculpt {
 
@@ -43,12 +45,23 @@ class HeldTool {
   static Vec3 cell_of(const PostureField& field, const Grid& around, const Vec3& point);
 
  private:
+  Fields find_turned(const Direction& direction, const Configuration& home, const RunContext& run);
+  Fields search(const Direction& direction, const ToolView& view, const Configuration& home,
+                const RunContext& run) const;
+
   Assembly assembly_;
   Grid around_;
   Cell carried_, guided_;
   std::unique_ptr<Scene> carrying_scene_;
   Scene guided_scene_;
+  std::optional<StockTurn> turn_;
   VoxelSet cells_;
+  /// What a search gave that suits a direction and its quarter turns best.
+  struct Found {
+    Fields fields;    ///< against the full stock
+    int quarter = 0;  ///< that they are for
+  };
+  std::map<Direction, Found> found_;  ///< by the first of the four directions
   struct Opened {
     Fields fields;
     VoxelSet standing;  ///< cells that they were opened for

@@ -28,7 +28,7 @@ std::vector<int> stock_coordinates(const Chain& chain) {
 }  // namespace
 
 /// Straight; or back to a place on the way home, where the stock is turned, and forward from there; or home and by a
-/// way that was found before; or a search, once.
+/// way that was found before, for this direction or for another one; or a search, once.
 std::vector<Configuration> MillArm::find_way(const Configuration& to, int direction) {
   const Scene& scene = held_->carrying();
   const auto is_free = [&](const Configuration& from, const Configuration& there) {
@@ -51,14 +51,26 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to, int direct
       return way;
     }
   }
-  if (const auto known = ways_.find(direction); known != ways_.end()) {
+  // Home, whose edges are free the more is cut, and on by these places.
+  const auto by_home = [&](const std::vector<Configuration>& places) {
     std::vector<Configuration> way{q_};
     way.insert(way.end(), way_home_.begin(), way_home_.end());
-    way.insert(way.end(), known->second.begin(), known->second.end());
+    const std::size_t home = way_home_.size();
+    way.insert(way.end(), places.begin(), places.end());
     way.push_back(to);
     bool free = is_free(way[0], way[1]);
-    for (std::size_t at = way_home_.size(); free && at + 1 < way.size(); ++at) free = is_free(way[at], way[at + 1]);
-    if (free) return way;
+    for (std::size_t at = std::max<std::size_t>(home, 1); free && at + 1 < way.size(); ++at)
+      free = is_free(way[at], way[at + 1]);
+    return free ? way : std::vector<Configuration>();
+  };
+  if (const auto known = ways_.find(direction); known != ways_.end())
+    if (std::vector<Configuration> way = by_home(known->second); !way.empty()) return way;
+  // As into another direction, with the stock turned.
+  for (const auto& [other, known] : ways_) {
+    std::vector<Configuration> places = known;
+    for (Configuration& place : places)
+      for (const int coordinate : turning) place[coordinate] = to[coordinate];
+    if (std::vector<Configuration> way = by_home(places); !way.empty()) return way;
   }
   if (!searched_.insert(direction).second) return {};
   Transit found =

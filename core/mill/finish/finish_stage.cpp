@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
+#include "core/mill/drive/hop.hpp"
 #include "core/mill/finish/contour_strokes.hpp"
 #include "core/mill/finish/nail_reach.hpp"
 #include "core/mill/finish/rows.hpp"
@@ -134,10 +137,19 @@ class FinishStage {
   struct Batch {
     std::vector<MillStroke> strokes;
     std::vector<Laid> contours;  ///< in the order of their strokes
+    std::vector<Contour> apart;  ///< that the robot does not come to from above
   };
 
-  /// The nearest that the tip comes to along the surface; else the nearest.
-  static Contour lay_next(std::vector<Contour>& contours, ContourStrokes& laid) {
+  /// Does the robot hold the tip above where a contour begins, as high as it comes over?
+  bool comes_over(const Site& site, const Contour& contour, double min_height) const {
+    Vec3 over = contour.front();
+    over.z() = std::max(site.clear_height(over, over, air_clearance_m), min_height);
+    return carver_.reach().allows(over);
+  }
+
+  /// The nearest that the tip comes to along the surface; else the nearest that it may come to from above.
+  void lay_next(const Site& site, double min_height, std::vector<Contour>& contours, ContourStrokes& laid,
+                Batch& batch) const {
     const std::vector<std::size_t> near = turn_nearest(laid.at(), contours, looked_at);
     std::size_t next = near.front();
     Contour way;
@@ -145,50 +157,62 @@ class FinishStage {
       way = laid.way_to(contours[near[at]]);
       if (!way.empty()) next = near[at];
     }
+    bool comes = !way.empty();
+    for (std::size_t at = 0; at < near.size() && !comes; ++at)
+      if ((comes = comes_over(site, contours[near[at]], min_height))) next = near[at];
     Contour contour = std::move(contours[next]);
     contours.erase(contours.begin() + static_cast<std::ptrdiff_t>(next));
+    if (!comes) return batch.apart.push_back(std::move(contour));
+    const std::size_t begin = laid.strokes().size();
     laid.lay(contour, way);
-    return contour;
+    batch.contours.push_back({std::move(contour), begin});
   }
 
-  static Batch lay_batch(std::vector<Contour>& contours, ContourStrokes& laid) {
+  Batch lay_batch(const Site& site, double min_height, std::vector<Contour>& contours, ContourStrokes& laid) const {
     Batch batch;
-    while (!contours.empty() && laid.strokes().size() < strokes_a_batch) {
-      const std::size_t begin = laid.strokes().size();
-      batch.contours.push_back({lay_next(contours, laid), begin});
-    }
+    while (!contours.empty() && laid.strokes().size() < strokes_a_batch)
+      lay_next(site, min_height, contours, laid, batch);
     batch.strokes = laid.take_strokes();
     return batch;
   }
 
+  /// Ways over as low as they may be; those that the robot cannot go so once more, above everything.
   void carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours) {
-    double min_height = -std::numeric_limits<double>::infinity();
+    for (const double min_height : {-std::numeric_limits<double>::infinity(), carver_.hub().z()})
+      contours = carry_out(site, task, std::move(contours), min_height);
+  }
+
+  /// Gives those that it found no way to.
+  std::vector<Contour> carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours,
+                                 double min_height) {
+    std::vector<Contour> apart;
     for (int failures = 0; !contours.empty() && failures < max_failures; ++failures) {
       ContourStrokes laid({site, task, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
                            beside_spacings * spacing_m_, min_height},
                           carver_.stock().left(), carver_.tip(site));
-      Batch batch, ahead = lay_batch(contours, laid);
+      Batch batch, ahead = lay_batch(site, min_height, contours, laid);
       std::size_t done = 0;
       while (!ahead.contours.empty() && done == batch.strokes.size()) {
         batch = std::exchange(ahead, {});
+        std::ranges::move(batch.apart, std::back_inserter(apart));
         // While the arm follows, the next one is laid; it counts on this one.
         run_.helpers.for_each_index(2, [&](std::size_t which) {
           if (which == 0)
             done = carver_.carry_out(batch.strokes);
           else
-            ahead = lay_batch(contours, laid);
+            ahead = lay_batch(site, min_height, contours, laid);
         });
       }
-      if (done == batch.strokes.size()) return;
-      // What was to come after the one that failed is planned anew; the one itself once more from above.
-      auto failed = std::ranges::upper_bound(batch.contours, done, {}, &Laid::begin) - 1;
-      const bool again = !batch.strokes[done].cut && min_height < carver_.hub().z();
-      min_height = again ? carver_.hub().z() : min_height;
-      if (!again) ++failed;
-      for (; failed != batch.contours.end(); ++failed) contours.push_back(std::move(failed->contour));
+      std::ranges::move(ahead.apart, std::back_inserter(apart));
+      if (done == batch.strokes.size()) break;
+      // What was to come after the one that failed is planned anew.
+      const auto failed = std::ranges::upper_bound(batch.contours, done, {}, &Laid::begin) - 1;
+      if (!batch.strokes[done].cut) apart.push_back(std::move(failed->contour));
+      for (auto next = failed + 1; next != batch.contours.end(); ++next) contours.push_back(std::move(next->contour));
       for (Laid& next : ahead.contours) contours.push_back(std::move(next.contour));
       carver_.draw_back(site);
     }
+    return apart;
   }
 
   const MillJob& job_;

@@ -41,6 +41,17 @@ struct ToolView {
   }
 };
 
+/// Turned by a quarter about z, from x to y.
+inline ToolView quarter_turned(ToolView view) {
+  view.corner = {};
+  for (Voxel& step : view.step) {
+    step = {-step.j, step.i, step.k};
+    if (step.i + step.j + step.k < 0) view.corner = view.corner - step * (view.n - 1);
+  }
+  view.held = {-view.held.y(), view.held.x(), view.held.z()};
+  return view;
+}
+
 /// Tool axis +z, then the four sides +x, +y, -x, -y, each the one before it turned by a quarter about z.
 inline std::array<ToolView, 5> tool_views(int n) {
   const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
@@ -57,17 +68,10 @@ inline std::array<ToolView, 5> tool_views(int n) {
 /// one before it turned by a quarter about z.
 inline std::vector<ToolView> tilted_views(int n) {
   const Voxel x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const auto turned = [](Voxel v) { return Voxel{-v.j, v.i, v.k}; };
   std::vector<ToolView> views;
   for (ToolView view : {ToolView{n, {}, {x, y, z}, {1, 0, 1}}, ToolView{n, {}, {x, z, y}, {1, 0, 1}},
                         ToolView{n, {}, {x, y, z}, {1, 1, 1}}})
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      view.corner = {};
-      for (const Voxel step : view.step)
-        if (step.i + step.j + step.k < 0) view.corner = view.corner - step * (n - 1);
-      views.push_back(view);
-      for (Voxel& step : view.step) step = turned(step);
-    }
+    for (int quarter = 0; quarter < 4; ++quarter, view = quarter_turned(view)) views.push_back(view);
   return views;
 }
 
