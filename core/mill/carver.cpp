@@ -174,8 +174,9 @@ void Carver::go(FollowedMill followed) {
   arm_.commit(std::move(followed));
 }
 
-/// A place above everything, from where the robot comes down, as near to the middle as there is one; else one from where
-/// it does not, or one that is above what stands about it: along a tilted axis the tip may have no room above everything.
+/// A place above everything, from where the robot comes down, as near to the middle as there is one; else one from
+/// where it does not, or one that is above what stands about it: along a tilted axis the tip may have no room above
+/// everything.
 std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field) const {
   const Lattice& lattice = site.lattice();
   std::vector<Point2> columns;

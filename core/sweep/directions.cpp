@@ -140,8 +140,7 @@ std::size_t Directions::number_of(const PostureField& field) const {
 std::unique_ptr<PostureField> Directions::find_tilted(std::size_t direction) {
   const std::size_t quarters = (direction - straight_) % sides;
   if (turn_ && quarters > 0)
-    if (auto other =
-            turned(field(direction - quarters), *turn_, ways_[direction].view, static_cast<int>(quarters)))
+    if (auto other = turned(field(direction - quarters), *turn_, ways_[direction].view, static_cast<int>(quarters)))
       return other;
   Fields found = search(ways_[direction].view, tool_views(scene_.grid().n).size() + direction - straight_);
   return std::move(*std::ranges::max_element(found, {}, [](const auto& field) { return field->usable_cells(); }));

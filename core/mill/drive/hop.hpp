@@ -11,8 +11,8 @@ namespace sculpt {
 /// What the tool keeps off things in the air.
 inline constexpr double air_clearance_m = 2e-3;
 
-/// Up to where the way over is clear of everything, or down from above it; over, at no less than `min_height`; and on to
-/// `to` (tool frame): so near what could be there it strays by no more than `stray_m`.
+/// Up to where the way over is clear of everything, or down from above it; over, at no less than `min_height`; and on
+/// to `to` (tool frame): so near what could be there it strays by no more than `stray_m`.
 void hop(const Site& site, const Vec3& from, const Vec3& to, double min_height, double stray_m,
          std::vector<MillStroke>& strokes);
 

@@ -31,9 +31,6 @@ std::vector<int> stock_coordinates(const Chain& chain) {
 /// way that was found before, for this direction or for another one; or a search, once.
 std::vector<Configuration> MillArm::find_way(const Configuration& to, int direction) {
   const Scene& scene = held_->carrying();
-  const auto is_free = [&](const Configuration& from, const Configuration& there) {
-    return from == there || scene.certify(from, there) == Contact::none;
-  };
   if (is_free(q_, to)) return {q_, to};
   const std::vector<int> turning = stock_coordinates(scene.chain());
   for (std::size_t place = 0; place < way_home_.size(); ++place) {
@@ -51,32 +48,37 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to, int direct
       return way;
     }
   }
-  // Home, whose edges are free the more is cut, and on by these places.
-  const auto by_home = [&](const std::vector<Configuration>& places) {
-    std::vector<Configuration> way{q_};
-    way.insert(way.end(), way_home_.begin(), way_home_.end());
-    const std::size_t home = way_home_.size();
-    way.insert(way.end(), places.begin(), places.end());
-    way.push_back(to);
-    bool free = is_free(way[0], way[1]);
-    for (std::size_t at = std::max<std::size_t>(home, 1); free && at + 1 < way.size(); ++at)
-      free = is_free(way[at], way[at + 1]);
-    return free ? way : std::vector<Configuration>();
-  };
   if (const auto known = ways_.find(direction); known != ways_.end())
-    if (std::vector<Configuration> way = by_home(known->second); !way.empty()) return way;
+    if (std::vector<Configuration> way = way_by_home(known->second, to); !way.empty()) return way;
   // As into another direction, with the stock turned.
   for (const auto& [other, known] : ways_) {
     std::vector<Configuration> places = known;
     for (Configuration& place : places)
       for (const int coordinate : turning) place[coordinate] = to[coordinate];
-    if (std::vector<Configuration> way = by_home(places); !way.empty()) return way;
+    if (std::vector<Configuration> way = way_by_home(places, to); !way.empty()) return way;
   }
   if (!searched_.insert(direction).second) return {};
   Transit found =
       plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
   return std::move(found.path);
+}
+
+/// Home, whose edges are free the more is cut, and on by these places; nothing if that is not free.
+std::vector<Configuration> MillArm::way_by_home(const std::vector<Configuration>& places,
+                                                const Configuration& to) const {
+  std::vector<Configuration> way{q_};
+  way.insert(way.end(), way_home_.begin(), way_home_.end());
+  const std::size_t home = std::max<std::size_t>(way_home_.size(), 1);
+  way.insert(way.end(), places.begin(), places.end());
+  way.push_back(to);
+  bool free = is_free(way[0], way[1]);
+  for (std::size_t at = home; free && at + 1 < way.size(); ++at) free = is_free(way[at], way[at + 1]);
+  return free ? way : std::vector<Configuration>();
+}
+
+bool MillArm::is_free(const Configuration& from, const Configuration& to) const {
+  return from == to || held_->carrying().certify(from, to) == Contact::none;
 }
 
 void MillArm::move(const std::vector<Configuration>& way) {

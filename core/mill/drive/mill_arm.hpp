@@ -41,6 +41,8 @@ class MillArm {
  private:
   /// `direction`: that it is for; -1: to rest.
   std::vector<Configuration> find_way(const Configuration& to, int direction);
+  std::vector<Configuration> way_by_home(const std::vector<Configuration>& places, const Configuration& to) const;
+  bool is_free(const Configuration& from, const Configuration& to) const;
   void move(const std::vector<Configuration>& way);
   void leave_for(const Configuration& to);
 

@@ -18,7 +18,9 @@ constexpr double room_m = 0.06;
 
 class HeldToolTest : public testing::Test {
  protected:
-  const HeldTool::Fields& fields(const Direction& direction) { return held.fields(direction, home, {0, helpers, watch}); }
+  const HeldTool::Fields& fields(const Direction& direction) {
+    return held.fields(direction, home, {0, helpers, watch});
+  }
 
   const Cell cell = parse_cell(milled::make_job("bust", n, {"D6"}).cell);
   const Grid grid = cell.grid(n);
@@ -40,8 +42,8 @@ TEST_F(HeldToolTest, ADirectionIsHeldAsItsQuarterTurnsAreWhereTheStockCanBeTurne
       const HeldTool::Fields& turned = fields(direction);
       ASSERT_FALSE(turned.empty());
       EXPECT_EQ(turned.front()->usable_cells(), first);
-      EXPECT_NEAR(turned.front()->view().axis().dot(
-                      Vec3(direction[0], direction[1], direction[2]).normalized()), 1, 1e-12);
+      EXPECT_NEAR(turned.front()->view().axis().dot(Vec3(direction[0], direction[1], direction[2]).normalized()), 1,
+                  1e-12);
       const ToolPose pose = turned.front()->chain().tool_pose(turned.front()->start());
       EXPECT_NEAR(pose.axis.dot(turned.front()->view().axis()), 1, 1e-6) << "the arm holds it so";
       EXPECT_EQ((turned.front()->start() - q).cwiseAbs().array().count(), quarter == 0 ? 0 : 1) << "the table alone";
@@ -59,7 +61,8 @@ TEST_F(HeldToolTest, WhereTheTipIsAllowedTheFieldBegins) {
   const PostureField& field = *fields(direction).front();
   double top = 0;
   for (int corner = 0; corner < 8; ++corner)
-    top = std::max(top, frame.of(grid.origin_m + n * grid.voxel_m * Vec3(corner & 1, corner >> 1 & 1, corner >> 2)).z());
+    top =
+        std::max(top, frame.of(grid.origin_m + n * grid.voxel_m * Vec3(corner & 1, corner >> 1 & 1, corner >> 2)).z());
   const ReachFloor reach(field, around, site, top + 0.05, helpers);
   const Lattice& lattice = site.lattice();
   int allowed = 0, wrong = 0, outside = 0;
