@@ -131,6 +131,9 @@ HeldTool::Fields HeldTool::find_turned(const Direction& direction, const Configu
       fields.push_back(std::make_unique<PostureField>(*field));
     else if (auto other = turned(*field, *turn_, views[static_cast<std::size_t>(asked)], asked - best.quarter))
       fields.push_back(std::move(other));
+  // The table may not turn so far.
+  if (fields.empty() && !best.fields.empty())
+    return search(direction, views[static_cast<std::size_t>(asked)], home, run);
   return fields;
 }
 
