@@ -51,6 +51,20 @@ TEST_F(HeldToolTest, ADirectionIsHeldAsItsQuarterTurnsAreWhereTheStockCanBeTurne
   }
 }
 
+TEST_F(HeldToolTest, WhereTheTableTurnsLittleEachDirectionIsLookedForOnItsOwn) {
+  Cell stiff = cell;
+  for (Joint& joint : stiff.robot.joints)
+    if (joint.name == "table") {
+      joint.lower = -0.5;
+      joint.upper = 0.5;
+    }
+  HeldTool here(stiff, tool, grid, around);
+  int directions_held = 0;
+  for (const Direction& direction : {Direction{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+    directions_held += !here.fields(direction, home, {0, helpers, watch}).empty();
+  EXPECT_GE(directions_held, 3);
+}
+
 // Along a tilted axis what is above the stock may be outside of the field.
 TEST_F(HeldToolTest, WhereTheTipIsAllowedTheFieldBegins) {
   const Direction direction{18, 18, -15};
