@@ -80,7 +80,7 @@ bool Material::meets_thin_capsule(const Segment& segment, double radius, const E
   const Vec3 d = segment.b - segment.a;
   int main = 0;
   d.cwiseAbs().maxCoeff(&main);
-  const int u = (main + 1) % 3, v = (main + 2) % 3, last = n() - 1;
+  const int last = n() - 1;
   const double lowest = std::min(segment.a[main], segment.b[main]) - radius;
   const double highest = std::max(segment.a[main], segment.b[main]) + radius;
   if (highest <= 0 || lowest >= n()) return false;
@@ -88,23 +88,31 @@ bool Material::meets_thin_capsule(const Segment& segment, double radius, const E
   // From a on: what is in the way of a tool is most often beside its ball.
   for (int ahead = 0; ahead <= last_slab - first_slab; ++ahead) {
     const int slab = d[main] < 0 ? last_slab - ahead : first_slab + ahead;
-    double from = 0, to = 1;
-    if (!clip(segment, main, slab - radius, slab + 1 + radius, from, to)) continue;
-    const Vec3 p = segment.a + from * d, q = segment.a + to * d;
-    const double low_u = std::min(p[u], q[u]) - radius, high_u = std::max(p[u], q[u]) + radius;
-    const double low_v = std::min(p[v], q[v]) - radius, high_v = std::max(p[v], q[v]) + radius;
-    if (high_u <= 0 || low_u >= n() || high_v <= 0 || low_v >= n()) continue;
-    for (int y = floor_to(low_v, 0, last); y <= floor_to(high_v, 0, last); ++y) {
-      for (int x = floor_to(low_u, 0, last); x <= floor_to(high_u, 0, last); ++x) {
-        int cell[3];
-        cell[main] = slab;
-        cell[u] = x;
-        cell[v] = y;
-        const Voxel at{cell[0], cell[1], cell[2]};
-        if (!solid_.contains(at) || exempt.contains(at)) continue;
-        const Vec3 low(at.i, at.j, at.k);
-        if (distance_to_box(segment, low, low + Vec3::Ones()) < radius) return true;
-      }
+    if (slab_meets_capsule(main, slab, segment, radius, exempt)) return true;
+  }
+  return false;
+}
+
+bool Material::slab_meets_capsule(int main, int slab, const Segment& segment, double radius,
+                                  const Exempt& exempt) const {
+  double from = 0, to = 1;
+  if (!clip(segment, main, slab - radius, slab + 1 + radius, from, to)) return false;
+  const Vec3 d = segment.b - segment.a;
+  const Vec3 p = segment.a + from * d, q = segment.a + to * d;
+  const int u = (main + 1) % 3, v = (main + 2) % 3, last = n() - 1;
+  const double low_u = std::min(p[u], q[u]) - radius, high_u = std::max(p[u], q[u]) + radius;
+  const double low_v = std::min(p[v], q[v]) - radius, high_v = std::max(p[v], q[v]) + radius;
+  if (high_u <= 0 || low_u >= n() || high_v <= 0 || low_v >= n()) return false;
+  for (int y = floor_to(low_v, 0, last); y <= floor_to(high_v, 0, last); ++y) {
+    for (int x = floor_to(low_u, 0, last); x <= floor_to(high_u, 0, last); ++x) {
+      int cell[3];
+      cell[main] = slab;
+      cell[u] = x;
+      cell[v] = y;
+      const Voxel at{cell[0], cell[1], cell[2]};
+      if (!solid_.contains(at) || exempt.contains(at)) continue;
+      const Vec3 low(at.i, at.j, at.k);
+      if (distance_to_box(segment, low, low + Vec3::Ones()) < radius) return true;
     }
   }
   return false;

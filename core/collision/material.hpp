@@ -59,6 +59,8 @@ class Material {
 
  private:
   bool meets_thin_capsule(const Segment& segment, double radius, const Exempt& exempt) const;
+  /// Of the voxels whose coordinate along axis `main` is `slab`.
+  bool slab_meets_capsule(int main, int slab, const Segment& segment, double radius, const Exempt& exempt) const;
   bool cube_meets_capsule(int level, Voxel at, const Segment& segment, double radius, const Exempt& exempt) const;
 
   static int level_of(int size) { return std::countr_zero(static_cast<unsigned>(size)); }
