@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::size_t postures_an_axis = 8;
 
-/// The farthest that a tool axis gets at this voxel.
-Reason explain_axis(const Scene& scene, const ToolRoom& room, const PostureAtlas& atlas, Voxel voxel,
-                    std::size_t axis) {
+/// The farthest that a tool axis gets at this voxel, or that another one got.
+Reason explain_axis(const Scene& scene, const ToolRoom& room, const PostureAtlas& atlas, Voxel voxel, std::size_t axis,
+                    Reason farthest) {
   const IkGoal goal{scene.grid().centre(voxel), atlas.axes()[axis]};
-  if (!room.is_free(scene.material(), voxel, *goal.axis)) return Reason::tool_cannot_reach;
-  Reason farthest = Reason::out_of_reach;
+  if (!room.is_free(scene.material(), voxel, *goal.axis)) return farthest;
+  farthest = std::max(farthest, Reason::out_of_reach);
   const std::vector<Configuration> known = atlas.around(voxel, axis, postures_an_axis);
   for (const Configuration& start : known) {
     const auto q = solve_ik(scene.chain(), goal, start);
     if (q && scene.contact_at(*q, voxel) == Contact::none) return Reason::no_transit;
-    if (q) farthest = Reason::link_collision;
+    if (q) farthest = std::max(farthest, Reason::link_collision);
   }
-  if (farthest == Reason::link_collision) return farthest;
+  if (farthest >= Reason::joint_limits) return farthest;
   IkSettings unlimited;
   unlimited.respect_limits = false;
   const auto is_beyond = [&](const Configuration& start) {
@@ -56,8 +56,8 @@ Reason explain(const Scene& scene, const Support& support, const ToolRoom& room,
   if (scene.chain().translating())
     return explain_shifted(scene, support, voxel, (scene.chain().lower() + scene.chain().upper()) / 2);
   Reason farthest = Reason::tool_cannot_reach;
-  for (std::size_t axis = 0; axis < atlas.axes().size(); ++axis)
-    farthest = std::max(farthest, explain_axis(scene, room, atlas, voxel, axis));
+  for (std::size_t axis = 0; axis < atlas.axes().size() && farthest < Reason::no_transit; ++axis)
+    farthest = explain_axis(scene, room, atlas, voxel, axis, farthest);
   if (farthest == Reason::no_transit && support.frees(voxel)) return Reason::loose_piece;
   return farthest;
 }
