@@ -18,7 +18,7 @@ constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
 constexpr double same_place_m = 1e-6;
 /// Nails: of a square of the finest stepover, but no more and no fewer than these.
 constexpr double nails_a_stepover = 2;
-constexpr std::size_t fewest_nails = 20000, max_nails = 150000;
+constexpr std::size_t fewest_nails = 20000, max_nails = 300000;
 
 double area_of(const Mesh& mesh) {
   double area = 0;

@@ -203,8 +203,7 @@ constexpr double min_allowance_m = 6e-6;
 /// What a milling job asks for, against its tools and the cell's block.
 void check_wishes(const MillOrder& order, const std::vector<MillTool>& tools, const Cell& cell) {
   const auto refuse = [](const std::string& sentence) { throw InputError("tools_invalid", sentence); };
-  const double tolerance = order.tolerance_m, scallop = order.scallop_m.value_or(0.35 * tolerance),
-               allowance = order.allowance_m.value_or(0.3 * tolerance);
+  const double tolerance = order.tolerance_m, scallop = order.scallop(), allowance = order.allowance();
   if (!(tolerance > 0))
     refuse("a tolerance of " + mm(tolerance) + " cannot be met: give metres above 0, for example 0.0001");
   if (!(scallop > 0) || !(allowance >= 0) || scallop + allowance > tolerance)
@@ -212,7 +211,8 @@ void check_wishes(const MillOrder& order, const std::vector<MillTool>& tools, co
            mm(tolerance) + ": both together must be less");
   if (allowance < min_allowance_m)
     refuse("an allowance of " + mm(allowance) + " leaves the cutter less room to stray than it needs: give at least " +
-           mm(min_allowance_m) + ", or a tolerance of " + mm(min_allowance_m / 0.3) + " or more");
+           mm(min_allowance_m) + ", or a tolerance of " + mm(min_allowance_m / MillOrder::allowance_share) +
+           " or more");
   for (const MillTool& tool : tools) {
     if (tolerance > tool.cutter.radius_m)
       refuse("a tolerance of " + mm(tolerance) + " is more than the radius of '" + tool.name + "', " +

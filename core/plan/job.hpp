@@ -44,7 +44,11 @@ struct MillOrder {
   ToolLibraryFile library;
   std::vector<std::string> tools;
   double tolerance_m = 1e-4;  ///< what may stand above the surface where the tools come to it
-  std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default 0.35 and 0.3 of it
+  std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default these shares
+
+  static constexpr double scallop_share = 0.35, allowance_share = 0.2;
+  double scallop() const { return scallop_m.value_or(scallop_share * tolerance_m); }
+  double allowance() const { return allowance_m.value_or(allowance_share * tolerance_m); }
 };
 
 struct Job {

@@ -43,8 +43,7 @@ MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
 }
 
 MillWishes wishes_of(const MillOrder& order) {
-  return {order.tolerance_m, order.scallop_m.value_or(0.35 * order.tolerance_m),
-          order.allowance_m.value_or(0.3 * order.tolerance_m)};
+  return {order.tolerance_m, order.scallop(), order.allowance()};
 }
 
 TrajectoryHeader make_header(const Job& job, const MillInputs& inputs, const Grid& grid, const Chain& chain) {

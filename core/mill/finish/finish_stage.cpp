@@ -8,6 +8,7 @@
 #include "core/mill/drive/hop.hpp"
 #include "core/mill/finish/contour_strokes.hpp"
 #include "core/mill/finish/nail_reach.hpp"
+#include "core/mill/finish/pencil.hpp"
 #include "core/mill/finish/rows.hpp"
 
 namespace sculpt {
@@ -19,6 +20,8 @@ constexpr std::array classes{0.64, 0.34, -0.02};
 constexpr int rounds = 3;
 /// Of all nails: a direction is entered for so many, and in the last class for fewer.
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
+/// From place to place in creases (row spacings).
+constexpr double link_spacings = 4;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
 constexpr std::size_t strokes_a_batch = 1000, looked_at = 6;
@@ -96,8 +99,16 @@ class FinishStage {
     const EnvelopeTask task = make_task(along, *columns);
     std::vector<RestingBall> balls;
     balls.reserve(wanted.size());
-    for (const std::uint32_t nail : wanted) balls.push_back({nail, reach_.middle_over(nail, along.frame())});
-    const std::vector<Row> rows = find_rows({spacing_m_, round}, along.frame(), nails_, balls);
+    std::vector<Vec3> in_creases;
+    for (const std::uint32_t nail : wanted) {
+      const Vec3 middle = reach_.middle_over(nail, along.frame());
+      if (reach_.is_beside(nail))
+        in_creases.push_back(middle);
+      else
+        balls.push_back({nail, middle});
+    }
+    std::vector<Row> rows = find_rows({spacing_m_, round}, along.frame(), nails_, balls);
+    std::ranges::move(pencil_rows(in_creases, link_spacings * spacing_m_, spacing_m_), std::back_inserter(rows));
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};

@@ -1,6 +1,8 @@
 #include "core/mill/finish/nail_reach.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,9 +18,17 @@ constexpr double body_room_m = 1e-4;
 constexpr double reached_share = 1.0 / 3;
 /// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
 constexpr double rest_slack_m = 1e-6;
-/// Beside a nail: of how far a ball may rest on its plane and still leave the tolerance; and in so many ways.
-constexpr double beside_share = 0.6;
+/// Beside a nail: of how far a ball may rest on its plane and still leave the tolerance; each in so many ways.
+constexpr std::array beside_shares{0.4, 0.9};
 constexpr int turns_beside = 6;
+/// Of the tolerance, what may be left beside a nail: where it is more than all of it, points around come within it.
+constexpr double beside_tolerance_share = 1.5;
+/// Where a ball pushed off a nail leaves so many times as much, those pushed off beside it are not looked at.
+constexpr double hopeless = 4;
+/// A place beside a nail is worth going to for so much.
+constexpr double gain_m = 5e-6;
+/// Places no farther apart than this are one.
+constexpr double same_place_m = 3e-5;
 constexpr std::size_t nails_a_batch = 512;
 
 }  // namespace
@@ -36,7 +46,8 @@ NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, const
       nails_(carver.nails()),
       radius_m_(carver.tool().cutter.radius_m),
       along_(nails_.size()),
-      aside_(nails_.size(), Eigen::Vector3f::Zero()) {
+      aside_(nails_.size(), Eigen::Vector3f::Zero()),
+      leaves_(nails_.size()) {
   for (const Direction& direction : mill_directions()) frames_.emplace_back(direction);
   sites_.resize(frames_.size());
 }
@@ -49,12 +60,13 @@ Site& NailReach::site(std::size_t direction) {
   return *sites_[direction];
 }
 
-Vec3 NailReach::middle_over(std::size_t nail, const ToolFrame& frame) const {
-  return frame.of(nails_[nail].point + (radius_m_ + job_.wishes.allowance_m) * nails_[nail].normal +
-                  aside_[nail].cast<double>());
+Vec3 NailReach::middle_at(const Place& place, const ToolFrame& frame) const {
+  const Nail& nail = nails_[place.nail];
+  return frame.of(nail.point + (radius_m_ + job_.wishes.allowance_m) * nail.normal + place.aside);
 }
 
 void NailReach::find(double below, double from) {
+  const double most_m = job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
   std::vector<std::vector<char>> found(frames_.size());
   run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
     const Site& here = site(direction);
@@ -62,7 +74,8 @@ void NailReach::find(double below, double from) {
     found[direction].resize(nails_.size());
     for (std::size_t nail = 0; nail < nails_.size(); ++nail) {
       const double along = cosine(nail, direction);
-      if (along < below && along >= from && is_open(nail)) found[direction][nail] = is_reached(nail, here, *columns);
+      if (along < below && along >= from && is_open(nail))
+        found[direction][nail] = leaves_no_more(most_m, {nail, Vec3::Zero(), 0}, here, *columns);
       if (nail % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
     }
   });
@@ -73,18 +86,15 @@ void NailReach::find(double below, double from) {
   }
 }
 
-bool NailReach::is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const {
-  return leaves_no_more(job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m, nail, site, columns);
-}
-
 /// Does a cutter at rest leave no more of what stands on a nail? No where it may not be.
-bool NailReach::leaves_no_more(double most_m, std::size_t nail, const Site& site, const FacetColumns& columns) const {
-  const Vec3 middle = middle_over(nail, site.frame());
+bool NailReach::leaves_no_more(double most_m, const Place& place, const Site& site, const FacetColumns& columns) const {
+  const auto& [nail, aside, leaves] = place;
+  const Vec3 middle = middle_at(place, site.frame());
   if (!is_above_floor(site, middle - Vec3(0, 0, radius_m_))) return false;
   const Vec3 normal = site.frame().of(nails_[nail].normal);
-  const double height = columns.rest_height(middle.x(), middle.y(), radius_m_ + job_.wishes.allowance_m - rest_slack_m,
-                                            middle.z() - rest_slack_m,
-                                            middle.z() + highest_above(nail, most_m, normal.z()) + rest_slack_m);
+  const double height = columns.rest_height(
+      middle.x(), middle.y(), radius_m_ + job_.wishes.allowance_m - rest_slack_m, middle.z() - rest_slack_m,
+      middle.z() + highest_above(aside.norm(), most_m, normal.z()) + rest_slack_m);
   return way_to_ball(site.frame().of(nails_[nail].point), normal, {middle.x(), middle.y(), height}, radius_m_) <=
          most_m;
 }
@@ -92,8 +102,8 @@ bool NailReach::leaves_no_more(double most_m, std::size_t nail, const Site& site
 /// Raised more than this above its place on a nail or beside it, a ball leaves more than `most_m`. Along the normal its
 /// middle is r + allowance + d cos from the nail, across it d sin and what it is aside; it leaves `most_m` where
 /// (r + allowance - most_m + d cos)^2 + (d sin - aside)^2 = r^2.
-double NailReach::highest_above(std::size_t nail, double most_m, double cosine) const {
-  const double aside = static_cast<double>(aside_[nail].norm()), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+double NailReach::highest_above(double aside, double most_m, double cosine) const {
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
   const double along = radius_m_ + job_.wishes.allowance_m - most_m;
   const double half = along * cosine - sine * aside,
                root = half * half - along * along - aside * aside + radius_m_ * radius_m_;
@@ -101,30 +111,72 @@ double NailReach::highest_above(std::size_t nail, double most_m, double cosine) 
 }
 
 void NailReach::find_beside(double from) {
-  Views columns;
-  for (std::size_t direction = 0; direction < frames_.size(); ++direction) {
-    site(direction);
-    columns.push_back(views_.along(direction, frames_[direction]));
-  }
-  const double far = beside_share * std::sqrt(2 * radius_m_ * (job_.wishes.tolerance_m - job_.wishes.allowance_m));
-  run_.helpers.for_each_index((nails_.size() + nails_a_batch - 1) / nails_a_batch, [&](std::size_t batch) {
-    if (run_.watch.stop.stop_requested()) throw Cancelled{};
-    for (std::size_t nail = batch * nails_a_batch; nail < std::min(nails_.size(), (batch + 1) * nails_a_batch); ++nail)
-      if (is_open(nail) && along_[nail] == 0) find_beside(nail, from, far, columns);
+  const std::vector<Place> places = free_places();
+  const double most_m = beside_tolerance_share * job_.wishes.tolerance_m;
+  std::vector<std::vector<char>> found(frames_.size());
+  run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
+    const Site& here = site(direction);
+    const auto columns = views_.along(direction, frames_[direction]);
+    found[direction].resize(places.size());
+    for (std::size_t at = 0; at < places.size(); ++at) {
+      if (cosine(places[at].nail, direction) >= from)
+        found[direction][at] = leaves_no_more(most_m, places[at], here, *columns);
+      if (at % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
+    }
   });
+  // Of a nail's places the one that it is come to along most directions.
+  for (std::size_t at = 0; at < places.size(); ++at) {
+    const auto& [nail, aside, leaves] = places[at];
+    std::uint32_t along = 0;
+    for (std::size_t direction = 0; direction < found.size(); ++direction)
+      along |= static_cast<std::uint32_t>(found[direction][at]) << direction;
+    if (std::popcount(along) <= std::popcount(along_[nail])) continue;
+    along_[nail] = along;
+    aside_[nail] = aside.cast<float>();
+    leaves_[nail] = leaves + static_cast<float>(gain_m);
+  }
 }
 
-void NailReach::find_beside(std::size_t nail, double from, double far, const Views& columns) {
-  const Vec3 side = nails_[nail].normal.unitOrthogonal(), other = nails_[nail].normal.cross(side);
-  for (int turn = 0; turn < turns_beside && along_[nail] == 0; ++turn) {
-    const double angle = 2 * std::numbers::pi * turn / turns_beside;
-    aside_[nail] = (far * (std::cos(angle) * side + std::sin(angle) * other)).cast<float>();
-    for (std::size_t direction = 0; direction < frames_.size(); ++direction)
-      if (cosine(nail, direction) >= from &&
-          leaves_no_more(job_.wishes.tolerance_m, nail, *sites_[direction], *columns[direction]))
-        along_[nail] |= std::uint32_t{1} << direction;
-  }
-  if (along_[nail] == 0) aside_[nail].setZero();
+/// Where a ball that the part alone is in the way of leaves less, of open nails that nothing was found for; in the
+/// order of nails.
+std::vector<NailReach::Place> NailReach::free_places() const {
+  const FreeBall ball(job_.part);
+  std::vector<std::vector<Place>> found((nails_.size() + nails_a_batch - 1) / nails_a_batch);
+  run_.helpers.for_each_index(found.size(), [&](std::size_t batch) {
+    if (run_.watch.stop.stop_requested()) throw Cancelled{};
+    for (std::size_t nail = batch * nails_a_batch; nail < std::min(nails_.size(), (batch + 1) * nails_a_batch); ++nail)
+      if (is_open(nail) && along_[nail] == 0) add_free_places(nail, ball, found[batch]);
+  });
+  std::vector<Place> places;
+  for (const auto& each : found) places.insert(places.end(), each.begin(), each.end());
+  return places;
+}
+
+void NailReach::add_free_places(std::size_t nail, const FreeBall& ball, std::vector<Place>& places) const {
+  const auto& [point, normal] = nails_[nail];
+  const double radius = radius_m_ + job_.wishes.allowance_m,
+               far = std::sqrt(2 * radius_m_ * std::max(0.0, job_.wishes.tolerance_m - job_.wishes.allowance_m));
+  const Vec3 side = normal.unitOrthogonal(), other = normal.cross(side), rest = point + radius * normal;
+  const double most_m = beside_tolerance_share * job_.wishes.tolerance_m;
+  const std::size_t first = places.size();
+  // What it leaves; infinite where it is not free.
+  const auto add = [&](const Vec3& start) {
+    const auto middle = ball.push_out(start, radius);
+    if (!middle) return std::numeric_limits<double>::infinity();
+    const double leaves = way_to_ball(point, normal, *middle, radius_m_ - job_.wishes.stray_m());
+    const Vec3 aside = *middle - rest;
+    const bool is_known = std::any_of(places.begin() + static_cast<std::ptrdiff_t>(first), places.end(),
+                                      [&](const Place& place) { return (place.aside - aside).norm() < same_place_m; });
+    if (!is_known && leaves <= most_m && leaves + gain_m < nails_.excess(nail))
+      places.push_back({nail, aside, static_cast<float>(leaves)});
+    return leaves;
+  };
+  if (add(rest) > hopeless * most_m) return;
+  for (const double share : beside_shares)
+    for (int turn = 0; turn < turns_beside; ++turn) {
+      const double angle = 2 * std::numbers::pi * turn / turns_beside;
+      add(rest + share * far * (std::cos(angle) * side + std::sin(angle) * other));
+    }
 }
 
 }  // namespace sculpt

@@ -1,12 +1,14 @@
 // Along which directions a ball cutter comes to each nail.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/base/run_context.hpp"
 #include "core/mill/carver.hpp"
+#include "core/mill/finish/free_ball.hpp"
 #include "core/mill/finish/part_views.hpp"
 
 namespace sculpt {
@@ -31,22 +33,34 @@ class NailReach {
   /// Its maps; made when first asked for, of each direction one thread at a time.
   Site& site(std::size_t direction);
   bool comes_along(std::size_t nail, std::size_t direction) const { return along_[nail] >> direction & 1; }
-  /// What stands on it is more than the tolerance.
-  bool is_open(std::size_t nail) const { return nails_.excess(nail) > job_.wishes.tolerance_m; }
+  /// What stands on it is more than the tolerance, and than a ball beside it would leave.
+  bool is_open(std::size_t nail) const {
+    return nails_.excess(nail) > std::max(job_.wishes.tolerance_m, static_cast<double>(leaves_[nail]));
+  }
+  /// Does the ball rest beside it?
+  bool is_beside(std::size_t nail) const { return !aside_[nail].isZero(0); }
   double cosine(std::size_t nail, std::size_t direction) const { return nails_[nail].normal.dot(frames_[direction].w); }
   /// Of the ball at rest on a nail, or beside it (tool frame).
-  Vec3 middle_over(std::size_t nail, const ToolFrame& frame) const;
+  Vec3 middle_over(std::size_t nail, const ToolFrame& frame) const {
+    return middle_at({nail, aside_[nail].cast<double>(), 0}, frame);
+  }
   Vec3 tip_at(std::size_t nail, const ToolFrame& frame) const {
     return middle_over(nail, frame) - Vec3(0, 0, radius_m_);
   }
 
  private:
-  using Views = std::vector<std::shared_ptr<const FacetColumns>>;
+  /// A ball's middle: from where it would touch the nail, but for the allowance, by `aside` (stock frame).
+  struct Place {
+    std::size_t nail;
+    Vec3 aside;
+    float leaves;  ///< above the nail (m), where the ball gets there
+  };
 
-  bool is_reached(std::size_t nail, const Site& site, const FacetColumns& columns) const;
-  bool leaves_no_more(double most_m, std::size_t nail, const Site& site, const FacetColumns& columns) const;
-  double highest_above(std::size_t nail, double most_m, double cosine) const;
-  void find_beside(std::size_t nail, double from, double far, const Views& columns);
+  Vec3 middle_at(const Place& place, const ToolFrame& frame) const;
+  bool leaves_no_more(double most_m, const Place& place, const Site& site, const FacetColumns& columns) const;
+  double highest_above(double aside, double most_m, double cosine) const;
+  std::vector<Place> free_places() const;
+  void add_free_places(std::size_t nail, const FreeBall& ball, std::vector<Place>& places) const;
 
   const MillJob& job_;
   PartViews& views_;
@@ -58,6 +72,7 @@ class NailReach {
   std::vector<std::unique_ptr<Site>> sites_;
   std::vector<std::uint32_t> along_;    ///< of each nail, a bit for each direction
   std::vector<Eigen::Vector3f> aside_;  ///< of each nail, how far beside it the ball rests
+  std::vector<float> leaves_;           ///< of each nail, what a ball beside it leaves, and a little
 };
 
 }  // namespace sculpt
