@@ -143,9 +143,11 @@ std::vector<NailReach::Place> NailReach::free_places() const {
   const FreeBall ball(job_.part);
   std::vector<std::vector<Place>> found((nails_.size() + nails_a_batch - 1) / nails_a_batch);
   run_.helpers.for_each_index(found.size(), [&](std::size_t batch) {
-    if (run_.watch.stop.stop_requested()) throw Cancelled{};
-    for (std::size_t nail = batch * nails_a_batch; nail < std::min(nails_.size(), (batch + 1) * nails_a_batch); ++nail)
+    for (std::size_t nail = batch * nails_a_batch; nail < std::min(nails_.size(), (batch + 1) * nails_a_batch);
+         ++nail) {
+      if (run_.watch.stop.stop_requested()) throw Cancelled{};
       if (is_open(nail) && along_[nail] == 0) add_free_places(nail, ball, found[batch]);
+    }
   });
   std::vector<Place> places;
   for (const auto& each : found) places.insert(places.end(), each.begin(), each.end());
@@ -171,7 +173,9 @@ void NailReach::add_free_places(std::size_t nail, const FreeBall& ball, std::vec
       places.push_back({nail, aside, static_cast<float>(leaves)});
     return leaves;
   };
-  if (add(rest) > hopeless * most_m) return;
+  // Where it may be on the nail itself not the part is in the way, but what is above the cutter.
+  const double pushed_off = add(rest);
+  if (pushed_off <= job_.wishes.allowance_m + job_.wishes.stray_m() + gain_m || pushed_off > hopeless * most_m) return;
   for (const double share : beside_shares)
     for (int turn = 0; turn < turns_beside; ++turn) {
       const double angle = 2 * std::numbers::pi * turn / turns_beside;

@@ -1,7 +1,9 @@
 #include "core/mill/finish/pencil.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <limits>
+#include <numeric>
 #include <optional>
 
 namespace sculpt {
@@ -9,8 +11,11 @@ namespace {
 
 class Chains {
  public:
-  Chains(const std::vector<Vec3>& middles, double link_m) : middles_(middles), link2_(link_m * link_m) {
-    is_left_.assign(middles.size(), 1);
+  Chains(const std::vector<Vec3>& middles, double link_m)
+      : middles_(middles), link_m_(link_m), order_(middles.size()), rank_(middles.size()), is_left_(middles.size(), 1) {
+    std::iota(order_.begin(), order_.end(), 0);
+    std::ranges::stable_sort(order_, {}, [&](std::size_t at) { return middles[at].x(); });
+    for (std::size_t rank = 0; rank < order_.size(); ++rank) rank_[order_[rank]] = rank;
   }
 
   /// From a place on, to the nearest that is left, as far as it goes.
@@ -29,17 +34,22 @@ class Chains {
  private:
   std::optional<std::size_t> nearest(std::size_t to) const {
     std::optional<std::size_t> found;
-    double least2 = link2_;
-    for (std::size_t at = 0; at < middles_.size(); ++at) {
-      if (is_left_[at] == 0) continue;
-      const double distance2 = (middles_[at] - middles_[to]).squaredNorm();
-      if (distance2 < least2) least2 = distance2, found = at;
-    }
+    double least = link_m_;
+    // False where none that follows in that way is nearer.
+    const auto look = [&](std::size_t at) {
+      if (std::abs(middles_[at].x() - middles_[to].x()) >= least) return false;
+      if (is_left_[at] == 0) return true;
+      if (const double distance = (middles_[at] - middles_[to]).norm(); distance < least) least = distance, found = at;
+      return true;
+    };
+    for (std::size_t rank = rank_[to]; rank-- > 0 && look(order_[rank]);) continue;
+    for (std::size_t rank = rank_[to]; ++rank < order_.size() && look(order_[rank]);) continue;
     return found;
   }
 
   const std::vector<Vec3>& middles_;
-  double link2_;
+  double link_m_;
+  std::vector<std::size_t> order_, rank_;  ///< by the first coordinate
   std::vector<char> is_left_;
 };
 

@@ -31,6 +31,33 @@ TEST(Pencil, GoesThroughACreaseFromEndToEndInWhateverOrderItsPlacesAre) {
   }
 }
 
+TEST(Pencil, EachIsJoinedToTheNearestThatIsLeft) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Vec3> places;
+    for (int at = 0; at < 200; ++at)
+      places.emplace_back(random.between(0, 6), random.between(0, 6), random.between(0, 2));
+    std::vector<Vec3> left(places);
+    const auto take = [&](const Vec3& place) { std::erase(left, place); };
+    int joined = 0;
+    for (const Row& row : pencil_rows(places, link, alone)) {
+      const auto at = [&](const Point2& plan) {
+        return std::ranges::find_if(places, [&](const Vec3& place) { return place.head<2>() == plan; });
+      };
+      const Vec3 from = *at(row.from);
+      take(from);
+      if (at(row.to) == places.end()) continue;  // alone
+      const Vec3 to = *at(row.to);
+      for (const Vec3& other : left) EXPECT_GE((other - from).norm(), (to - from).norm());
+      take(to);
+      ++joined;
+    }
+    EXPECT_GT(joined, 100);
+    EXPECT_TRUE(left.empty());
+  }
+}
+
 TEST(Pencil, PlacesThatAreFarApartAreNotJoined) {
   // In plan the same, far apart along the axis.
   const std::vector<Vec3> places{{0, 0, 0}, {0.1, 0, 5}, {3, 0, 0}};
