@@ -193,6 +193,29 @@ class FinishStage {
       contours = carry_out(site, task, std::move(contours), min_height);
   }
 
+  struct Followed {
+    Batch batch, ahead;    ///< the last one that the arm began with, and the one after it
+    std::size_t done = 0;  ///< strokes of the last one
+  };
+
+  /// Until all is laid, or the arm does not come to the end of a batch.
+  Followed follow_batches(const Site& site, double min_height, std::vector<Contour>& contours, ContourStrokes& laid,
+                          std::vector<Contour>& apart) {
+    Followed last{{}, lay_batch(site, min_height, contours, laid), 0};
+    while (!last.ahead.contours.empty() && last.done == last.batch.strokes.size()) {
+      last.batch = std::exchange(last.ahead, {});
+      std::ranges::move(last.batch.apart, std::back_inserter(apart));
+      // While the arm follows, the next one is laid; it counts on this one.
+      run_.helpers.for_each_index(2, [&](std::size_t which) {
+        if (which == 0)
+          last.done = carver_.carry_out(last.batch.strokes);
+        else
+          last.ahead = lay_batch(site, min_height, contours, laid);
+      });
+    }
+    return last;
+  }
+
   /// Gives those that it found no way to.
   std::vector<Contour> carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours,
                                  double min_height) {
@@ -201,19 +224,7 @@ class FinishStage {
       ContourStrokes laid({site, task, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
                            beside_spacings * spacing_m_, min_height},
                           carver_.stock().left(), carver_.tip(site));
-      Batch batch, ahead = lay_batch(site, min_height, contours, laid);
-      std::size_t done = 0;
-      while (!ahead.contours.empty() && done == batch.strokes.size()) {
-        batch = std::exchange(ahead, {});
-        std::ranges::move(batch.apart, std::back_inserter(apart));
-        // While the arm follows, the next one is laid; it counts on this one.
-        run_.helpers.for_each_index(2, [&](std::size_t which) {
-          if (which == 0)
-            done = carver_.carry_out(batch.strokes);
-          else
-            ahead = lay_batch(site, min_height, contours, laid);
-        });
-      }
+      auto [batch, ahead, done] = follow_batches(site, min_height, contours, laid, apart);
       std::ranges::move(ahead.apart, std::back_inserter(apart));
       if (done == batch.strokes.size()) break;
       // What was to come after the one that failed is planned anew.

@@ -155,7 +155,7 @@ std::vector<NailReach::Place> NailReach::free_places() const {
 }
 
 void NailReach::add_free_places(std::size_t nail, const FreeBall& ball, std::vector<Place>& places) const {
-  const auto& [point, normal] = nails_[nail];
+  const Vec3 &point = nails_[nail].point, &normal = nails_[nail].normal;
   const double radius = radius_m_ + job_.wishes.allowance_m,
                far = std::sqrt(2 * radius_m_ * std::max(0.0, job_.wishes.tolerance_m - job_.wishes.allowance_m));
   const Vec3 side = normal.unitOrthogonal(), other = normal.cross(side), rest = point + radius * normal;
