@@ -21,8 +21,6 @@ constexpr double min_share = 0.15;
 constexpr double linked_radii = 8;
 /// How often half a width is laid before a place that would take off too much.
 constexpr int max_tries = 3;
-/// Over so many radii it is looked at what is taken off; edges that are shorter than a third of it count as that long.
-constexpr double window_radii = 0.5;
 
 }  // namespace
 
@@ -30,7 +28,7 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
     : task_(task),
       surface_(surface),
       lattice_(surface.lattice()),
-      cap_m3_m_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
+      cap_m2_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
       width_m_(width_share * task.tool.max_width_m),
       stands_above_(static_cast<float>(task.height + task.cusp_share * task.tool.max_depth_m)),
       stands_(find_reachable()) {
@@ -83,13 +81,28 @@ double Clearing::volume(const Point2& from, const Point2& to) const {
   return surface_.volume(at_level(from), at_level(to));
 }
 
-bool Clearing::may_cut(const Point2& from, const Point2& to) const {
-  return edge_is_free(from, to) && volume(from, to) <= cap_m3_m_ * (to - from).norm();
+/// Nowhere more than it may, bit by bit: what a long edge takes off at its end does not count by all of its length.
+bool Clearing::may_cut(const LevelPass& way) const {
+  ChipWindow window = chip_window();
+  bool is_first = true;
+  for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
+    const Point2 &from = way[edge], &to = way[edge + 1];
+    if (!edge_is_free(from, to)) return false;
+    const double length = (to - from).norm();
+    const int bits = std::max(1, static_cast<int>(std::ceil(length / window.length_m())));
+    for (int bit = 0; bit < bits; ++bit) {
+      const Point2 p = from + (to - from) * bit / bits, q = from + (to - from) * (bit + 1) / bits;
+      // The bit before it has been where it begins.
+      if (!window.take(volume(p, q) - (is_first ? 0 : volume(p, p)), length / bits)) return false;
+      is_first = false;
+    }
+  }
+  return true;
 }
 
 /// The cutter takes off little there, or nothing.
 bool Clearing::is_open(const Point2& p) const {
-  return edge_is_free(p, p) && volume(p, p) <= little_share * cap_m3_m_ * task_.tool.cutter.radius_m;
+  return edge_is_free(p, p) && volume(p, p) <= little_share * cap_m2_ * task_.tool.cutter.radius_m;
 }
 
 bool Clearing::are_near(const LevelRow& one, const LevelRow& other) const {
@@ -103,7 +116,7 @@ bool Clearing::is_worth_it(const LevelRow& row) const {
   double sum = 0, all = 0;
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
     const Point2 &from = row.points[at], &to = row.points[at + 1];
-    const double most = cap_m3_m_ * (to - from).norm();
+    const double most = cap_m2_ * (to - from).norm();
     sum += std::min(most, volume(from, to));
     all += most;
   }
@@ -171,13 +184,10 @@ std::vector<LevelPass> Clearing::ways_into(const LevelRow& row) const {
 /// From where the tip is, if that is near; or from where it is open.
 LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
   const Point2& begin = row.points.front();
-  if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut(*tip, begin))
+  if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}))
     return {*tip, begin};
-  for (LevelPass& way : ways_into(row)) {
-    bool is_allowed = is_open(way.front());
-    for (std::size_t at = 0; at + 1 < way.size() && is_allowed; ++at) is_allowed = may_cut(way[at], way[at + 1]);
-    if (is_allowed) return std::move(way);
-  }
+  for (LevelPass& way : ways_into(row))
+    if (is_open(way.front()) && may_cut(way)) return std::move(way);
   return {};
 }
 
@@ -187,7 +197,7 @@ void Clearing::put_off(std::size_t number, std::size_t refused) {
   const int tries = turns_[number].tries;
   // Of an edge what the one before it leaves.
   const auto is_too_much = [&](const Point2& from, const Point2& to) {
-    return volume(from, to) - volume(from, from) > cap_m3_m_ * (to - from).norm();
+    return volume(from, to) - volume(from, from) > cap_m2_ * (to - from).norm();
   };
   std::size_t end = refused + 1;
   while (end + 1 < row.points.size() && is_too_much(row.points[end], row.points[end + 1])) ++end;
@@ -218,8 +228,7 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
   if (pass.empty()) return {};
   const LevelRow row = row_now;  // turns are added below
   for (std::size_t at = 0; at + 1 < pass.size(); ++at) cut(pass[at], pass[at + 1]);
-  const double window = window_radii * task_.tool.cutter.radius_m;
-  double length = 0, taken = 0;  // over the last edges
+  ChipWindow window = chip_window();
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
     const Point2 &from = row.points[at], &to = row.points[at + 1];
     if (!edge_is_free(from, to)) {
@@ -227,14 +236,10 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
         turns_.push_back({{row.field, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
       break;
     }
-    const double more = volume(from, to), far = (to - from).norm();
-    if (length >= window) length = taken = 0;
-    if (taken + more > cap_m3_m_ * std::max(length + far, window) || more > cap_m3_m_ * (far + window / 3)) {
+    if (!window.take(volume(from, to), (to - from).norm())) {
       put_off(number, at);
       break;
     }
-    length += far;
-    taken += more;
     cut(from, to);
     pass.push_back(to);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/cell/milling/mill_tool.hpp"
+#include "core/mill/rough/chip_window.hpp"
 #include "core/mill/rough/level_rows.hpp"
 #include "core/mill/rough/stock_top.hpp"
 
@@ -51,11 +52,12 @@ class Clearing {
   };
 
   Vec3 at_level(const Point2& p) const { return {p.x(), p.y(), task_.height}; }
+  ChipWindow chip_window() const { return {cap_m2_, task_.tool.cutter.radius_m / 2}; }
   double volume(const Point2& from, const Point2& to) const;
   bool edge_is_free(const Point2& from, const Point2& to) const {
     return sculpt::edge_is_free(lattice_, task_.is_free, from, to);
   }
-  bool may_cut(const Point2& from, const Point2& to) const;
+  bool may_cut(const LevelPass& way) const;
   bool is_open(const Point2& p) const;
   void cut(const Point2& from, const Point2& to);
   std::vector<char> find_reachable() const;
@@ -71,7 +73,7 @@ class Clearing {
   ClearingTask task_;
   StockTop& surface_;
   const Lattice& lattice_;
-  double cap_m3_m_;     ///< volume by length
+  double cap_m2_;       ///< volume by length
   double width_m_;      ///< from row to row
   float stands_above_;  ///< cells higher than this are to come off
   std::vector<char> stands_;
