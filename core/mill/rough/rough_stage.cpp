@@ -18,6 +18,9 @@ constexpr double min_gain_share = 1e-3;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
 constexpr int max_failures = 12;
+/// Of rows over one level: a rib that is left stands the higher the deeper the levels beside it, until no row may take
+/// it off any more.
+constexpr int max_rounds = 3;
 
 class RoughStage {
  public:
@@ -122,12 +125,17 @@ class RoughStage {
     site.see(stock().standing(), job_.grid, run_.helpers);
     std::vector<char> free = free_cells(site, height, [this](const Vec3& at) { return carver_.reach().allows(at); });
     double min_height = height;
-    for (int failures = 0; failures < max_failures; ++failures) {
+    for (int rounds = 0, failures = 0; rounds < max_rounds && failures < max_failures;) {
       const std::vector<MillStroke> strokes = rough_level(
           site, {tool(), height, cusp_share, free}, {carver_.tip(site), min_height, stray_m()}, surface, run_.helpers);
       if (strokes.empty()) return;
       const std::size_t done = carver_.carry_out(strokes);
-      if (done == strokes.size()) return surface.lower_to(tops_to_cut(site));
+      if (done == strokes.size()) {
+        surface.lower_to(tops_to_cut(site));
+        ++rounds;
+        continue;
+      }
+      ++failures;
       // Not there, then, and what was to come after it is planned anew.
       if (!strokes[done].cut) min_height = carver_.hub().z();
       const Vec3 refused = site.frame().of(strokes[done].tip_m);
