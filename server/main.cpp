@@ -24,6 +24,7 @@
 #include "server/ops/migrate_command.hpp"
 #include "server/results/isolated_program.hpp"
 #include "server/results/isolated_timing.hpp"
+#include "server/results/machined_files.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
@@ -148,6 +149,7 @@ int main(int argc, char** argv) {
   if (mode == replay_job_option) return run_isolated_replay(make_planner({}));
   if (mode == time_job_option) return run_isolated_timing(make_planner({}));
   if (mode == program_job_option) return run_isolated_program(make_planner({}));
+  if (mode == machined_job_option) return run_isolated_machined(make_planner({}));
   CommandLine line;
   if (const std::optional<int> code = parse_command_line(argc, argv, line)) return *code;
   // A peer that vanished shows as an error of the write.

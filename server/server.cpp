@@ -62,7 +62,8 @@ struct Server::Impl {
         blobs(results.blobs(), config.blob_limit_bytes, shared_files()),
         isolation{config.worker, blobs.folder(), results.jobs(), job_defaults(config)},
         programs_of_jobs(blobs, isolation),
-        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner, programs_of_jobs),
+        machined_files(blobs, isolation),
+        artifacts(JobFiles(results.jobs(), shared_files()), *store, planner, programs_of_jobs, machined_files),
         passed(config.data / "checked"),
         scheduler(*store,
                   with_stage_times(
@@ -209,6 +210,7 @@ struct Server::Impl {
   Blobs blobs;
   Isolation isolation;
   Programs programs_of_jobs;
+  MachinedFiles machined_files;
   Artifacts artifacts;
   PassedChecks passed;
   Counters counters;

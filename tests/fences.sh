@@ -44,7 +44,7 @@ forbid "what writes programs knows no reader" "$(include 'core/program/read')" -
 forbid "planners know nothing of the replay" "$(include 'core/verify/')" -- core/{picture,collision,search,motion,sweep,mill,place,timing,program}
 forbid "plans need no doctor" "$(include 'core/doctor/')" -- core/plan
 forbid "a JSON value of a cell file stays in core/cell" "$(include 'core/cell/cell_(field|motion)')" "$(door 'cell/(cell_(file|motion)|milling/tool_library)\.[ch]pp')" -- core server clients
-forbid "verify shares nothing with the planners" "$(include 'core/(solid|picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/swept_voxels|core/material/(loose_pieces|support|flood|cavities|clamping|octree|block_graph)|core/cell/(chain|link_poses|ik)\.')" -- core/verify
+forbid "verify shares nothing with the planners" "$(include 'core/(solid|picture|collision|search|motion|sweep|mill|doctor|place|timing|program|plan)/|core/trajectory/milling/(swept_voxels|swept_set|milled_stock)|core/material/(loose_pieces|support|flood|cavities|clamping|octree|block_graph)|core/cell/(chain|link_poses|ik)\.')" -- core/verify
 forbid "verify has kinematics of its own" '(\.|->)chain\(\)|\b(LinkPoses|holder_shapes)\b' -- core/verify
 
 # Every folder has its place in one of the orders, and a .cpp file without a header says itself what it is.

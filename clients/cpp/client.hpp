@@ -55,7 +55,7 @@ double patience_from_environment();
 
 struct ArtifactRequest {
   std::string job;
-  std::string artifact;      ///< trajectory, voxels, stock, residue, report, program
+  std::string artifact;      ///< trajectory, timeline, voxels, stock, surface, residue, report, program
   std::string format = {};   ///< empty: the artifact's own
   std::uint64_t offset = 0;  ///< where to go on
   std::uint32_t chunk_bytes = 1 << 20;

@@ -486,7 +486,8 @@ LABELS = "air", "keep", "remove"
 
 def read_timeline(data):
     """(header, runs, cuts) of the tokens of a timeline, which may still grow: runs are (label, number of voxels), i changing fastest,
-    then j, then k; cuts are one entry a keyframe, [first, last] voxel or None where nothing is cut."""
+    then j, then k; cuts are one entry a keyframe, [first, last] voxel or None where nothing is cut. Of a plan with milling tools an
+    entry is the list of the [first, last] that a cut takes, maybe none, the number of the tool at a change, or None at a move."""
     head, _, body = data.partition(b"\n")
     header, numbers = json.loads(head), varints(body)
     runs, left = [], header["resolution"] ** 3
@@ -494,8 +495,8 @@ def read_timeline(data):
         length, label = divmod(next(numbers), len(LABELS))
         runs.append((LABELS[label], length + 1))
         left -= length + 1
-    cuts = []
-    while segment := read_tokens(numbers, 4096, header["resolution"], growing=True):
+    cuts, read = [], read_milled if "tools" in header else read_tokens
+    while segment := read(numbers, 4096, header["resolution"], growing=True):
         cuts += segment
     return header, runs, cuts
 
@@ -520,24 +521,48 @@ def signed(varint):
 
 def read_tokens(numbers, count, resolution, growing=False):
     """First and last voxel of each cut, None of each move. A growing list may have fewer."""
-    end, direction, length, cuts = [0, 0, 0], 0, 1, []
+    cuts, last = [], LastCut(resolution)
     for _ in range(count):
         token = next(numbers, None) if growing else next(numbers)
         if token is None:
             break
-        if token == 0:
-            cuts.append(None)
-            continue
-        start = direction
+        cuts.append(last.read(token, numbers) if token else None)
+    return cuts
+
+
+def read_milled(numbers, count, resolution, growing=False):
+    """The same with milling tools: a list of runs of each cut, the tool of each change. The last cut may not be there as a whole: it is left out."""
+    cuts, last = [], LastCut(resolution)
+    try:
+        for _ in range(count):
+            token = next(numbers)
+            if token == 1:
+                cuts.append(next(numbers))
+            else:
+                cuts.append([last.read(next(numbers), numbers) for _ in range(token - 2)] if token else None)
+    except StopIteration:
+        if not growing:
+            raise
+    return cuts
+
+
+class LastCut:
+    """What the next run of a segment is told relative to."""
+
+    def __init__(self, resolution):
+        self.resolution, self.end, self.direction, self.length = resolution, [0, 0, 0], 0, 1
+
+    def read(self, token, numbers):
+        """[first, last] voxel of the run that a token begins."""
+        start = self.direction
         if token > 1:
             rest, start = divmod(token - 2, 7)
-            length, direction = rest // 6 + 1, rest % 6
-        first = [a + signed(next(numbers)) for a in end] if start == 6 else step(end, start, 1)
-        end = step(first, direction, length - 1)
-        if not all(0 <= index < resolution for index in first + end):
+            self.length, self.direction = rest // 6 + 1, rest % 6
+        first = [a + signed(next(numbers)) for a in self.end] if start == 6 else step(self.end, start, 1)
+        self.end = step(first, self.direction, self.length - 1)
+        if not all(0 <= index < self.resolution for index in first + self.end):
             raise ValueError("a cut leaves the grid")
-        cuts.append([first, end])
-    return cuts
+        return [first, self.end]
 
 
 def step(voxel, direction, count):
@@ -932,9 +957,10 @@ def parse_command_line(arguments):
     command("report", run_report, "the figures of a finished job")
     fetch = command("fetch", run_fetch, "get a result; waits for a job that still runs", as_json=False)
     fetch.add_argument("-o", "--output", metavar="FILE", required=True, help="where to write, or - for stdout")
-    fetch.add_argument("--format", choices=["ndjson", "binary", "csv", "tokens", "gzip"],
-                       help="form of the trajectory, default ndjson, or of the timeline, default tokens")
-    fetch.add_argument("--artifact", choices=["trajectory", "timeline", "voxels", "stock", "residue", "report", "program"],
+    fetch.add_argument("--format", choices=["ndjson", "binary", "csv", "tokens", "gzip", "binvox", "zip"],
+                       help="form of the trajectory, default ndjson, of the timeline, default tokens, or of the stock, default binvox; zip: "
+                            "what stands after each milling tool")
+    fetch.add_argument("--artifact", choices=["trajectory", "timeline", "voxels", "stock", "surface", "residue", "report", "program"],
                        default="trajectory")
     fetch.add_argument("--dialect", choices=["krl", "rapid", "urscript", "fanuc", "gcode", "ros2"],
                        help="of a program (.zip): the language of the controller")

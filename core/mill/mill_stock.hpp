@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/mill/map/tool_frame.hpp"
-#include "core/mill/swept_set.hpp"
+#include "core/trajectory/milling/swept_set.hpp"
 
 namespace sculpt {
 

@@ -2,45 +2,56 @@
 
 #include <cmath>
 #include <istream>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "core/trajectory/milling/milled_stock.hpp"
 #include "core/trajectory/reader.hpp"
 #include "core/trajectory/timeline.hpp"
 
 namespace sculpt {
 namespace {
 
-template <typename Reader>
-std::uint64_t count_keyframes(Reader& reader) {
-  std::uint64_t keyframes = 0;
-  while (reader.next()) ++keyframes;
-  return keyframes;
-}
-
 VoxelSet without(VoxelSet set, const VoxelSet& taken) {
   set -= taken;
   return set;
 }
 
-/// `moment` knows header, start and the count of keyframes; the reader stands before the first of them.
-template <typename Reader>
-void go_to(StockMoment& moment, double share, Reader& reader) {
+struct Step {
+  std::vector<std::pair<Voxel, Voxel>> runs;  ///< that go
+  Configuration q;                            ///< empty where it is not known
+};
+
+/// Takes from the beginning of a run what a share of its keyframe's voxels has for it; what is left of the share.
+int cut_part(VoxelSet& standing, const std::pair<Voxel, Voxel>& run, int gone) {
+  const auto& [first, last] = run;
+  const int length = std::min(gone, l1(first, last) + 1);
+  if (length > 0) standing.erase(first, first + sign(last - first) * (length - 1));
+  return gone - length;
+}
+
+/// `moment` knows header, start and the count of keyframes; `next` gives them one by one.
+template <typename Next>
+void go_to(StockMoment& moment, double share, const Next& next) {
   const double at = share * static_cast<double>(moment.keyframes);
   moment.standing = moment.start.stock;
   moment.left = without(moment.start.stock, moment.start.keep);
   Configuration before = moment.header.home;
-  for (std::uint64_t number = 0; const auto keyframe = reader.next(); ++number) {
+  for (std::uint64_t number = 0; const std::optional<Step> step = next(); ++number) {
     // Of this keyframe; the little more is for shares that a double does not hold exactly.
     const double part = std::clamp(at - static_cast<double>(number), 0.0, 1.0);
-    if (keyframe->cut) {
-      moment.left.erase(keyframe->first, keyframe->last);
-      const int length = run_length(*keyframe), gone = static_cast<int>(std::floor(part * length + 1e-9));
-      const Voxel step = sign(keyframe->last - keyframe->first);
-      if (gone > 0) moment.standing.erase(keyframe->first, keyframe->first + step * (gone - 1));
-      moment.removed += static_cast<std::uint64_t>(gone);
+    int length = 0;
+    for (const auto& [first, last] : step->runs) {
+      moment.left.erase(first, last);
+      length += l1(first, last) + 1;
     }
-    if (keyframe->q.size() == before.size()) {
-      if (part > 0 || number == 0) moment.q = before + part * (keyframe->q - before);
-      before = keyframe->q;
+    int gone = static_cast<int>(std::floor(part * length + 1e-9));
+    moment.removed += static_cast<std::uint64_t>(gone);
+    for (const auto& run : step->runs) gone = cut_part(moment.standing, run, gone);
+    if (step->q.size() == before.size()) {
+      if (part > 0 || number == 0) moment.q = before + part * (step->q - before);
+      before = step->q;
     }
   }
 }
@@ -52,8 +63,12 @@ StockMoment moment_of_timeline(std::string_view bytes, double share, bool ended)
   StockMoment moment;
   moment.header = reader.header();
   moment.start = reader.voxels();
-  moment.keyframes = count_keyframes(counted);
-  go_to(moment, share, reader);
+  while (counted.next()) ++moment.keyframes;
+  go_to(moment, share, [&]() -> std::optional<Step> {
+    std::optional<TimelineStep> step = reader.next();
+    if (!step) return std::nullopt;
+    return Step{std::move(step->runs), {}};
+  });
   if (!ended) moment.left = VoxelSet(moment.header.grid.n);
   return moment;
 }
@@ -64,12 +79,23 @@ StockMoment moment_of_trajectory(std::istream& in, double share) {
   moment.header = counted.header();
   const int n = moment.header.grid.n;
   moment.start = {VoxelSet(n, true), VoxelSet(n)};
-  moment.keyframes = count_keyframes(counted);
+  while (counted.next()) ++moment.keyframes;
   in.clear();
   in.seekg(0);
   TrajectoryReader reader(in);
   moment.q = moment.header.home;
-  go_to(moment, share, reader);
+  std::optional<MilledStock> milled;
+  if (moment.header.mill) milled.emplace(moment.header, moment.start.stock);
+  go_to(moment, share, [&]() -> std::optional<Step> {
+    std::optional<Keyframe> keyframe = reader.next();
+    if (!keyframe) return std::nullopt;
+    Step step{{}, keyframe->q};
+    if (milled)
+      step.runs = milled->take(*keyframe);
+    else if (keyframe->cut)
+      step.runs = {{keyframe->first, keyframe->last}};
+    return step;
+  });
   moment.start.keep = moment.left;
   moment.left = VoxelSet(n);
   return moment;

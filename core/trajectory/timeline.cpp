@@ -12,6 +12,8 @@ namespace sculpt {
 namespace {
 
 constexpr std::uint64_t labels = 3;
+/// Of plans with milling tools: a move, a change to the tool that follows, a cut with the number of its runs on top.
+constexpr std::uint64_t milled_move = 0, milled_change = 1, milled_cut = 2;
 constexpr std::size_t voxels_a_word = 64;
 
 // The label of the 64 voxels of a word of the sets, if all have the same.
@@ -45,10 +47,22 @@ void append_runs(std::string& out, const VoxelGrid& voxels) {
   append_varint(out, labels * (length - 1) + static_cast<std::uint64_t>(label));
 }
 
+void append_milled(std::string& out, const Keyframe& keyframe, const std::vector<MilledStock::Run>& runs,
+                   LastCut& last) {
+  if (keyframe.mill->is_change()) {
+    append_varint(out, milled_change);
+    append_varint(out, static_cast<std::uint64_t>(keyframe.mill->tool));
+    return;
+  }
+  append_varint(out, keyframe.cut ? milled_cut + runs.size() : milled_move);
+  for (const auto& [begin, end] : runs) append_token(out, {{}, true, begin, end}, last);
+}
+
 }  // namespace
 
 TimelineWriter::TimelineWriter(std::ostream& out, const TrajectoryHeader& header, const VoxelGrid& voxels)
     : out_(out), unsent_(header_line(header) + '\n') {
+  if (header.mill) milled_.emplace(header, voxels.stock);
   append_runs(unsent_, voxels);
   flush();
 }
@@ -58,9 +72,10 @@ void TimelineWriter::add(const Keyframe& keyframe) {
     last_ = {};
     in_segment_ = 0;
   }
-  Keyframe told = keyframe;
-  if (told.mill) told.cut = false;  // what a milling tool sweeps is no run of voxels
-  append_token(unsent_, told, last_);
+  if (milled_)
+    append_milled(unsent_, keyframe, milled_->take(keyframe), last_);
+  else
+    append_token(unsent_, keyframe, last_);
   ++in_segment_;
 }
 
@@ -93,6 +108,33 @@ struct TimelineReader::Impl {
     }
   }
 
+  TimelineStep read_step() {
+    TimelineStep step;
+    if (!header.mill) {
+      if (const auto run = read_run()) step = {true, {*run}};
+      return step;
+    }
+    const std::uint64_t token = tokens.varint();
+    if (token == milled_change) {
+      const std::uint64_t tool = tokens.varint();
+      if (tool >= header.mill->tools.size()) tokens.refuse("it changes to a tool that its header does not have");
+      step.tool = static_cast<int>(tool);
+    }
+    step.cut = token >= milled_cut;
+    for (std::uint64_t left = step.cut ? token - milled_cut : 0; left > 0; --left) {
+      const auto run = read_run();
+      if (!run) tokens.refuse("a run of a cut is a move");
+      step.runs.push_back(*run);
+    }
+    return step;
+  }
+
+  std::optional<std::pair<Voxel, Voxel>> read_run() {
+    Keyframe keyframe;
+    tokens.read_token(keyframe);
+    return keyframe.cut ? std::optional(std::pair(keyframe.first, keyframe.last)) : std::nullopt;
+  }
+
   static constexpr const char* where = "the timeline";
   std::size_t line_end;
   TrajectoryHeader header;
@@ -112,21 +154,20 @@ const VoxelGrid& TimelineReader::voxels() const {
   return impl_->voxels;
 }
 
-std::optional<Keyframe> TimelineReader::next() {
+std::optional<TimelineStep> TimelineReader::next() {
   if (impl_->tokens.at_end()) return {};
   if (impl_->in_segment == max_segment_keyframes) {
     impl_->tokens.begin_segment();
     impl_->in_segment = 0;
   }
-  Keyframe keyframe;
   try {
-    impl_->tokens.read_token(keyframe);
+    TimelineStep step = impl_->read_step();
+    ++impl_->in_segment;
+    return step;
   } catch (const InputError&) {
     if (impl_->tokens.ran_out()) return {};
     throw;
   }
-  ++impl_->in_segment;
-  return keyframe;
 }
 
 }  // namespace sculpt

@@ -7,11 +7,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/material/voxel_grid.hpp"
 #include "core/trajectory/binary/cut_token.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/keyframe.hpp"
+#include "core/trajectory/milling/milled_stock.hpp"
 
 namespace sculpt {
 
@@ -29,6 +32,14 @@ class TimelineWriter {
   std::string unsent_;
   LastCut last_;
   std::size_t in_segment_ = 0;  ///< keyframes
+  std::optional<MilledStock> milled_;
+};
+
+/// A keyframe, as far as a timeline tells of it.
+struct TimelineStep {
+  bool cut = false;
+  std::vector<std::pair<Voxel, Voxel>> runs;  ///< that go, one after the other: first and last voxel of each
+  int tool = -1;                              ///< a change to this one of the header's
 };
 
 /// Reads what TimelineWriter wrote; `bytes` must outlive it. Whatever has a beginning may end anywhere, as one does
@@ -40,8 +51,8 @@ class TimelineReader {
   const TrajectoryHeader& header() const;
   /// At the start.
   const VoxelGrid& voxels() const;
-  /// The next keyframe that is there as a whole, without joints.
-  std::optional<Keyframe> next();
+  /// The next keyframe that is there as a whole.
+  std::optional<TimelineStep> next();
 
  private:
   struct Impl;

@@ -66,7 +66,7 @@ void on_artifact_read(const ArtifactGroup& group, Call call) {
         return group.artifacts.needs_export(wanted);
       },
       [group, wanted, so_far = so_far_here](Call known, bool to_export) {
-        TaskQueue& maker = wanted.program ? group.programs : group.exports;
+        TaskQueue& maker = find_form(wanted).in_child() ? group.programs : group.exports;
         group.answers.from(to_export ? maker : group.disk, std::move(known),
                            [&artifacts = group.artifacts, wanted, to_export, so_far](const std::stop_token& stop) {
                              if (to_export) artifacts.make_export(wanted, stop);

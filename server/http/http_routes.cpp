@@ -91,7 +91,7 @@ Route artifact_route(const HttpSources& sources, const proto::ArtifactReadParams
           [sources, wanted] {
             find_job(sources.store, wanted.job);
             if (!sources.artifacts.needs_export(wanted)) return &sources.disk;
-            return wanted.program ? &sources.programs : &sources.exports;
+            return find_form(wanted).in_child() ? &sources.programs : &sources.exports;
           }};
 }
 

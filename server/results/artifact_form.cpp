@@ -8,13 +8,18 @@
 namespace sculpt::server {
 namespace {
 
-constexpr std::array kinds{ArtifactKind{"trajectory", {"ndjson", "csv", "binary"}, true},
-                           ArtifactKind{"timeline", {"tokens", "gzip", nullptr}, true},
-                           ArtifactKind{"voxels", {"binvox", nullptr, nullptr}},
-                           ArtifactKind{"stock", {"binvox", nullptr, nullptr}},
-                           ArtifactKind{"residue", {"ndjson", nullptr, nullptr}},
-                           ArtifactKind{"report", {"json", nullptr, nullptr}},
-                           ArtifactKind{"program", {"zip", nullptr, nullptr}, false, "trajectory"}};
+using Format = ArtifactKind::Format;
+constexpr std::array kinds{
+    ArtifactKind{"trajectory",
+                 {Format{"ndjson"}, Format{"csv", Origin::first_form}, Format{"binary", Origin::first_form}},
+                 true},
+    ArtifactKind{"timeline", {Format{"tokens"}, Format{"gzip", Origin::first_form}}, true},
+    ArtifactKind{"voxels", {Format{"binvox"}}},
+    ArtifactKind{"stock", {Format{"binvox"}, Format{"zip", Origin::job}}},
+    ArtifactKind{"surface", {Format{"ply", Origin::job}}},
+    ArtifactKind{"residue", {Format{"ndjson"}}},
+    ArtifactKind{"report", {Format{"json"}}},
+    ArtifactKind{"program", {Format{"zip", Origin::program}}}};
 
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
@@ -41,9 +46,8 @@ std::string file_name(const std::string& artifact, const std::string& format) {
 
 std::vector<std::string> ArtifactKind::format_names() const {
   std::vector<std::string> names;
-  for (const char* format : formats) {
-    if (format != nullptr) names.emplace_back(format);
-  }
+  for (const Format& format : formats)
+    if (format.name != nullptr) names.emplace_back(format.name);
   return names;
 }
 
@@ -52,10 +56,12 @@ std::span<const ArtifactKind> artifact_kinds() {
 }
 
 ArtifactForm form_of(const ArtifactKind& kind, const std::string& format) {
-  const std::string own = kind.formats.front(), wanted = format.empty() ? own : format;
-  const bool is_own = wanted == own && kind.made_of == nullptr;
-  return {&kind, wanted, file_name(kind.artifact, wanted), is_own,
-          kind.made_of == nullptr ? kind.artifact : kind.made_of};
+  const auto found = std::ranges::find_if(kind.formats, [&](const Format& each) {
+    return each.name != nullptr && (format.empty() || format == each.name);
+  });
+  ArtifactForm form{&kind, found->name, file_name(kind.artifact, found->name), found->origin, kind.artifact};
+  if (form.in_child()) form.source = "trajectory";
+  return form;
 }
 
 ArtifactForm find_form(const proto::ArtifactReadParams& wanted) {

@@ -32,7 +32,7 @@ void rewrite(const std::string& format, const Planner& planner, const fs::path& 
 
 // Those that were made of a final artifact, with their seals.
 Json list_exports(const fs::path& folder, const std::string& job, const ArtifactKind& kind) {
-  if (kind.made_of != nullptr) return list_programs(folder, job);
+  if (kind.formats.front().origin == Origin::program) return list_programs(folder, job);
   Json made = Json::array();
   for (const std::string& format : kind.format_names()) {
     const std::optional<FileSeal> seal = read_seal(folder, job, form_of(kind, format).file);
@@ -69,9 +69,9 @@ void Artifacts::discard_leftovers(const std::string& job) const {
   files_.remove(job);
 }
 
-// What a run wrote; the other forms are made here from it.
+// What a run wrote; the other forms are made here from that.
 std::optional<StoredFile> Artifacts::open(const JobRecord& job, const ArtifactForm& form) const {
-  return form.is_own ? files_.open(job.folder, form.file) : StoredFile::open(folder(), job.folder, form.file);
+  return form.is_own() ? files_.open(job.folder, form.file) : StoredFile::open(folder(), job.folder, form.file);
 }
 
 Json Artifacts::list(const JobRecord& job) const {
@@ -95,7 +95,7 @@ Json Artifacts::list(const JobRecord& job) const {
 std::optional<FileSeal> Artifacts::seal_of(const JobRecord& job, const ArtifactForm& form) const {
   const std::optional<StoredArtifact> stored = find_stored(store_.artifacts(job.id), form.source);
   if (!stored) return std::nullopt;
-  if (form.is_own) return FileSeal{stored->size, stored->sha256};
+  if (form.is_own()) return FileSeal{stored->size, stored->sha256};
   return read_seal(folder(), job.folder, form.file);
 }
 
@@ -106,7 +106,7 @@ ArtifactChunk Artifacts::read(const proto::ArtifactReadParams& wanted, WholeRead
   const JobRecord job = find_job(store_, wanted.job);
   const std::optional<FileSeal> seal = seal_of(job, form);
   chunk.final = seal.has_value();
-  const bool grows = form.kind->grows && form.is_own && !is_final(job.state);
+  const bool grows = form.kind->grows && form.is_own() && !is_final(job.state);
   if (!chunk.final && !grows) refuse_missing(job, "final " + wanted.artifact);
   const std::optional<StoredFile> file = open(job, form);
   if (const std::string fault = seal ? fault_of_size(file, *seal) : ""; !fault.empty())
@@ -144,7 +144,7 @@ void Artifacts::refuse_damaged(const JobRecord& record, const ArtifactForm& form
   find_job(store_, job);  // it may be gone by now, and its files with it
   const std::string sentence = "the file " + form.file + " of job " + job + " is damaged: it " + fault;
   spdlog::error("job={} {}", job, sentence);
-  if (!form.is_own) {
+  if (!form.is_own()) {
     break_seal(folder(), record.folder, form.file);
     throw proto::ProtocolError("artifact_damaged", sentence + ": ask for it again, then it is made anew");
   }
@@ -154,7 +154,7 @@ void Artifacts::refuse_damaged(const JobRecord& record, const ArtifactForm& form
 
 bool Artifacts::needs_export(const proto::ArtifactReadParams& wanted) const {
   const ArtifactForm form = find_form(wanted);
-  return !form.is_own && !read_seal(folder(), find_job(store_, wanted.job).folder, form.file);
+  return !form.is_own() && !read_seal(folder(), find_job(store_, wanted.job).folder, form.file);
 }
 
 void Artifacts::make_export(const proto::ArtifactReadParams& wanted, const std::stop_token& stop) const {
@@ -167,6 +167,8 @@ void Artifacts::make_export(const proto::ArtifactReadParams& wanted, const std::
   const fs::path place = folder() / job.folder, file = place / form.file, draft = draft_of(file);
   if (wanted.program)
     programs_.make(job, *wanted.program, draft, stop);
+  else if (form.origin == Origin::job)
+    machined_.make(job, form, draft, stop);
   else
     rewrite(form.format, planner_, place / form_of(*form.kind).file, draft);
   sync_to_disk(draft);

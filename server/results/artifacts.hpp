@@ -10,6 +10,7 @@
 #include "proto/messages.hpp"
 #include "server/files/job_files.hpp"
 #include "server/results/artifact_form.hpp"
+#include "server/results/machined_files.hpp"
 #include "server/results/programs.hpp"
 #include "server/run/planner.hpp"
 #include "server/store/job_store.hpp"
@@ -36,8 +37,9 @@ struct WholeRead {
 class Artifacts {
  public:
   /// What it refers to must outlive it.
-  Artifacts(JobFiles files, JobStore& store, const Planner& planner, const Programs& programs)
-      : files_(std::move(files)), store_(store), planner_(planner), programs_(programs) {}
+  Artifacts(JobFiles files, JobStore& store, const Planner& planner, const Programs& programs,
+            const MachinedFiles& machined)
+      : files_(std::move(files)), store_(store), planner_(planner), programs_(programs), machined_(machined) {}
 
   const JobFiles& files() const { return files_; }
 
@@ -53,8 +55,8 @@ class Artifacts {
   ArtifactChunk read(const proto::ArtifactReadParams& wanted, WholeRead& so_far) const;
   /// True when `read` needs make_export first.
   bool needs_export(const proto::ArtifactReadParams& wanted) const;
-  /// Makes another form from the final artifact's own, or a program of the trajectory. Throws as read, and as
-  /// Programs::make.
+  /// Makes another form from the final artifact's own, or one of the trajectory. Throws as read, and as Programs::make
+  /// and MachinedFiles::make.
   void make_export(const proto::ArtifactReadParams& wanted, const std::stop_token& stop) const;
   /// The final content of an artifact in its own format. Throws ProtocolError `wrong_state`, `artifact_damaged`.
   std::string read_whole(const JobRecord& job, const std::string& artifact) const;
@@ -75,6 +77,7 @@ class Artifacts {
   JobStore& store_;
   const Planner& planner_;
   const Programs& programs_;
+  const MachinedFiles& machined_;
 };
 
 }  // namespace sculpt::server

@@ -7,6 +7,8 @@
 #include "core/doctor/findings_json.hpp"
 #include "core/material/binvox.hpp"
 #include "core/plan/output/job_time.hpp"
+#include "core/plan/output/stock_files.hpp"
+#include "core/plan/output/surface_file.hpp"
 #include "core/program/make_program.hpp"
 #include "core/trajectory/export.hpp"
 #include "server/files/zip_writer.hpp"
@@ -32,9 +34,14 @@ PlanFiles run(const Job& job, const fs::path& trajectory, const Watch& watch) {
   return files;
 }
 
-Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
+std::ifstream open_plan(const fs::path& trajectory) {
   std::ifstream in(trajectory, std::ios::binary);
   if (!in) throw InputError("trajectory_invalid", "the stored trajectory of the job cannot be read");
+  return in;
+}
+
+Replay verify(const Job& job, const fs::path& trajectory, const Watch& watch) {
+  std::ifstream in = open_plan(trajectory);
   Verdict verdict = replay_plan(in, job, watch, {job.threads});
   return {verdict.clean, verdict.collisions, verdict.voxels_checked, std::move(verdict.findings),
           std::move(verdict.exempt_pairs)};
@@ -75,6 +82,20 @@ void program(const Job& job, const ProgramDemands& wanted, const fs::path& traje
   });
 }
 
+void surface(const Job& job, const fs::path& trajectory, const fs::path& ply) {
+  std::ifstream plan = open_plan(trajectory);
+  write_file(ply, [&](std::ostream& out) { write_machined_surface(job, plan, out, {}); });
+}
+
+void stocks(const Job& job, const fs::path& trajectory, const fs::path& zip) {
+  std::ifstream plan = open_plan(trajectory);
+  write_file(zip, [&](std::ostream& out) {
+    ZipWriter writer(out);
+    give_stocks(job, plan, [&](const std::string& name, const std::string& binvox) { writer.add(name, binvox); }, {});
+    writer.finish();
+  });
+}
+
 std::string examine(const CellFiles& cell, int resolution, int threads) {
   const Helpers helpers(threads);
   const Watch watch;
@@ -94,6 +115,8 @@ Planner make_planner(std::vector<fs::path> folders) {
   planner.verify = verify;
   planner.time = time;
   planner.program = program;
+  planner.surface = surface;
+  planner.stocks = stocks;
   planner.to_csv = export_csv;
   planner.to_binary = export_binary;
   return planner;

@@ -55,6 +55,9 @@ struct Planner {
   std::function<void(const Job&, const ProgramDemands&, const std::filesystem::path& trajectory,
                      const std::filesystem::path& zip)>
       program;
+  /// Of a job with milling tools: the surface as machined (.ply), and a .zip of the stock after each tool (.binvox).
+  std::function<void(const Job&, const std::filesystem::path&trajectory, const std::filesystem::path&file)> surface,
+      stocks;
   /// ndjson in, other format out.
   std::function<void(std::istream&, std::ostream&)> to_csv, to_binary;
 };

@@ -42,7 +42,7 @@ class Completion(ClientTest):
     def test_zsh_and_fish_know_what_options_and_commands_take(self):
         zsh, fish = self.fine("completion", "zsh"), self.fine("completion", "fish")
         for script in (zsh, fish):
-            for values in ("sweep octree voxel", "ndjson binary csv tokens gzip", "trajectory timeline voxels stock residue report", "pause resume", "completion cells"):
+            for values in ("sweep octree voxel", "ndjson binary csv tokens gzip binvox zip", "trajectory timeline voxels stock surface residue report", "pause resume", "completion cells"):
                 self.assertIn(values, script)
 
     def test_the_names_of_cells_are_asked_for(self):

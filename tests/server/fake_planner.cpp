@@ -152,6 +152,14 @@ Planner FakePlanner::planner() {
     std::ofstream(zip) << facts_of(demands.dialect).name << ' ' << demands.name << ' '
                        << job.motion->feed_m_s.value_or(0) << " of " << job.mesh.bytes;
   };
+  const auto leave = [](const char* what) {
+    return [what](const Job& job, const std::filesystem::path&, const std::filesystem::path& file) {
+      if (job.mesh.bytes == "surface refused") throw InputError("mesh_unreadable", "the file is no mesh");
+      std::ofstream(file) << what << " of " << job.mesh.bytes;
+    };
+  };
+  planner.surface = leave("surface");
+  planner.stocks = leave("stocks");
   planner.to_csv = [](std::istream& in, std::ostream& out) { out << "csv\n" << in.rdbuf(); };
   planner.to_binary = [](std::istream& in, std::ostream& out) { out << "sct\n" << in.rdbuf(); };
   return planner;

@@ -21,6 +21,7 @@
 #include "core/base/extension.hpp"
 #include "core/material/binvox.hpp"
 #include "core/material/clamping.hpp"
+#include "core/plan/output/surface_file.hpp"
 #include "core/trajectory/export.hpp"
 
 namespace sculpt::cli {
@@ -31,7 +32,7 @@ struct PlanOptions {
   JobOptions job;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool json = false;
-  std::string output;
+  std::string output, surface;
   std::vector<double> turn_over_deg;  ///< empty or roll, pitch, yaw
 };
 
@@ -56,11 +57,21 @@ void write_turned_over(const JobResult& result, const CubeTurn& turn, const std:
   }
 }
 
+/// `plan`: the trajectory, by now whole.
+void write_surface(const std::string& name, const Job& job, const std::filesystem::path& plan, const Watch& watch) {
+  std::ifstream in(plan, std::ios::binary);
+  PartFile file(name);
+  write_machined_surface(job, in, file.stream(), watch);
+  file.finish();
+}
+
 int run_plan(const PlanOptions& options) {
   const std::string extension = extension_of(options.output);
   if (extension != "ndjson" && extension != "csv" && extension != "sct")
     throw Failure(exit_usage, "format_unknown",
                   "cannot tell the format of " + options.output + " from its name: end it in .ndjson, .csv or .sct");
+  if (!options.surface.empty() && options.job.mill.tools.empty())
+    throw Failure(exit_usage, "usage", "--surface is what milling tools leave: name them with --tools");
   const std::optional<CubeTurn> turn_over = read_turn_over(options);
   Job job = read_job(options.job);
   job.threads = options.threads;
@@ -89,6 +100,7 @@ int run_plan(const PlanOptions& options) {
     std::ifstream in(written, std::ios::binary);
     export_csv(in, output.stream());
   }
+  if (!options.surface.empty()) write_surface(options.surface, job, written, watch);
   output.finish();
   if (turn_over) write_turned_over(result, *turn_over, options.output);
   progress.clear();
@@ -119,6 +131,10 @@ void add_plan(CLI::App& app, Invocation& invocation) {
       ->type_name("R,P,Y")
       ->delimiter(',')
       ->expected(3);
+  command
+      .add_option("--surface", options->surface,
+                  "With --tools: the surface as they leave it, with what stands above it at each vertex")
+      ->type_name("FILE.ply");
   command.add_option("-o,--output", options->output, "The trajectory: .ndjson, .csv or .sct by extension")
       ->type_name("FILE")
       ->required();

@@ -19,8 +19,8 @@ namespace sculpt::cli {
 namespace {
 
 const std::vector<std::string> artifact_names{"trajectory", "timeline", "voxels", "stock",
-                                              "residue",    "report",   "program"},
-    format_names{"ndjson", "binary", "csv", "tokens", "gzip"};
+                                              "surface",    "residue",  "report", "program"},
+    format_names{"ndjson", "binary", "csv", "tokens", "gzip", "binvox", "zip"};
 
 struct ReportOptions {
   std::string job;
@@ -130,12 +130,14 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
   command.add_option("-o,--output", options->output, "Where to write, or - for stdout")->type_name("FILE")->required();
   command
       .add_option("--format", options->format,
-                  "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip")
+                  "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip; "
+                  "of the stock: binvox (default) or, with milling tools, zip, what stands after each of them")
       ->check(CLI::IsMember(format_names));
   command
       .add_option("--artifact", options->artifact,
                   "trajectory, timeline (what goes when), voxels (.binvox), "
-                  "stock (left over, .binvox), residue (ndjson), report (json) or program (for a controller, .zip)")
+                  "stock (left over, .binvox), surface (as milling tools leave it, .ply with the excess of each "
+                  "vertex), residue (ndjson), report (json) or program (for a controller, .zip)")
       ->check(CLI::IsMember(artifact_names))
       ->capture_default_str();
   add_program_options(command, options->program);

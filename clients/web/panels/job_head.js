@@ -12,6 +12,7 @@ const ACTIONS = [
   ['job.retry', 'Retry', ['quarantined']],
 ];
 const RESULTS = [['trajectory', 'ndjson'], ['trajectory', 'binary'], ['trajectory', 'csv'], ['voxels', ''], ['residue', ''], ['report', '']];
+const OF_TOOLS = [['surface', ''], ['stock', 'zip']];
 
 /**
  * @param {any} job
@@ -44,14 +45,14 @@ export function show_job_head(job, world) {
 }
 
 function download_menu(job, world) {
-  const menu = make('select', {aria: {label: 'Download a result'}, on: {change: () => download(job.job, menu, world)}},
+  const results = job.search === 'mill' ? [...RESULTS, ...OF_TOOLS] : RESULTS;
+  const menu = make('select', {aria: {label: 'Download a result'}, on: {change: () => download(job.job, results[Number(menu.value) - 1], menu, world)}},
     make('option', {value: ''}, 'Download\u2026'),
-    ...RESULTS.map(([artifact, format], at) => make('option', {value: String(at + 1)}, format ? `${artifact} (.${format === 'binary' ? 'sct' : format})` : artifact)));
+    ...results.map(([artifact, format], at) => make('option', {value: String(at + 1)}, format ? `${artifact} (.${format === 'binary' ? 'sct' : format})` : artifact)));
   return menu;
 }
 
-async function download(job, menu, world) {
-  const [artifact, format] = RESULTS[Number(menu.value) - 1];
+async function download(job, [artifact, format], menu, world) {
   menu.value = '';
   try {
     const link = await world.connection.call('artifact.link', {job, artifact, ...(format ? {format} : {})});

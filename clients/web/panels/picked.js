@@ -2,7 +2,7 @@
 
 import {by_id, count, fill, make} from '../dom.js';
 
-const KINDS = ['a move', 'a cut along \u2212x', 'a cut along +x', 'a cut along \u2212y', 'a cut along +y', 'a cut along \u2212z', 'a cut along +z'];
+const KINDS = ['a move', 'a cut along \u2212x', 'a cut along +x', 'a cut along \u2212y', 'a cut along +y', 'a cut along \u2212z', 'a cut along +z', 'a cut'];
 
 /**
  * @param {{cell: number[], label: number, ordinal: number | null} | null} hit

@@ -2,7 +2,7 @@
 
 import {by_id, count, percent} from '../dom.js';
 
-const MOVE = '#b9a06a', CUT = ['#5b88b5', '#3f6f9f', '#6f9a86', '#4b8069', '#8a79ad', '#6c5a94'];
+const MOVE = '#b9a06a', CUT = ['#5b88b5', '#3f6f9f', '#6f9a86', '#4b8069', '#8a79ad', '#6c5a94', '#4f7f9c'];
 
 /** Events: `moved` with the place in keyframes, `stopped` when playing ended, by itself or not. */
 export class TimeBar extends EventTarget {
@@ -201,7 +201,7 @@ export class TimeBar extends EventTarget {
     const canvas = by_id('strip'), width = canvas.clientWidth, pen = canvas.getContext('2d');
     if (!width) return;
     canvas.width = width;
-    const most = new Uint32Array(7);
+    const most = new Uint32Array(8);
     for (let x = 0; x < width; ++x) {
       const from = Math.floor((x * this.keyframes) / width), to = Math.max(from + 1, Math.floor(((x + 1) * this.keyframes) / width));
       const step = Math.max(1, Math.floor((to - from) / 64));

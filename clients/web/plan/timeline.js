@@ -5,6 +5,7 @@ import {Varints, signed} from './varint.js';
 const AIR = 0, KEEP = 1, REMOVE = 2;
 const SEGMENT = 4096;
 const LINE_END = 10;
+const MOVE = 0, MILLED = 7;
 export const NEVER = 0xffffffff;
 const FINEST = 256;
 
@@ -44,7 +45,7 @@ export class Timeline {
     this.voxels = {air: 0, keep: 0, remove: 0};
     /** after keyframe k: voxels cut so far */
     this.removed = new Growing(Uint32Array);
-    /** of keyframe k: 0 = a move, else 1 + direction, and 8 more where another row begins */
+    /** of keyframe k: 0 = a move, 1 + direction of a cut, 7 = a cut of a milling tool, and 8 more where another row begins */
     this.kinds = new Growing(Uint8Array);
     this.ordinal = 0;
     this.filled = 0;
@@ -134,52 +135,82 @@ export class Timeline {
 
   /** @param {Varints} numbers @param {OnCut} on_cut */
   #read_tokens(numbers, on_cut) {
-    const {last, removed, kinds} = this;
+    const read = this.header.tools ? this.#read_milled : this.#read_token;
     for (;;) {
-      const begin = numbers.at, token = numbers.next();
-      if (token < 0) return;
-      if (kinds.length % SEGMENT === 0) {
-        last.x = last.y = last.z = last.direction = 0;
-        last.length = 1;
+      const begin = numbers.at;
+      if (this.kinds.length % SEGMENT === 0) Object.assign(this.last, {x: 0, y: 0, z: 0, direction: 0, length: 1});
+      const kind = read.call(this, numbers, on_cut);
+      if (kind < 0) {  // it does not end yet
+        numbers.at = begin;
+        return;
       }
-      if (token === 0) {
-        kinds.push(0);
-        removed.push(this.ordinal);
-        continue;
-      }
-      let start = last.direction, {direction, length} = last, x = 0, y = 0, z = 0;  // from the last cut's end
-      if (token > 1) {
-        start = (token - 2) % 7;
-        const rest = (token - 2 - start) / 7;
-        direction = rest % 6;
-        length = (rest - direction) / 6 + 1;
-      }
-      if (start < 6) {
-        const step = start & 1 ? 1 : -1;
-        if (start < 2) x = step;
-        else if (start < 4) y = step;
-        else z = step;
-      } else {
-        const [a, b, c] = [numbers.next(), numbers.next(), numbers.next()];
-        if (c < 0) {  // it does not end yet
-          numbers.at = begin;
-          return;
-        }
-        x = signed(a);
-        y = signed(b);
-        z = signed(c);
-      }
-      last.x += x;
-      last.y += y;
-      last.z += z;
-      const before = kinds.length ? kinds.values[kinds.length - 1] & 7 : 0;
-      kinds.push((1 + direction) | (before === 1 + direction && start === direction ? 0 : 8));
-      last.direction = direction;
-      last.length = length;
-      if (this.left) this.#cut_blocks(on_cut);
-      else this.#cut_cells(on_cut);
-      removed.push(this.ordinal);
+      this.kinds.push(kind);
+      this.removed.push(this.ordinal);
     }
+  }
+
+  /** @param {Varints} numbers @param {OnCut} on_cut @returns {number} the kind of the next keyframe; below 0: not all of it is there */
+  #read_token(numbers, on_cut) {
+    const token = numbers.next();
+    if (token <= 0) return token;
+    const before = this.kinds.length ? this.kinds.values[this.kinds.length - 1] & 7 : 0;
+    const start = this.#read_run(token, numbers, on_cut);
+    if (start < 0) return -1;
+    const {direction} = this.last;
+    return (1 + direction) | (before === 1 + direction && start === direction ? 0 : 8);
+  }
+
+  /** The same of a plan with milling tools. @param {Varints} numbers @param {OnCut} on_cut @returns {number} */
+  #read_milled(numbers, on_cut) {
+    const token = numbers.next();
+    if (token <= 0) return token;
+    if (token === 1) return numbers.next() < 0 ? -1 : MOVE;  // to another tool
+    const begin = numbers.at;
+    for (let left = token - 2; left > 0; --left) {  // is all of it there?
+      const run = numbers.next(), places = run > 1 && (run - 2) % 7 === 6 ? 3 : 0;
+      if (run < 0) return -1;
+      for (let place = 0; place < places; ++place) if (numbers.next() < 0) return -1;
+    }
+    numbers.at = begin;
+    for (let left = token - 2; left > 0; --left) this.#read_run(numbers.next(), numbers, on_cut);
+    const before = this.kinds.length ? this.kinds.values[this.kinds.length - 1] & 7 : 0;
+    return MILLED | (before === MILLED ? 0 : 8);
+  }
+
+  /**
+   * Cuts the run of a token.
+   * @param {number} token @param {Varints} numbers @param {OnCut} on_cut
+   * @returns {number} how it begins from the end of the last one: a direction, or 6 for anywhere; below 0: not all of it is there
+   */
+  #read_run(token, numbers, on_cut) {
+    const {last} = this;
+    let start = last.direction, {direction, length} = last, x = 0, y = 0, z = 0;  // from the last cut's end
+    if (token > 1) {
+      start = (token - 2) % 7;
+      const rest = (token - 2 - start) / 7;
+      direction = rest % 6;
+      length = (rest - direction) / 6 + 1;
+    }
+    if (start < 6) {
+      const step = start & 1 ? 1 : -1;
+      if (start < 2) x = step;
+      else if (start < 4) y = step;
+      else z = step;
+    } else {
+      const [a, b, c] = [numbers.next(), numbers.next(), numbers.next()];
+      if (c < 0) return -1;
+      x = signed(a);
+      y = signed(b);
+      z = signed(c);
+    }
+    last.x += x;
+    last.y += y;
+    last.z += z;
+    last.direction = direction;
+    last.length = length;
+    if (this.left) this.#cut_blocks(on_cut);
+    else this.#cut_cells(on_cut);
+    return start;
   }
 
   /** Cuts the last run; its place becomes that of its last voxel. @param {OnCut} on_cut */

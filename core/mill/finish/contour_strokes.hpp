@@ -9,7 +9,7 @@
 #include "core/mill/finish/chip_load.hpp"
 #include "core/mill/finish/envelope.hpp"
 #include "core/mill/map/site.hpp"
-#include "core/mill/swept_set.hpp"
+#include "core/trajectory/milling/swept_set.hpp"
 
 namespace sculpt {
 

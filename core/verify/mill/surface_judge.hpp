@@ -25,7 +25,7 @@ class SurfaceJudge {
  public:
   /// `part` in metres. `threads`: with one, all is done by the caller.
   SurfaceJudge(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, int threads)
-      : surface_(part), points_(part, voxels, grid), threads_(threads) {}
+      : surface_(part), points_(draw_points(part, voxels, grid), grid), threads_(threads) {}
 
   /// Takes the next ways, and gives what was found of those before.
   PieceFindings take(std::vector<CutterWay> ways);

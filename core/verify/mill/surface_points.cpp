@@ -24,9 +24,23 @@ double away(const Vec3& point, const Vec3& from, const Vec3& way) {
   return (point - from - share * way).norm();
 }
 
+bool contains(const VoxelSet& voxels, const Grid& grid, const Vec3& at_mm) {
+  const Vec3 at = (at_mm / 1000 - grid.origin_m) / grid.voxel_m;
+  if ((at.array() < 0).any() || (at.array() >= grid.n).any()) return false;
+  return voxels.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+}
+
 }  // namespace
 
-SurfacePoints::SurfacePoints(const Mesh& part, const VoxelGrid& voxels, const Grid& grid) : grid_(grid) {
+std::optional<Vec3> outward(const Vec3& at, const Vec3& normal, const VoxelGrid& voxels, const Grid& grid) {
+  const double voxel = 1000 * grid.voxel_m;
+  const auto is_inside = [&](double above) { return contains(voxels.keep, grid, at + above * normal); };
+  const bool before = is_inside(voxel), behind = is_inside(-voxel);
+  if (before && behind && is_inside(2 * voxel) && is_inside(-2 * voxel)) return std::nullopt;
+  return before && !behind ? -normal : normal;
+}
+
+std::vector<SurfacePoint> draw_points(const Mesh& part, const VoxelGrid& voxels, const Grid& grid) {
   std::vector<double> weights;
   double area = 0, volume = 0;
   for (const auto& t : part.triangles) {
@@ -35,45 +49,41 @@ SurfacePoints::SurfacePoints(const Mesh& part, const VoxelGrid& voxels, const Gr
     area += weights.back();
     volume += a.dot(b.cross(c));
   }
-  if (!(area > 0)) return;
+  std::vector<SurfacePoint> found;
+  if (!(area > 0)) return found;
   std::mt19937_64 random(20261123);
   std::discrete_distribution<std::size_t> facets(weights.begin(), weights.end());
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const auto is_inside = [&](const Vec3& at_mm) {
-    const Vec3 at = (at_mm / 1000 - grid.origin_m) / grid.voxel_m;
-    if ((at.array() < 0).any() || (at.array() >= grid.n).any()) return false;
-    return voxels.keep.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
-  };
-  const double voxel = 1000 * grid.voxel_m;
-  std::vector<Point> found;
-  Eigen::AlignedBox3d all;
   const auto count = static_cast<std::size_t>(std::clamp(1e6 * area * points_a_mm2, fewest, most));
   for (std::size_t drawn = 0; drawn < count; ++drawn) {
     const auto& t = part.triangles[facets(random)];
     const Vec3 a = 1000 * part.vertices[t[0]], b = 1000 * part.vertices[t[1]], c = 1000 * part.vertices[t[2]];
     const double root = std::sqrt(unit()), share = unit();
     const Vec3 at = (1 - root) * a + root * ((1 - share) * b + share * c);
-    Vec3 normal = (b - a).cross(c - a).normalized();
-    if (volume < 0) normal = -normal;
-    const bool before = is_inside(at + voxel * normal), behind = is_inside(at - voxel * normal);
-    if (before && behind && is_inside(at + 2 * voxel * normal) && is_inside(at - 2 * voxel * normal)) continue;
-    if (before && !behind) normal = -normal;
-    found.push_back({at, normal, uncut});
-    all.extend(at);
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    if (const auto out = outward(at, volume < 0 ? Vec3(-normal) : normal, voxels, grid)) found.push_back({at, *out});
   }
-  if (found.empty()) return;
+  return found;
+}
+
+SurfacePoints::SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid) : grid_(grid) {
+  if (points.empty()) return;
+  Eigen::AlignedBox3d all;
+  for (const SurfacePoint& point : points) all.extend(point.at);
   low_ = all.min();
-  edge_ = std::max({all.sizes().maxCoeff() / 400, std::sqrt(1e6 * area / static_cast<double>(count)), 1e-6});
+  const double size = all.sizes().maxCoeff();
+  edge_ = std::max({size / 400, size / std::sqrt(static_cast<double>(points.size())), 1e-6});
   boxes_ = (all.sizes().array() / edge_).cast<int>() + 1;
   begin_.assign(
       static_cast<std::size_t>(boxes_[0]) * static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(boxes_[2]) +
           1,
       0);
-  for (const Point& point : found) ++begin_[box_of(point.at) + 1];
+  for (const SurfacePoint& point : points) ++begin_[box_of(point.at) + 1];
   for (std::size_t box = 1; box < begin_.size(); ++box) begin_[box] += begin_[box - 1];
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  points_.resize(found.size());
-  for (const Point& point : found) points_[next[box_of(point.at)]++] = point;
+  points_.resize(points.size());
+  for (std::size_t number = 0; number < points.size(); ++number)
+    points_[next[box_of(points[number].at)]++] = {points[number].at, points[number].normal, uncut, number};
 }
 
 std::size_t SurfacePoints::box_of(const Vec3& at) const {
@@ -140,17 +150,14 @@ SurfaceVerdict SurfacePoints::judge(const VoxelSet& standing) const {
   SurfaceVerdict verdict;
   verdict.gouged_points = gouged_;
   verdict.gouge_m = deepest_ / 1000;
-  const auto stands = [&](const Vec3& at_mm) {
-    const Vec3 at = (at_mm / 1000 - grid_.origin_m) / grid_.voxel_m;
-    if ((at.array() < 0).any() || (at.array() >= grid_.n).any()) return false;
-    return standing.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
-  };
   const double coarse = 1000 * grid_.voxel_m / 4;
+  verdict.excess_m.resize(points_.size());
   for (const Point& point : points_) {
     double excess = point.excess;
     if (excess == uncut)
-      for (excess = gouge_mm; stands(point.at + excess * point.normal);) excess += std::min(coarse, 0.01 + excess / 4);
-    verdict.excess_m.push_back(excess / 1000);
+      for (excess = gouge_mm; contains(standing, grid_, point.at + excess * point.normal);)
+        excess += std::min(coarse, 0.01 + excess / 4);
+    verdict.excess_m[point.number] = excess / 1000;
   }
   return verdict;
 }

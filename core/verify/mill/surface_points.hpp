@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
@@ -11,22 +12,34 @@
 
 namespace sculpt {
 
-/// Points at random on the part, with their outward normals. Not shared between threads.
+/// A point of the part's surface and its outward normal, a unit vector.
+struct SurfacePoint {
+  Vec3 at, normal;
+};
+
+/// Those at random on the part (metres), where not both sides of it are well inside of the target.
+std::vector<SurfacePoint> draw_points(const Mesh& part, const VoxelGrid& voxels, const Grid& grid);
+
+/// The normal, or its opposite where the target is before it and not behind; nothing where it is well inside.
+std::optional<Vec3> outward(const Vec3& at, const Vec3& normal, const VoxelGrid& voxels, const Grid& grid);
+
+/// Not shared between threads.
 class SurfacePoints {
  public:
-  /// `part` in metres. Where both sides of it are well inside of the target there are none.
-  SurfacePoints(const Mesh& part, const VoxelGrid& voxels, const Grid& grid);
+  SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid);
 
   /// A ball of `radius` cuts on its middle's way from one place to the other, and strays by up to `stray`.
   void cut(const Vec3& from, const Vec3& to, double radius, double stray);
 
-  /// Above points near which no ball came counts what is in voxels that may hold something, `standing`.
+  /// In the order of the points. Above those near which no ball came counts what is in voxels that may hold something,
+  /// `standing`.
   SurfaceVerdict judge(const VoxelSet& standing) const;
 
  private:
   struct Point {
     Vec3 at, normal;
     double excess;
+    std::size_t number;  ///< as they were given
   };
   std::size_t box_of(const Vec3& at) const;
 

@@ -4,8 +4,10 @@
 
 #include <functional>
 
+#include "core/base/error.hpp"
 #include "core/trajectory/binary/segment.hpp"
 #include "core/trajectory/text/trajectory_line.hpp"
+#include "tests/core/trajectory/milling/random_milled.hpp"
 #include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
@@ -81,6 +83,58 @@ TEST(Timeline, WhatWasWrittenStaysWhenMoreComes) {
     const std::string part = timeline_of(grid_of(16, all), {rows.begin(), rows.begin() + static_cast<long>(count)});
     EXPECT_EQ(whole.substr(0, part.size()), part);
   }
+}
+
+/// What a reader of these bytes is told of a plan's first keyframes; how many.
+std::size_t expect_told(const MilledPlan& plan, const std::string& bytes) {
+  TimelineReader reader(bytes);
+  std::size_t at = 0;
+  for (; const auto step = reader.next(); ++at) {
+    const Keyframe& keyframe = plan.keyframes[at];
+    EXPECT_EQ(step->cut, keyframe.cut);
+    EXPECT_EQ(step->tool, keyframe.mill->tool);
+    VoxelSet gone(16);
+    for (const auto& [first, last] : step->runs)
+      for (Voxel v = first; v.i <= last.i; ++v.i) gone.insert(v);
+    EXPECT_EQ(gone, plan.removed[at]) << "keyframe " << at;
+  }
+  return at;
+}
+
+TEST(Timeline, OfMillingToolsHasTheRunsOfEachCutAndMayEndAnywhere) {
+  const VoxelSet stock(16, true);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const MilledPlan plan = random_milled(seed, stock, 80);
+    std::ostringstream out;
+    TimelineWriter writer(out, plan.header, {stock, VoxelSet(16)});
+    writer.flush();
+    const std::size_t begin = out.str().size();
+    std::vector<std::size_t> ends;
+    for (const Keyframe& keyframe : plan.keyframes) {
+      writer.add(keyframe);
+      writer.flush();
+      ends.push_back(out.str().size());
+    }
+    const std::string whole = out.str();
+    EXPECT_EQ(expect_told(plan, whole), plan.keyframes.size());
+    for (std::size_t length = begin; length < whole.size(); length += 7)
+      EXPECT_EQ(expect_told(plan, whole.substr(0, length)),
+                static_cast<std::size_t>(std::ranges::upper_bound(ends, length) - ends.begin()));
+  }
+}
+
+TEST(Timeline, OfMillingToolsThatCannotBeIsRefused) {
+  std::ostringstream out;
+  TimelineWriter(out, milled_header(), {VoxelSet(16, true), VoxelSet(16)}).flush();
+  const auto refused = [&](const std::string& tokens) {
+    const std::string bytes = out.str() + tokens;
+    TimelineReader reader(bytes);
+    EXPECT_THROW(reader.next(), InputError);
+  };
+  refused(std::string("\x01\x02", 2));              // a tool that is not there
+  refused(std::string("\x03\x00", 2));              // a move in a cut
+  refused(std::string("\x03\x08\x3f\x00\x00", 5));  // outside of the grid
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ class MotionsTest : public testing::Test {
   std::unique_ptr<JobStore> store = open_test_store(folder.path() / "db");
   Isolation isolation;
   Programs programs{blobs, isolation};
-  Artifacts artifacts{JobFiles(jobs()), *store, planner, programs};
+  MachinedFiles machined{blobs, isolation};
+  Artifacts artifacts{JobFiles(jobs()), *store, planner, programs, machined};
   Motions motions{artifacts, blobs, isolation};
   JobRecord job;
 };

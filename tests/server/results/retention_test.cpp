@@ -52,7 +52,8 @@ class RetentionTest : public testing::Test {
   std::vector<std::string> sweep(const RetentionRules& rules) {
     const Isolation isolation{};
     const Programs programs(blobs, isolation);
-    const Artifacts artifacts(JobFiles(jobs()), *store, planner, programs);
+    const MachinedFiles machined(blobs, isolation);
+    const Artifacts artifacts(JobFiles(jobs()), *store, planner, programs, machined);
     return Retention(*store, blobs, artifacts).sweep(rules, now);
   }
 

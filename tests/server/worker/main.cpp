@@ -1,9 +1,10 @@
-// What the daemon starts with --run-job, --check-job, --check-cell, --replay-job, --time-job and --program-job, with
-// the fake planner in the place of the real one.
+// What the daemon starts with --run-job, --check-job, --check-cell, --replay-job, --time-job, --program-job and
+// --machined-job, with the fake planner in the place of the real one.
 #include <string_view>
 
 #include "server/results/isolated_program.hpp"
 #include "server/results/isolated_timing.hpp"
+#include "server/results/machined_files.hpp"
 #include "server/run/isolated_check.hpp"
 #include "server/run/isolated_examination.hpp"
 #include "server/run/isolated_replay.hpp"
@@ -18,5 +19,6 @@ int main(int, char** arguments) {
   if (mode == sculpt::server::replay_job_option) return sculpt::server::run_isolated_replay(fake.planner());
   if (mode == sculpt::server::time_job_option) return sculpt::server::run_isolated_timing(fake.planner());
   if (mode == sculpt::server::program_job_option) return sculpt::server::run_isolated_program(fake.planner());
+  if (mode == sculpt::server::machined_job_option) return sculpt::server::run_isolated_machined(fake.planner());
   return sculpt::server::run_isolated_job(fake.planner());
 }

@@ -1,4 +1,4 @@
-#include "core/mill/swept_set.hpp"
+#include "core/trajectory/milling/swept_set.hpp"
 
 #include <bit>
 

@@ -1,0 +1,52 @@
+"""The page of a plan with milling tools."""
+
+import subprocess
+import unittest
+
+import shapes
+from harness import SCULPT, environment
+from mill import milled
+from page_kit import PageTest
+
+import sculpt
+
+
+class Milled(PageTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cell, mesh = milled.write_cell(cls.scratch), shapes.write_stl(cls.scratch / "ball.stl", shapes.ball(24))
+        cls.job = subprocess.run([*SCULPT, "submit", mesh, "--resolution", "16", "--robot", cell, "--tolerance", "0.0005", "--tools", "D20,D12", "--wait"],
+                                 env=environment(cls.daemon.address), check=True, capture_output=True, text=True).stdout.split()[0]
+        with sculpt.Client(cls.daemon.address) as client:
+            cls.report = client.call("job.report", job=cls.job)
+            cls.timeline = sculpt.read_timeline(b"".join(client.read_artifact(cls.job, "timeline")))
+
+    def test_the_stock_goes_cut_by_cut(self):
+        page = self.open()
+        page.settled()
+        _, _, cuts = self.timeline
+        removed = self.report["voxels"]["removed"]
+        self.assertEqual(page.app("[app.time.keyframes, app.time.cut]"), [len(cuts), removed])
+        for share in (0.3, 0.55, 0, 1):
+            keyframe = int(share * len(cuts))
+            gone = sum(last[0] - first[0] + 1 for cut in cuts[:keyframe] if isinstance(cut, list) for first, last in cut)
+            page.app(f"app.time.go({keyframe})")
+            page.settled()
+            self.assertEqual(page.app("[app.time.cut, app.stage.shown]"), [gone, gone])
+        kinds = page.app(f"[...app.time.kinds.slice(0, {len(cuts)})]")
+        self.assertEqual([kind & 7 == 7 for kind in kinds], [isinstance(cut, list) for cut in cuts])
+        self.assert_well_behaved(page)
+
+    def test_it_reads_the_timeline_in_pieces(self):
+        page = self.open()
+        page.settled()
+        whole, pieces = (page.run(f"""import('/ui/plan/timeline.js').then(async ({{Timeline}}) => {{
+            const timeline = new Timeline(), bytes = new Uint8Array(await (await fetch('/v1/artifacts/{self.job}/timeline')).arrayBuffer());
+            for (let at = 0; at < bytes.length; at += {piece}) timeline.add(bytes.slice(at, at + {piece}), () => {{}});
+            return [timeline.keyframes, [...timeline.order], [...timeline.removed.values.slice(0, timeline.keyframes)]]; }})""") for piece in (1 << 30, 97))
+        self.assertEqual(pieces, whole)
+
+
+if __name__ == "__main__":
+    unittest.main()
