@@ -60,6 +60,8 @@ export class Stage extends EventTarget {
     this.worker.postMessage({kind: 'reset'});
     /** @type {any} of the timeline */
     this.head = null;
+    /** @type {{keyframe: number, tool: number}[]} of milling tools */
+    this.changes = [];
     this.final = false;
     this.pending = 0;
     /** @type {Joints | null} */
@@ -140,7 +142,6 @@ export class Stage extends EventTarget {
       this.robot = robot;
       this.view.set_robot(robot);
       robot.stock_frame.add(this.path.lines);
-      if (this.head) robot.set_tool(this.head.header.tool);
       this.#first_view();
       this.dispatchEvent(new CustomEvent('robot'));
       if (robot.missing.length) this.#note(robot.missing[0]);
@@ -170,11 +171,11 @@ export class Stage extends EventTarget {
     if (grown.head) {
       this.head = grown.head;
       this.view.set_grid(grown.head.header, grown.head.edge);
-      this.robot?.set_tool(grown.head.header.tool);
       this.time.remove = grown.head.voxels.remove;
       this.#note('');
       this.dispatchEvent(new CustomEvent('started'));
     }
+    this.changes.push(...grown.changes);
     this.time.add(grown);
     if (this.final && this.pending === 0) this.#show_whole();
     else this.#ask();
@@ -239,7 +240,15 @@ export class Stage extends EventTarget {
     this.#ask();
   }
 
+  // The tool that is in the spindle now.
+  #take_tool() {
+    if (!this.head || !this.robot) return;
+    const {tool, tools} = this.head.header, last = this.changes.filter(({keyframe}) => keyframe < this.time.at).pop();
+    this.robot.set_tool(tools ? tools[last?.tool ?? 0] : tool);
+  }
+
   async #move_robot() {
+    this.#take_tool();
     if (!this.joints || !this.robot) return;
     if (this.posing) {
       this.pose_again = true;
@@ -263,6 +272,7 @@ export class Stage extends EventTarget {
   }
 
   #pose(values) {
+    this.#take_tool();
     const names = this.head?.header.joints ?? [];
     this.robot?.move(names.map((name, at) => [name, values[at]]));
     this.view.draw();

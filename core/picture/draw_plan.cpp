@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/cell/link_poses.hpp"
+#include "core/cell/milling/mounted_tool.hpp"
 
 namespace sculpt {
 namespace {
@@ -82,6 +83,12 @@ class PlanDrawing {
   }
 
   void add_tool(const Cell& cell, const Frame& nose) {
+    if (const auto& mill = moment_.header.mill) {
+      const std::vector<Shape> shapes = tool_shapes(mill->tools[static_cast<std::size_t>(moment_.tool)]);
+      for (const Shape& shape : shapes)
+        add_facets(shape, nose, &shape == shapes.data() ? tool_colour : holder_colour, facets_);
+      return;
+    }
     const Tool& tool = moment_.header.tool;
     Shape ball, shank;
     ball.kind = ShapeKind::sphere;

@@ -20,6 +20,7 @@ VoxelSet without(VoxelSet set, const VoxelSet& taken) {
 
 struct Step {
   std::vector<std::pair<Voxel, Voxel>> runs;  ///< that go
+  int tool = -1;                              ///< a change to this one
   Configuration q;                            ///< empty where it is not known
 };
 
@@ -48,6 +49,7 @@ void go_to(StockMoment& moment, double share, const Next& next) {
     }
     int gone = static_cast<int>(std::floor(part * length + 1e-9));
     moment.removed += static_cast<std::uint64_t>(gone);
+    if (step->tool >= 0 && part > 0) moment.tool = step->tool;
     for (const auto& run : step->runs) gone = cut_part(moment.standing, run, gone);
     if (step->q.size() == before.size()) {
       if (part > 0 || number == 0) moment.q = before + part * (step->q - before);
@@ -67,7 +69,7 @@ StockMoment moment_of_timeline(std::string_view bytes, double share, bool ended)
   go_to(moment, share, [&]() -> std::optional<Step> {
     std::optional<TimelineStep> step = reader.next();
     if (!step) return std::nullopt;
-    return Step{std::move(step->runs), {}};
+    return Step{std::move(step->runs), step->tool, {}};
   });
   if (!ended) moment.left = VoxelSet(moment.header.grid.n);
   return moment;
@@ -89,7 +91,7 @@ StockMoment moment_of_trajectory(std::istream& in, double share) {
   go_to(moment, share, [&]() -> std::optional<Step> {
     std::optional<Keyframe> keyframe = reader.next();
     if (!keyframe) return std::nullopt;
-    Step step{{}, keyframe->q};
+    Step step{{}, keyframe->mill ? keyframe->mill->tool : -1, keyframe->q};
     if (milled)
       step.runs = milled->take(*keyframe);
     else if (keyframe->cut)

@@ -16,6 +16,7 @@ struct StockMoment {
   VoxelGrid start;            ///< at the start
   VoxelSet standing;          ///< at the moment
   VoxelSet left;              ///< to be removed and never cut
+  int tool = 0;               ///< of those milling tools that the header names
   Configuration q;            ///< joints at the moment; empty where the plan does not say them
   std::uint64_t removed = 0;  ///< voxels gone
   std::uint64_t keyframes = 0;

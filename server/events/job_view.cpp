@@ -39,7 +39,7 @@ Json job_view(const ViewSources& sources, const JobRecord& job) {
   view["mesh"] = spec.mesh.name;
   if (spec.continued) view["continues"] = spec.continued->job;
   view["robot"] = spec.cell_bundle.empty() ? spec.robot : "cell bundle " + spec.cell_bundle.substr(0, 8);
-  view["search"] = spec.search.value_or(name(Job{}.search));
+  view["search"] = spec.search.value_or(name(spec.mill ? Search::mill : Job{}.search));
   view["seed"] = spec.seed;
   view["resolution"] = spec.resolution;
   view["attempt"] = job.attempt;

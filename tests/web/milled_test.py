@@ -34,8 +34,23 @@ class Milled(PageTest):
             page.app(f"app.time.go({keyframe})")
             page.settled()
             self.assertEqual(page.app("[app.time.cut, app.stage.shown]"), [gone, gone])
+            tools = [cut for cut in cuts[:keyframe] if isinstance(cut, int)]
+            self.assertEqual(page.app("app.stage.robot.held.name"), ["D20", "D12"][tools[-1] if tools else 0])
         kinds = page.app(f"[...app.time.kinds.slice(0, {len(cuts)})]")
         self.assertEqual([kind & 7 == 7 for kind in kinds], [isinstance(cut, list) for cut in cuts])
+        self.assert_well_behaved(page)
+
+    def test_the_report_has_tools_and_surface(self):
+        page = self.open()
+        page.settled()
+        page.until("document.querySelector('#panel-report').textContent.includes('Replay')")
+        text = page.text("#panel-report").replace("\u202f", "")
+        for tool in self.report["tools"]:
+            self.assertRegex(text, rf"{tool['name']}\s+{tool['removed_m3'] * 1e6:.1f} cm.\s+{tool['cut_m']:.1f} m cut")
+        for points in (self.report["surface"]["points"], self.report["surface"]["reachable"]["points"]):
+            self.assertIn(f"{points} points", text)
+        for cure in self.report["cures"]:
+            self.assertIn(cure["cure"], text)
         self.assert_well_behaved(page)
 
     def test_it_reads_the_timeline_in_pieces(self):

@@ -27,6 +27,7 @@ export function show_report(report, why) {
       row('cut', `${path.cut_m.toFixed(2)} m`),
       row('travel', `${path.travel_m.toFixed(2)} m`),
       row('joint travel', `${count(path.joint_travel_rad)} rad`)),
+    ...of_tools(report),
     ...table('Time to plan', ...STAGES.map((stage) => {
       const bar = make('span', {class: 'share'});
       bar.style.width = `${(100 * seconds[stage]) / longest}%`;
@@ -40,4 +41,19 @@ export function show_report(report, why) {
       row('search', report.search), row('seed', String(report.seed)), row('threads', String(report.threads)), row('memory', size(report.peak_memory_bytes))),
     make('p', {class: 'hint'}, `plan sha256 ${report.plan_sha256.slice(0, 16)}\u2026`),
   );
+}
+
+/** What a plan with milling tools has besides. @param {any} report @returns {HTMLElement[]} */
+function of_tools({tools, surface, cures}) {
+  if (!tools) return [];
+  const micrometres = (metres) => `${count(metres * 1e6)} \u00b5m`;
+  const shares = ({points, within_tolerance, excess_m}) => [
+    row('within tolerance', percent(within_tolerance, points), `${count(points)} points`), row('p99 above', micrometres(excess_m.p99), `max ${micrometres(excess_m.max)}`)];
+  return [
+    ...table('Tools', ...tools.map(({name, removed_m3, cut_m, travel_m}) => row(name, `${(removed_m3 * 1e6).toFixed(1)} cm\u00b3`, `${cut_m.toFixed(1)} m cut, ${travel_m.toFixed(1)} m beside`))),
+    ...surface ? [
+      ...table('Surface', ...shares(surface)), ...table('Of what these tools reach', ...shares(surface.reachable)),
+      ...table('Cut too deep', row('points', count(surface.gouged_points), micrometres(surface.gouge_m)))] : [],
+    ...(cures ?? []).length ? [make('h3', {}, 'What is left'), ...cures.map(({share, cure}) => make('p', {class: 'hint'}, `${percent(share, 1)}: ${cure}`))] : [],
+  ];
 }

@@ -47,6 +47,8 @@ export class Timeline {
     this.removed = new Growing(Uint32Array);
     /** of keyframe k: 0 = a move, 1 + direction of a cut, 7 = a cut of a milling tool, and 8 more where another row begins */
     this.kinds = new Growing(Uint8Array);
+    /** @type {{keyframe: number, tool: number}[]} changes of tools: the keyframe that is one, and the tool's number in the header */
+    this.changes = [];
     this.ordinal = 0;
     this.filled = 0;
     this.last = {x: 0, y: 0, z: 0, direction: 0, length: 1};
@@ -164,7 +166,12 @@ export class Timeline {
   #read_milled(numbers, on_cut) {
     const token = numbers.next();
     if (token <= 0) return token;
-    if (token === 1) return numbers.next() < 0 ? -1 : MOVE;  // to another tool
+    if (token === 1) {
+      const tool = numbers.next();
+      if (tool < 0) return -1;
+      this.changes.push({keyframe: this.kinds.length, tool});
+      return MOVE;
+    }
     const begin = numbers.at;
     for (let left = token - 2; left > 0; --left) {  // is all of it there?
       const run = numbers.next(), places = run > 1 && (run - 2) % 7 === 6 ? 3 : 0;

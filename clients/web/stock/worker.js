@@ -29,7 +29,7 @@ const on = {
   add({generation, bytes}) {
     const began = timeline.started;
     timeline.add(bytes, (first, last, from, to) => (chunks ? chunks.add(first, last, from, to) : cuts_before.push([first, last, from, to])));
-    if (!timeline.started) return postMessage({kind: 'grown', generation, head: null, keyframes: 0, removed: new Uint32Array(0), kinds: new Uint8Array(0)});
+    if (!timeline.started) return postMessage({kind: 'grown', generation, head: null, keyframes: 0, removed: new Uint32Array(0), kinds: new Uint8Array(0), changes: []});
     if (!chunks) {
       chunks = new Chunks(timeline.edge, timeline.voxels.remove);
       standing = new Standing(timeline);
@@ -42,6 +42,7 @@ const on = {
     postMessage({
       kind: 'grown', generation, head, keyframes: told,
       removed: timeline.removed.values.slice(from, told), kinds: timeline.kinds.values.slice(from, told),
+      changes: timeline.changes.filter(({keyframe}) => keyframe >= from),
     });
   },
 

@@ -1,9 +1,10 @@
 // The cell of a job as objects: its URDF with collision and visual shapes, the tool in its holder, and the frame of the stock.
 
-import {CylinderGeometry, Group, Mesh, MeshLambertMaterial, OBJLoader, STLLoader, SphereGeometry, URDFLoader, Vector3} from '../vendor/libraries.js';
+import {BoxGeometry, Group, Mesh, MeshLambertMaterial, OBJLoader, STLLoader, URDFLoader, Vector3} from '../vendor/libraries.js';
 import {get} from '../wire/token.js';
+import {milling_tool, thin_tool} from './tool.js';
 
-const BODY = '#c3cbd3', ROOM = '#77828d', TOOL = '#e0b04a', HOLDER = '#59636e';
+const BODY = '#c3cbd3', ROOM = '#77828d';
 const LOADERS = {stl: () => new STLLoader(), obj: () => new OBJLoader()};
 
 const material = (colour) => new MeshLambertMaterial({color: colour});
@@ -17,6 +18,9 @@ export class Robot {
     this.stock_frame = new Group();
     this.root.add(this.stock_frame);
     this.tool = new Group();
+    this.post = new Group();
+    /** @type {any} what `tool` shows, as the header has it */
+    this.held = null;
     this.stickout_m = 0;
     /** @type {string[]} what could not be drawn, as sentences */
     this.missing = [];
@@ -41,9 +45,17 @@ export class Robot {
     const stock_link = robot.urdf.links[cell.stock.link];
     robot.stock_frame.removeFromParent();
     (stock_link ?? robot.root).add(robot.stock_frame);
+    if (cell.stock.post) robot.#add_post(cell.stock);
     robot.urdf.links[cell.tool.link]?.add(robot.tool);
     robot.move(Object.entries(cell.home ?? {}));
     return robot;
+  }
+
+  // What the block stands on.
+  #add_post({origin_m: [x, y, z], size_m, post: {height_m, width_m}}) {
+    this.post.add(new Mesh(new BoxGeometry(width_m, width_m, height_m), this.room));
+    this.post.position.set(x + size_m / 2, y + size_m / 2, z - height_m / 2);
+    this.stock_frame.add(this.post);
   }
 
   async #read_urdf(text, fetch_file) {
@@ -91,7 +103,7 @@ export class Robot {
     each((_, of) => { has[of] = true; });
     const shown = kind === 'visual' && !has.visual ? 'collision' : kind;
     each((part, of) => { part.visible = of === shown; });
-    this.tool.visible = kind !== 'none';
+    this.tool.visible = this.post.visible = kind !== 'none';
   }
 
   /** @param {number} share 1 = solid */
@@ -104,19 +116,13 @@ export class Robot {
     }
   }
 
-  /** @param {{ball_radius_m: number, shank_radius_m: number, stickout_m: number}} tool of the trajectory's header */
+  /** @param {any} tool a thin one or one of the milling tools of the trajectory's header */
   set_tool(tool) {
-    this.tool.clear();
+    if (tool === this.held) return;
+    this.held = tool;
     this.stickout_m = tool.stickout_m;
-    const ball = new Mesh(new SphereGeometry(tool.ball_radius_m, 24, 16), material(TOOL));
-    ball.position.z = tool.stickout_m;
-    this.tool.add(ball);
-    if (tool.stickout_m > 0 && tool.shank_radius_m > 0) this.tool.add(section(0, tool.stickout_m, tool.shank_radius_m, tool.shank_radius_m, TOOL));
-    let from = 0;
-    for (const part of this.cell.tool.holder ?? []) {
-      this.tool.add(section(from, from + part.length_m, part.radius_m, part.end_radius_m ?? part.radius_m, HOLDER));
-      from += part.length_m;
-    }
+    this.tool.clear();
+    this.tool.add(...(tool.cutter ? milling_tool(tool) : thin_tool(tool, this.cell.tool.holder ?? [])));
   }
 
   /** @param {Iterable<[string, number]>} values rad or m by joint */
@@ -127,7 +133,7 @@ export class Robot {
   /**
    * @param {string[]} joints
    * @param {number[][]} postures rad or m, one value a joint
-   * @returns {any[]} the ball's centre at each as a Vector3, in the stock's frame (m); the robot stands as before
+   * @returns {any[]} the thin tool's ball, or a milling tool's tip, at each as a Vector3, in the stock's frame (m); the robot stands as before
    */
   balls(joints, postures) {
     const before = joints.map((joint) => this.urdf.joints[joint]?.angle ?? 0), name = (values) => joints.map((joint, at) => /** @type {[string, number]} */ ([joint, values[at]]));
@@ -142,18 +148,27 @@ export class Robot {
     return places;
   }
 
+  /** @returns {{base: Vector3, low: Vector3, high: Vector3}} where the first joint is that moves the tool, and a box that holds what moves (m, in the world) */
+  place() {
+    this.root.updateMatrixWorld(true);
+    const base = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
+    for (let part = this.urdf.links[this.cell.tool.link]; part; part = part.parent)
+      if (part.isURDFJoint && part.jointType !== 'fixed') base.setFromMatrixPosition(part.matrixWorld);
+    this.urdf.traverse((part) => {
+      if (!part.isMesh || part.material !== this.bodies) return;
+      part.geometry.computeBoundingSphere();
+      const {center, radius} = part.geometry.boundingSphere, middle = center.clone().applyMatrix4(part.matrixWorld);
+      const reach = radius * part.matrixWorld.getMaxScaleOnAxis();
+      low.min(middle.clone().subScalar(reach));
+      high.max(middle.clone().addScalar(reach));
+    });
+    return {base, low, high};
+  }
+
   /** @param {string} joint @returns {{lower: number, upper: number, velocity: number} | null} */
   limits(joint) {
     const found = this.urdf.joints[joint];
     if (!found) return null;
     return {lower: Number(found.limit.lower), upper: Number(found.limit.upper), velocity: Number(found.limit.velocity)};
   }
-}
-
-// A cylinder or cone about z.
-function section(from, to, radius, end_radius, colour) {
-  const mesh = new Mesh(new CylinderGeometry(end_radius, radius, to - from, 32), material(colour));
-  mesh.rotation.x = Math.PI / 2;
-  mesh.position.z = (from + to) / 2;
-  return mesh;
 }

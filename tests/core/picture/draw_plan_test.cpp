@@ -84,5 +84,31 @@ TEST(DrawPlan, TheCellStandsAsTheJointsSay) {
   }
 }
 
+TEST(DrawPlan, TheMillingToolIsTheOneInTheSpindle) {
+  const Cell cell = shipped_cell("studio");
+  const Chain chain = cell.chain();
+  StockMoment here = moment();
+  here.header.grid = cell.grid(n);
+  here.header.joints = chain.names();
+  here.header.mill = MillHeader{{{"D80", 1, {CutterKind::ball, 0.04, 0.04, 0.2}, {}, 0.2, 0.01, 0.01, 0.1, {}, {}},
+                                 {"D10", 2, {CutterKind::ball, 0.005, 0.005, 0.2}, {}, 0.2, 0.01, 0.01, 0.1, {}, {}}},
+                                {{0, 0, 1}},
+                                2e-5,
+                                std::string(64, 'a')};
+  here.q = cell.home(chain);
+  const auto count_tool = [&] {
+    const Picture picture = draw_plan(here, &cell, {"corner", 320});
+    int yellow = 0;
+    for (std::size_t at = 0; at < picture.rgb.size(); at += 3)
+      yellow += picture.rgb[at] > 2 * picture.rgb[at + 2] && picture.rgb[at + 1] > 1.5 * picture.rgb[at + 2];
+    return yellow;
+  };
+  const int thick = count_tool();
+  here.tool = 1;
+  const int thin = count_tool();
+  EXPECT_GT(thin, 20);
+  EXPECT_GT(thick, 4 * thin);
+}
+
 }  // namespace
 }  // namespace sculpt

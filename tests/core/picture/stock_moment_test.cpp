@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/trajectory/timeline.hpp"
 #include "core/trajectory/writer.hpp"
+#include "tests/core/trajectory/milling/random_milled.hpp"
 #include "tests/core/trajectory/random_trajectory.hpp"
 
 namespace sculpt {
@@ -85,6 +86,36 @@ TEST(StockMoment, OfATrajectoryTheGridIsFullAndJointsAreBetweenKeyframes) {
   EXPECT_NEAR(moment.q[1], 3, 1e-12);
   std::istringstream again(trajectory());
   EXPECT_TRUE(moment_of_trajectory(again, 0).q.isApprox(sample_header().home));
+}
+
+TEST(StockMoment, OfMillingToolsEachCutTakesWhatItSweeps) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const VoxelSet stock(n, true);
+    const MilledPlan milled = random_milled(seed, stock, 60);
+    std::ostringstream out;
+    TimelineWriter writer(out, milled.header, {stock, VoxelSet(n)});
+    for (const Keyframe& keyframe : milled.keyframes) writer.add(keyframe);
+    writer.flush();
+    VoxelSet standing = stock;
+    int tool = 0;
+    for (std::size_t over = 0; over <= milled.keyframes.size(); ++over) {
+      const double share = static_cast<double>(over) / static_cast<double>(milled.keyframes.size());
+      std::istringstream in(write_text(milled.header, milled.keyframes));
+      for (const StockMoment& moment : {moment_of_timeline(out.str(), share, true), moment_of_trajectory(in, share)}) {
+        EXPECT_EQ(moment.standing, standing);
+        EXPECT_EQ(moment.removed, stock.size() - standing.size());
+        EXPECT_EQ(moment.tool, tool);
+      }
+      if (over == milled.keyframes.size()) break;
+      const StockMoment between =
+          moment_of_timeline(out.str(), share + 0.5 / static_cast<double>(milled.keyframes.size()), true);
+      EXPECT_EQ(between.removed, stock.size() - standing.size() + milled.removed[over].size() / 2);
+      EXPECT_EQ(between.standing.size(), stock.size() - between.removed);
+      standing -= milled.removed[over];
+      if (milled.keyframes[over].mill->is_change()) tool = milled.keyframes[over].mill->tool;
+    }
+  }
 }
 
 TEST(StockMoment, TimelinesAreToldFromTrajectories) {
