@@ -74,6 +74,15 @@ Json fleet_view(FleetStore& fleet) {
   return daemons;
 }
 
+/// A file that is no JSON object is left out: whoever plans with it is told what is wrong.
+Json libraries_view(const Planner& planner) {
+  Json libraries = Json::object();
+  for (const ToolLibraryFile& file : planner.tool_libraries())
+    if (Json library = Json::parse(file.json, nullptr, false); library.is_object())
+      libraries[file.name] = std::move(library);
+  return libraries;
+}
+
 void on_server_info(const ServerGroup& group, Call call) {
   proto::read_nothing(call.params);
   group.answers.read(std::move(call), [group] {
@@ -86,6 +95,7 @@ void on_server_info(const ServerGroup& group, Call call) {
               {"uptime_s", std::chrono::duration_cast<std::chrono::seconds>(uptime).count()},
               {"workers", group.workers},
               {"cells", group.planner.cells()},
+              {"tool_libraries", libraries_view(group.planner)},
               {"queue_paused", group.store.queue_paused()},
               {"jobs", std::move(jobs)}};
     if (group.fleet != nullptr) info["fleet"] = fleet_view(*group.fleet);

@@ -108,6 +108,7 @@ Planner make_planner(std::vector<fs::path> folders) {
   Planner planner;
   planner.cells = [folders] { return cell_names(folders); };
   planner.read_cell = [folders](const std::string& name) { return read_cell_files(find_cell(name, folders)); };
+  planner.tool_libraries = [folders] { return read_tool_libraries(tool_folders(folders)); };
   planner.check = check_job;
   planner.examine = examine;
   planner.predict_memory = predict_memory;

@@ -40,6 +40,8 @@ struct Planner {
   /// Names of the cells that `read_cell` knows.
   std::function<std::vector<std::string>()> cells;
   std::function<CellFiles(const std::string& name)> read_cell;
+  /// The tool libraries that clients are offered.
+  std::function<std::vector<ToolLibraryFile>()> tool_libraries;
   std::function<void(const Job&, const Watch&)> check;
   /// What is found out about a cell, as a JSON object; what is wrong with its files is found too.
   std::function<std::string(const CellFiles&, int resolution, int threads)> examine;

@@ -110,6 +110,9 @@ Planner FakePlanner::planner() {
     if (name != "gantry") throw InputError("cell_unknown", "there is no cell '" + name + "': there is gantry");
     return CellFiles{name, "{}", {{"room.urdf", "<robot/>"}}};
   };
+  planner.tool_libraries = [] {
+    return std::vector<ToolLibraryFile>{{"carving", R"({"tools":[]})"}, {"torn", R"({"tools":)"}};
+  };
   planner.check = [](const Job& job, const Watch&) {
     if (job.mesh.bytes == "crashes its reader") std::abort();
     if (job.mesh.bytes == "has no end") std::this_thread::sleep_for(std::chrono::hours(24));

@@ -1,12 +1,15 @@
 """The page of a plan with milling tools."""
 
+import contextlib
+import json
+import sqlite3
 import subprocess
 import unittest
 
 import shapes
-from harness import SCULPT, environment
+from harness import SCULPT, SOURCE, environment
 from mill import milled
-from page_kit import PageTest
+from page_kit import SAMPLES, PageTest
 
 import sculpt
 
@@ -51,6 +54,33 @@ class Milled(PageTest):
             self.assertIn(f"{points} points", text)
         for cure in self.report["cures"]:
             self.assertIn(cure["cure"], text)
+        self.assert_well_behaved(page)
+
+    def test_tools_are_chosen_in_the_form(self):
+        with sculpt.Client(self.daemon.address) as client:
+            client.call("queue.pause")
+            self.addCleanup(lambda: sculpt.Client(self.daemon.address).call("queue.resume"))
+            page = self.open()
+            page.until("!document.querySelector('#new-job').hidden")
+            page.click("#new-job")
+            page.until("document.querySelector('#submit').open")
+            page.choose_file("#submit-file", SAMPLES / "vase.stl")
+            page.run("document.querySelector('#submit-robot').value = 'studio'")
+            self.assertEqual(page.run("document.querySelectorAll('#submit [name=tools]').length"), 0)
+            page.run("(library => { library.value = 'carving'; library.dispatchEvent(new Event('change')); })(document.querySelector('#submit-library'))")
+            self.assertEqual(page.run("[...document.querySelectorAll('#submit [name=tools]:checked')].map(box => box.value)"), ["D20", "D12", "D6", "D3"])
+            page.run("document.querySelectorAll('#submit [name=tools]').forEach(box => { box.checked = ['D20', 'D6'].includes(box.value); })")
+            page.run("document.querySelector('#submit-tolerance').value = '0.25'")
+            page.run("document.querySelector('#submit form').requestSubmit()")
+            page.until("!document.querySelector('#submit').open")
+            job = client.call("job.list", order="newest", limit=1)["jobs"][0]
+            self.assertEqual((job["mesh"], job["robot"], job["search"]), ("vase.stl", "studio", "mill"))
+            client.call("job.cancel", job=job["job"])
+        with contextlib.closing(sqlite3.connect(self.scratch / "data/sculptd.db")) as store:
+            [(spec,)] = store.execute("SELECT spec FROM job WHERE id = ?", [job["job"]])
+        mill = json.loads(spec)["mill"]
+        self.assertEqual((mill["tools"], mill["tolerance_m"]), (["D20", "D6"], 0.00025))
+        self.assertEqual(mill["library"], json.loads((SOURCE / "config/tools/carving.json").read_text()))
         self.assert_well_behaved(page)
 
     def test_it_reads_the_timeline_in_pieces(self):

@@ -11,7 +11,9 @@ const ACTIONS = [
   ['job.cancel', 'Cancel', [...WAITS, 'paused', 'running', 'pausing']],
   ['job.retry', 'Retry', ['quarantined']],
 ];
+/** @type {[string, string][]} artifact, format */
 const RESULTS = [['trajectory', 'ndjson'], ['trajectory', 'binary'], ['trajectory', 'csv'], ['voxels', ''], ['residue', ''], ['report', '']];
+/** @type {[string, string][]} */
 const OF_TOOLS = [['surface', ''], ['stock', 'zip']];
 
 /**

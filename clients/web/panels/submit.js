@@ -14,7 +14,9 @@ export class SubmitForm {
     this.connection = connection;
     this.on_submitted = on_submitted;
     this.dialog = by_id('submit');
-    this.last = {robot: '', resolution: '64', search: '', priority: '0', margin: '0', seed: '0'};
+    this.last = {robot: '', resolution: '64', search: '', priority: '0', margin: '0', seed: '0', library: '', tolerance: '0.1'};
+    /** @type {string[]} names of those that are to be used */
+    this.tools = [];
   }
 
   /** @param {File | undefined} file @param {string} likely a cell, for the first time */
@@ -24,6 +26,7 @@ export class SubmitForm {
     const [info, schema] = await Promise.all([this.connection.call('server.info'), get('/schema.json').then((reply) => reply.json())]);
     const defs = schema.$defs;
     this.file = file;
+    this.libraries = info.tool_libraries;
     this.#draw(info.cells, {
       resolutions: defs.resolution.enum.filter((n) => n <= MOST_SHOWN),
       searches: defs.search.enum,
@@ -52,15 +55,37 @@ export class SubmitForm {
         field('Priority', number('priority', {min: takes.priority.minimum, max: takes.priority.maximum, step: 1})),
         field('Free margin, mm', number('margin', {min: 0, max: 1000, step: 'any'})),
         field('Seed', number('seed', {min: 0, step: 1}))),
+      ...this.#tool_fields({field, select, number, option}),
       make('p', {class: 'hint'}, 'The mesh is scaled to fill the stock, centred, standing on the floor.'),
       this.bar, this.note,
       make('menu', {}, make('button', {type: 'button', on: {click: () => this.dialog.close()}}, 'Close'), this.send)));
   }
 
+  // A library, and boxes for its tools: without one the thin tool of the cell is used.
+  #tool_fields({field, select, number, option}) {
+    const names = Object.keys(this.libraries);
+    if (names.length === 0) return [];
+    const boxes = make('div', {class: 'tools'});
+    const library = select('library', option('library', '', 'none: the thin tool of the cell'), ...names.map((name) => option('library', name)));
+    const tolerance = field('Tolerance, mm', number('tolerance', {min: 0.001, max: 10, step: 'any'}));
+    const show = () => {
+      tolerance.hidden = library.value === '';
+      boxes.replaceChildren(...tools_of(this.libraries[library.value]).map((name) =>
+        make('label', {}, make('input', {type: 'checkbox', name: 'tools', value: name, checked: this.tools.includes(name) || this.tools.length === 0}), name)));
+    };
+    library.addEventListener('change', () => {
+      this.tools = [];
+      show();
+    });
+    show();
+    return [make('div', {class: 'two'}, field('Milling tools', library), tolerance), boxes];
+  }
+
   async #submit(event) {
     event.preventDefault();
     const form = new FormData(event.target);
-    for (const name of Object.keys(this.last)) this.last[name] = String(form.get(name));
+    for (const name of Object.keys(this.last)) this.last[name] = String(form.get(name) ?? this.last[name]);
+    this.tools = form.getAll('tools').map(String);
     if (!this.file) {
       this.note.textContent = 'Choose a mesh first.';
       return;
@@ -83,12 +108,18 @@ export class SubmitForm {
   }
 
   #spec(blob) {
-    const {robot, resolution, search, margin, seed} = this.last;
+    const {robot, resolution, search, margin, seed, library, tolerance} = this.last;
+    const mill = {tools: this.tools, library: this.libraries[library], tolerance_m: Number(tolerance) / 1000};
     return {
       mesh: {blob, name: this.file.name}, robot, resolution: Number(resolution), seed: Number(seed),
-      ...(search ? {search} : {}), ...(Number(margin) ? {placement: {margin_m: Number(margin) / 1000}} : {}),
+      ...(library ? {mill} : search ? {search} : {}), ...(Number(margin) ? {placement: {margin_m: Number(margin) / 1000}} : {}),
     };
   }
+}
+
+// Their names, in the order that they are used in; none of what is no library.
+function tools_of(library) {
+  return Array.isArray(library?.tools) ? library.tools.map(({name}) => String(name)) : [];
 }
 
 /** A mesh that is dropped anywhere opens the form. @param {(file: File) => void} on_file @param {() => boolean} is_allowed */

@@ -6,14 +6,9 @@ import {
 } from '../vendor/libraries.js';
 import {Pages} from '../stock/pages.js';
 import {LOOKS, stock_material} from '../stock/material.js';
+import {vantage} from './vantage.js';
 
 const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
-/** From where, in the stock's frame. */
-export const SIDES = {front: [0, -1, 0.0001], back: [0, 1, 0.0001], left: [-1, 0, 0.0001], right: [1, 0, 0.0001], top: [0, -0.0001, 1], bottom: [0, -0.0001, -1]};
-
-/** The whole cell is seen so far to the side of the line from the robot over the stock (rad), and from so high for each metre away. */
-const UP = new Vector3(0, 0, 1), ASIDE = -0.88, HIGH = 0.47;
-
 /** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was. */
 export class View extends EventTarget {
   /** @param {HTMLCanvasElement} canvas throws an Error where there is no WebGL 2 */
@@ -203,25 +198,13 @@ export class View extends EventTarget {
 
   /** @param {string} side of SIDES, or `cell`, or `stock` */
   look_from(side) {
-    const {target, direction, radius} = side === 'cell' && this.robot ? this.#whole_cell() : {
-      target: this.#stock_centre(), direction: new Vector3(...(SIDES[side] ?? [0.62, -0.85, 0.5])), radius: this.size_m || 0.2};
+    const {target, direction, radius} = vantage(side, this.#stock_centre(), this.size_m || 0.2, this.robot);
     const distance = radius / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(direction.normalize(), distance);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
     this.controls.update();
     this.draw();
     this.#tell('moved');
-  }
-
-  // Stock and robot, from the side of the stock that the robot is not on.
-  #whole_cell() {
-    const stock = this.#stock_centre(), half = (this.size_m || 0.2) / 2, {base, low, high} = this.robot.place();
-    low.min(stock.clone().subScalar(half));
-    high.max(stock.clone().addScalar(half));
-    const away = stock.clone().sub(base).setZ(0);
-    if (away.length() < half) away.set(1, 0, 0);
-    const direction = away.normalize().applyAxisAngle(UP, ASIDE).setZ(HIGH);
-    return {target: low.clone().add(high).divideScalar(2), direction, radius: Math.max(high.distanceTo(low) / 2, 3 * half)};
   }
 
   /** @param {number[]} cell */

@@ -206,11 +206,20 @@ std::vector<MillTool> choose_tools(const ToolLibraryFile& file, const std::vecto
   return chosen;
 }
 
-std::vector<fs::path> shipped_tool_folders() {
+std::vector<fs::path> tool_folders(std::vector<fs::path> cells) {
   if (const char* named = std::getenv("SCULPT_TOOLS")) return {named};
-  std::vector<fs::path> folders = shipped_cell_folders();
-  for (fs::path& folder : folders) folder = folder.parent_path() / "tools";
-  return folders;
+  for (fs::path& folder : cells) folder = folder.parent_path() / "tools";
+  return cells;
+}
+
+std::vector<fs::path> shipped_tool_folders() {
+  return tool_folders(shipped_cell_folders());
+}
+
+std::vector<ToolLibraryFile> read_tool_libraries(const std::vector<fs::path>& folders) {
+  std::vector<ToolLibraryFile> libraries;
+  for (const std::string& name : cell_names(folders)) libraries.push_back(read_tool_library(name, folders));
+  return libraries;
 }
 
 ToolLibraryFile read_tool_library(const std::string& library, const std::vector<fs::path>& folders) {

@@ -26,8 +26,12 @@ std::vector<MillTool> choose_tools(const ToolLibraryFile& file, const std::vecto
 
 inline constexpr std::size_t max_tools = 16;
 
-/// The folder that the environment variable SCULPT_TOOLS names, else the folders `tools` beside those of the cells.
+/// The folder that the environment variable SCULPT_TOOLS names, else the folders `tools` beside these of cells.
+std::vector<std::filesystem::path> tool_folders(std::vector<std::filesystem::path> cells);
+/// Those of the shipped cells.
 std::vector<std::filesystem::path> shipped_tool_folders();
+/// All libraries in the folders, by name; of one name that which read_tool_library finds.
+std::vector<ToolLibraryFile> read_tool_libraries(const std::vector<std::filesystem::path>& folders);
 
 /// `library`: a path to a file (anything with a '/' or ending in .json), else a name looked up in each of `folders`.
 /// Throws InputError `tools_invalid` (lists the names there are), `file_missing`.
