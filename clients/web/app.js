@@ -41,7 +41,7 @@ class App {
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
-    show_layers(this.layers, () => this.apply_layers());
+    this.#offer_layers();
     this.apply_layers();
     this.take_along = new TakeAlong(this);
     this.connection.open();
@@ -66,6 +66,7 @@ class App {
     this.stage.addEventListener('started', () => {
       by_id('time').hidden = false;
       by_id('stage-note').textContent = '';
+      this.#offer_layers();
       this.apply_layers();
     });
     this.stage.addEventListener('robot', () => this.apply_layers());
@@ -223,7 +224,7 @@ class App {
   /** What the layers say, in the picture. */
   apply_layers() {
     const {view, stage, layers} = this;
-    show_legend(layers.look, stage?.head ? sentence_of(stage.head) : '');
+    show_legend(layers.machined ? 'machined' : layers.look, stage?.head ? sentence_of(stage.head) : '');
     if (!view) return;
     view.set_look({look: layers.look, soft: layers.smooth ? 1 : 0});
     view.set_section(layers.axis ? 'xyz'.indexOf(layers.axis) : null, layers.cut_at);
@@ -231,6 +232,7 @@ class App {
     view.robot?.show(layers.robot);
     view.robot?.set_opacity(layers.opacity);
     stage?.show_path(layers.path);
+    stage?.show_machined(layers.machined);
     view.draw();
     this.#write_address();
   }
@@ -238,8 +240,14 @@ class App {
   /** @param {Partial<typeof FIRST>} changed */
   set_layers(changed) {
     Object.assign(this.layers, changed);
-    show_layers(this.layers, () => this.apply_layers());
+    this.#offer_layers();
     this.apply_layers();
+  }
+
+  #offer_layers() {
+    const milled = Boolean(this.stage?.head?.header.tools);
+    this.layers.machined &&= milled;
+    show_layers(this.layers, () => this.apply_layers(), milled);
   }
 
   #open_form(file) {

@@ -3,6 +3,7 @@
 import {FINAL} from './panels/queue.js';
 import {Joints} from './plan/joints.js';
 import {follow_timeline, read_timeline} from './plan/follow.js';
+import {Machined} from './view/machined.js';
 import {Path} from './view/path.js';
 import {Robot} from './view/robot.js';
 import {count} from './dom.js';
@@ -29,6 +30,7 @@ export class Stage extends EventTarget {
     this.robot = null;
     this.stop = new AbortController();
     this.path = new Path();
+    this.machined = new Machined(view, (sentence) => this.#note(sentence));
     this.#forget();
     time.addEventListener('moved', () => this.#moved());
     view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
@@ -60,8 +62,7 @@ export class Stage extends EventTarget {
     this.worker.postMessage({kind: 'reset'});
     /** @type {any} of the timeline */
     this.head = null;
-    /** @type {{keyframe: number, tool: number}[]} of milling tools */
-    this.changes = [];
+    this.machined.show(null);
     this.final = false;
     this.pending = 0;
     /** @type {Joints | null} */
@@ -175,7 +176,6 @@ export class Stage extends EventTarget {
       this.#note('');
       this.dispatchEvent(new CustomEvent('started'));
     }
-    this.changes.push(...grown.changes);
     this.time.add(grown);
     if (this.final && this.pending === 0) this.#show_whole();
     else this.#ask();
@@ -240,15 +240,8 @@ export class Stage extends EventTarget {
     this.#ask();
   }
 
-  // The tool that is in the spindle now.
-  #take_tool() {
-    if (!this.head || !this.robot) return;
-    const {tool, tools} = this.head.header, last = this.changes.filter(({keyframe}) => keyframe < this.time.at).pop();
-    this.robot.set_tool(tools ? tools[last?.tool ?? 0] : tool);
-  }
-
   async #move_robot() {
-    this.#take_tool();
+    if (this.head) this.robot?.hold(this.head.header, this.time.tool);
     if (!this.joints || !this.robot) return;
     if (this.posing) {
       this.pose_again = true;
@@ -272,7 +265,7 @@ export class Stage extends EventTarget {
   }
 
   #pose(values) {
-    this.#take_tool();
+    if (this.head) this.robot?.hold(this.head.header, this.time.tool);
     const names = this.head?.header.joints ?? [];
     this.robot?.move(names.map((name, at) => [name, values[at]]));
     this.view.draw();
@@ -282,6 +275,11 @@ export class Stage extends EventTarget {
   show_path(wanted) {
     this.path.lines.visible = wanted;
     this.#move_robot();
+  }
+
+  /** @param {boolean} wanted the surface at the end, in the place of the stock */
+  show_machined(wanted) {
+    this.machined.show(wanted ? this.job?.job : null);
   }
 
   /** @returns {boolean} nothing is on its way any more */

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import sqlite3
+import struct
 import subprocess
 import unittest
 
@@ -54,6 +55,28 @@ class Milled(PageTest):
             self.assertIn(f"{points} points", text)
         for cure in self.report["cures"]:
             self.assertIn(cure["cure"], text)
+        self.assert_well_behaved(page)
+
+    def test_the_surface_at_the_end_is_shown_in_its_colours(self):
+        page = self.open()
+        page.settled()
+        self.assertIn("what stands above what was ordered", page.text("#panel-layers") or page.run("document.querySelector('#panel-layers').textContent"))
+        page.app("app.set_layers({machined: true})")
+        page.until("app.view.machined !== null")
+        with sculpt.Client(self.daemon.address) as client:
+            ply = b"".join(client.read_artifact(self.job, "surface"))
+        vertices = int(ply.split(b"element vertex ")[1].split()[0])
+        shown = page.app("""(({position, color}) => [position.count, app.view.stock.visible, [...position.array.slice(0, 3)], [...color.array.slice(0, 3)]])
+                            (app.view.machined.geometry.attributes)""")
+        begin = ply.index(b"end_header\n") + len(b"end_header\n")
+        x, y, z, _, *colour = struct.unpack_from("<4f3B", ply, begin)
+        self.assertEqual(shown, [vertices, False, [x, y, z], colour])
+        low, high = page.app("""(app.view.machined.geometry.computeBoundingBox(), (({min, max}) => [min.toArray(), max.toArray()])(app.view.machined.geometry.boundingBox))""")
+        for axis, origin in enumerate((-0.025, -0.025, 0.3)):  # of the block
+            self.assertGreater(low[axis], origin - 0.001)
+            self.assertLess(high[axis], origin + 0.051)
+        page.app("app.set_layers({machined: false})")
+        page.until("app.view.machined === null && app.view.stock.visible")
         self.assert_well_behaved(page)
 
     def test_tools_are_chosen_in_the_form(self):

@@ -4,13 +4,14 @@ import {by_id, make} from '../dom.js';
 
 const LOOK_NAMES = {plain: 'raw and cut', time: 'when it was cut', side: 'direction of the face', classes: 'excess, target, residue'};
 /** Of the page's link. */
-export const FIRST = {look: 'plain', smooth: true, robot: 'collision', opacity: 1, axis: '', cut_at: 0.5, floor: true, box: true, path: false};
+export const FIRST = {look: 'plain', smooth: true, robot: 'collision', opacity: 1, axis: '', cut_at: 0.5, machined: false, floor: true, box: true, path: false};
 
 /**
  * @param {typeof FIRST} layers
  * @param {(layers: typeof FIRST) => void} on_change
+ * @param {boolean} milled is there a surface as machined?
  */
-export function show_layers(layers, on_change) {
+export function show_layers(layers, on_change, milled) {
   const set = (name, value) => {
     layers[name] = value;
     on_change(layers);
@@ -26,6 +27,7 @@ export function show_layers(layers, on_change) {
     tick('Smooth light (off: each voxel sharp)', 'smooth'),
     choice('Section', 'axis', {'': 'none', x: 'across x', y: 'across y', z: 'across z'}),
     range('Section at', 'cut_at', 0),
+    milled ? tick('Surface at the end, by what stands above what was ordered', 'machined') : '',
     make('h3', {}, 'Robot'),
     choice('Links', 'robot', {collision: 'collision shapes', visual: 'visual shapes', none: 'hidden'}),
     range('Opacity', 'opacity', 0.1),

@@ -9,14 +9,16 @@ const WORDS = {
   side: [...['\u2212x', '+x', '\u2212y', '+y', '\u2212z', '+z'].map((text, at) => [SIDES[at], text]), ['#9a8f80', 'raw stock']],
 };
 
-/** @param {string} look @param {string} note */
+const MACHINED = [['#33bf33', 'within the tolerance'], ['#ffbf33', 'up to half of ten times that'], ['#ff0033', 'ten times and more']];
+
+/** @param {string} look `machined`: of the surface at the end @param {string} note */
 export function show_legend(look, note) {
   const swatch = (colour) => {
     const box = make('i');
     box.style.background = colour;
     return box;
   };
-  const lines = (WORDS[look] ?? []).map(([colour, text]) => make('span', {}, swatch(colour), text));
+  const lines = ((look === 'machined' ? MACHINED : WORDS[look]) ?? []).map(([colour, text]) => make('span', {}, swatch(colour), text));
   if (look === 'time') {
     const ramp = swatch('');
     ramp.style.background = `linear-gradient(90deg, ${RAMP.join(',')})`;

@@ -34,6 +34,8 @@ export class TimeBar extends EventTarget {
   clear() {
     this.removed = new Uint32Array(1 << 14);
     this.kinds = new Uint8Array(1 << 14);
+    /** @type {{keyframe: number, tool: number}[]} of milling tools */
+    this.changes = [];
     this.keyframes = 0;
     this.at = 0;
     this.remove = 0;
@@ -67,8 +69,9 @@ export class TimeBar extends EventTarget {
     this.#draw_strip();
   }
 
-  /** @param {{removed: Uint32Array, kinds: Uint8Array, keyframes: number}} grown */
+  /** @param {{removed: Uint32Array, kinds: Uint8Array, changes: {keyframe: number, tool: number}[], keyframes: number}} grown */
   add(grown) {
+    this.changes.push(...grown.changes);
     while (this.removed.length < grown.keyframes) {
       for (const name of ['removed', 'kinds']) {
         const larger = new this[name].constructor(2 * this[name].length);
@@ -107,6 +110,11 @@ export class TimeBar extends EventTarget {
     const before = whole === 0 ? 0 : this.removed[whole - 1];
     if (whole >= this.keyframes) return before;
     return before + Math.floor((this.at - whole) * (this.removed[whole] - before) + 1e-9);
+  }
+
+  /** @returns {number} of the milling tools, the one that is in the spindle now */
+  get tool() {
+    return this.changes.filter(({keyframe}) => keyframe < this.at).pop()?.tool ?? 0;
   }
 
   /** @param {number} ordinal of a voxel @returns {number} the keyframe that cuts it, from 0 */

@@ -116,8 +116,9 @@ export class Robot {
     }
   }
 
-  /** @param {any} tool a thin one or one of the milling tools of the trajectory's header */
-  set_tool(tool) {
+  /** @param {any} header of the trajectory @param {number} number of its milling tools, where it has some: the one in the spindle */
+  hold(header, number) {
+    const tool = header.tools ? header.tools[number] : header.tool;
     if (tool === this.held) return;
     this.held = tool;
     this.stickout_m = tool.stickout_m;

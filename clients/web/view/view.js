@@ -37,6 +37,8 @@ export class View extends EventTarget {
     this.scene.add(this.grid_frame);
     /** @type {import('./robot.js').Robot | null} */
     this.robot = null;
+    /** @type {import('../vendor/libraries.js').Mesh | null} in the place of the stock */
+    this.machined = null;
     this.edge = 0;
     this.waiting = false;
     this.#listen();
@@ -103,6 +105,16 @@ export class View extends EventTarget {
   /** @param {{chunk: number, faces: Uint32Array}[]} changed */
   put_faces(changed) {
     this.pages.put(changed);
+    this.draw();
+  }
+
+  /** @param {import('../vendor/libraries.js').Mesh | null} surface in the stock's frame (m), in the place of the stock; null: the stock */
+  show_machined(surface) {
+    if (this.machined === surface) return;
+    this.machined?.removeFromParent();
+    this.machined = surface;
+    this.stock.visible = surface === null;
+    if (surface) (this.robot?.stock_frame ?? this.scene).add(surface);
     this.draw();
   }
 
