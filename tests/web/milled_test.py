@@ -20,7 +20,8 @@ class Milled(PageTest):
     def setUpClass(cls):
         super().setUpClass()
         cell, mesh = milled.write_cell(cls.scratch), shapes.write_stl(cls.scratch / "ball.stl", shapes.ball(24))
-        cls.job = subprocess.run([*SCULPT, "submit", mesh, "--resolution", "16", "--robot", cell, "--tolerance", "0.0005", "--tools", "D20,D12", "--wait"],
+        cls.job = subprocess.run([*SCULPT, "submit", mesh, "--resolution", "16", "--robot", cell, "--tolerance", "0.0005", "--tools", "D20,D12", "--feed", "0.05",
+                                  "--wait"],
                                  env=environment(cls.daemon.address), check=True, capture_output=True, text=True).stdout.split()[0]
         with sculpt.Client(cls.daemon.address) as client:
             cls.report = client.call("job.report", job=cls.job)
@@ -53,6 +54,9 @@ class Milled(PageTest):
             self.assertRegex(text, rf"{tool['name']}\s+{tool['removed_m3'] * 1e6:.1f} cm.\s+{tool['cut_m']:.1f} m cut")
         for points in (self.report["surface"]["points"], self.report["surface"]["reachable"]["points"]):
             self.assertIn(f"{points} points", text)
+        self.assertRegex(text, rf"limited by the feed\s")
+        for joint, seconds in self.report["time"]["by"]["jerk"].items():
+            self.assertEqual(f"jerk of {joint}" in text, seconds > 0, joint)
         for cure in self.report["cures"]:
             self.assertIn(cure["cure"], text)
         self.assert_well_behaved(page)

@@ -28,6 +28,7 @@ export function show_report(report, why) {
       row('travel', `${path.travel_m.toFixed(2)} m`),
       row('joint travel', `${count(path.joint_travel_rad)} rad`)),
     ...of_tools(report),
+    ...on_robot(report),
     ...table('Time to plan', ...STAGES.map((stage) => {
       const bar = make('span', {class: 'share'});
       bar.style.width = `${(100 * seconds[stage]) / longest}%`;
@@ -56,4 +57,17 @@ function of_tools({tools, surface, cures}) {
       ...table('Cut too deep', row('points', count(surface.gouged_points), micrometres(surface.gouge_m)))] : [],
     ...(cures ?? []).length ? [make('h3', {}, 'What is left'), ...cures.map(({share, cure}) => make('p', {class: 'hint'}, `${percent(share, 1)}: ${cure}`))] : [],
   ];
+}
+
+/** How long it takes on the robot and what limits it, where the job asked for a feed. @param {any} report @returns {HTMLElement[]} */
+function on_robot({time}) {
+  if (!time) return [];
+  const speed = (metres) => `${(1000 * metres).toFixed(1)} mm/s`, part = (cause, seconds) => row(cause, duration(seconds), percent(seconds, time.total_s));
+  const {feed, rapid, ...limits} = time.by, [slowest] = time.worst;
+  const by_joint = Object.entries(limits).flatMap(([limit, joints]) => Object.entries(joints).map(([joint, seconds]) => ({cause: `${limit} of ${joint}`, seconds})));
+  return table('On the robot',
+    row('in all', duration(time.total_s)), row('at most on cuts', speed(time.feed_m_s)), row('on moves', speed(time.rapid_m_s)),
+    part('limited by the feed', feed), part('by that of moves', rapid),
+    ...by_joint.filter(({seconds}) => seconds > 0).sort((a, b) => b.seconds - a.seconds).map(({cause, seconds}) => part(cause, seconds)),
+    ...slowest ? [row('slowest cut', speed(slowest.feed_m_s), `keyframe ${count(slowest.keyframe)}, ${slowest.joint}`)] : []);
 }

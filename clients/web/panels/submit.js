@@ -14,7 +14,7 @@ export class SubmitForm {
     this.connection = connection;
     this.on_submitted = on_submitted;
     this.dialog = by_id('submit');
-    this.last = {robot: '', resolution: '64', search: '', priority: '0', margin: '0', seed: '0', library: '', tolerance: '0.1'};
+    this.last = {robot: '', resolution: '64', search: '', priority: '0', margin: '0', seed: '0', library: '', tolerance: '0.1', feed: ''};
     /** @type {string[]} names of those that are to be used */
     this.tools = [];
   }
@@ -54,7 +54,8 @@ export class SubmitForm {
         field('Search', select('search', option('search', '', 'the server\u2019s default'), ...takes.searches.map((name) => option('search', name)))),
         field('Priority', number('priority', {min: takes.priority.minimum, max: takes.priority.maximum, step: 1})),
         field('Free margin, mm', number('margin', {min: 0, max: 1000, step: 'any'})),
-        field('Seed', number('seed', {min: 0, step: 1}))),
+        field('Seed', number('seed', {min: 0, step: 1})),
+        field('Feed on the robot, mm/s', number('feed', {min: 0.1, max: 10000, step: 'any', placeholder: 'not timed'}))),
       ...this.#tool_fields({field, select, number, option}),
       make('p', {class: 'hint'}, 'The mesh is scaled to fill the stock, centred, standing on the floor.'),
       this.bar, this.note,
@@ -108,11 +109,12 @@ export class SubmitForm {
   }
 
   #spec(blob) {
-    const {robot, resolution, search, margin, seed, library, tolerance} = this.last;
+    const {robot, resolution, search, margin, seed, library, tolerance, feed} = this.last;
     const mill = {tools: this.tools, library: this.libraries[library], tolerance_m: Number(tolerance) / 1000};
     return {
       mesh: {blob, name: this.file.name}, robot, resolution: Number(resolution), seed: Number(seed),
-      ...(library ? {mill} : search ? {search} : {}), ...(Number(margin) ? {placement: {margin_m: Number(margin) / 1000}} : {}),
+      ...(library ? {mill} : search ? {search} : {}), ...(feed ? {motion: {feed_m_s: Number(feed) / 1000}} : {}),
+      ...(Number(margin) ? {placement: {margin_m: Number(margin) / 1000}} : {}),
     };
   }
 }
