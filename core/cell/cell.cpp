@@ -17,11 +17,23 @@ void follow_leaders(const Robot& robot, std::vector<double>& values) {
   }
 }
 
-Configuration Cell::home(const Chain& chain) const {
+namespace {
+
+Configuration coordinates_of(const std::vector<double>& joints, const Chain& chain) {
   Configuration q(chain.dof());
   for (int c = 0; c < chain.dof(); ++c)
-    q[c] = rest[static_cast<std::size_t>(chain.joints()[static_cast<std::size_t>(c)])];
+    q[c] = joints[static_cast<std::size_t>(chain.joints()[static_cast<std::size_t>(c)])];
   return q;
+}
+
+}  // namespace
+
+Configuration Cell::home(const Chain& chain) const {
+  return coordinates_of(rest, chain);
+}
+
+Configuration Cell::change_place(const Chain& chain) const {
+  return coordinates_of(change.empty() ? rest : change, chain);
 }
 
 }  // namespace sculpt

@@ -37,6 +37,7 @@ struct Cell {
   bool has_post = false;  ///< the last shape of the stock link is what the cell file has the stock stand on
   ToolSpec tool;
   std::vector<double> rest;            ///< value of every robot joint at home
+  std::vector<double> change;          ///< the same where milling tools are changed; empty: at home
   std::vector<LinkPair> ignore_pairs;  ///< may touch, whatever is found out about them; sorted, none twice
   std::vector<LinkPair> check_pairs;   ///< must not touch, whatever is found out about them; sorted, none twice
   std::vector<JointLimits> limits;     ///< of every robot joint
@@ -47,6 +48,8 @@ struct Cell {
   Chain chain() const { return Chain(robot, stock_link, tool_link, tool.stickout_m, rest); }
   /// Home in the coordinates of `chain`.
   Configuration home(const Chain& chain) const;
+  /// Where milling tools are changed, in the same.
+  Configuration change_place(const Chain& chain) const;
 };
 
 /// Reads the cell file, its URDF and every mesh it refers to. package://NAME/rest is looked for under the cell file's

@@ -24,8 +24,8 @@ constexpr std::size_t max_sections = 16;  // of the holder
 
 Field top_level(const json& document) {
   Field top(document, "");
-  top.require_object(
-      {"name", "urdf", "packages", "stock", "tool", "home", "ignore_pairs", "check_pairs", "limits", "programs"});
+  top.require_object({"name", "urdf", "packages", "stock", "tool", "home", "tool_change", "ignore_pairs", "check_pairs",
+                      "limits", "programs"});
   return top;
 }
 
@@ -146,13 +146,14 @@ double home_value(const Joint& joint, const Field& value, std::vector<InputError
   return std::clamp(q, joint.lower, joint.upper);
 }
 
-/// Every joint of the robot: the value the cell file gives, else as `rest_of`. What is wrong with one is a fault.
-std::vector<double> parse_home(const Robot& robot, const Field& top, std::vector<InputError>& faults) {
-  std::vector<double> rest = rest_of(robot);
+/// Every joint of the robot: the value that the object `name` gives, else that of `rest`. What is wrong with one is a
+/// fault.
+std::vector<double> parse_posture(const Robot& robot, const Field& top, const std::string& name,
+                                  std::vector<double> rest, std::vector<InputError>& faults) {
   try {
-    for (const auto& [name, value] : top.at("home").members()) {
+    for (const auto& [joint_name, value] : top.at(name).members()) {
       try {
-        const std::size_t joint = home_joint(robot, name, value);
+        const std::size_t joint = home_joint(robot, joint_name, value);
         rest[joint] = home_value(robot.joints[joint], value, faults);
       } catch (const InputError& error) {
         faults.push_back(error);
@@ -163,6 +164,22 @@ std::vector<double> parse_home(const Robot& robot, const Field& top, std::vector
   }
   follow_leaders(robot, rest);
   return rest;
+}
+
+/// Where milling tools are changed.
+std::vector<double> parse_change(const Cell& cell, const Field& top) {
+  const std::vector<int> moved = cell.chain().joints();
+  if (!top.has("tool_change")) return cell.rest;
+  std::vector<InputError> faults;
+  std::vector<double> change = parse_posture(cell.robot, top, "tool_change", cell.rest, faults);
+  if (!faults.empty()) throw faults.front();
+  for (const auto& [name, value] : top.at("tool_change").members()) {
+    const int joint = cell.robot.find_joint(name);
+    if (std::ranges::find(moved, joint) == moved.end())
+      refuse(value.pointer(),
+             "this joint does not move the tool against the stock, so it stays as at home: leave it out");
+  }
+  return change;
 }
 
 /// Pairs of links under `name`, none if the field is not there.
@@ -248,13 +265,13 @@ CellDraft draft_cell(const CellFiles& files) {
     cell.robot.links[static_cast<std::size_t>(cell.stock_link)].shapes.push_back(post);
     cell.has_post = true;
   }
-  cell.rest = parse_home(cell.robot, top, draft.home_faults);
+  cell.rest = parse_posture(cell.robot, top, "home", rest_of(cell.robot), draft.home_faults);
   cell.ignore_pairs = parse_pairs(cell.robot, top, "ignore_pairs");
   cell.check_pairs = parse_pairs(cell.robot, top, "check_pairs");
   refuse_contradictions(cell);
   cell.limits = top.has("limits") ? parse_limits(cell.robot, top.at("limits")) : limits_of_urdf(cell.robot);
   if (top.has("programs")) cell.programs = parse_programs(cell.robot, top.at("programs"));
-  cell.chain();  // refuses a cell in which nothing moves the tool
+  cell.change = parse_change(cell, top);  // refuses a cell in which nothing moves the tool
   return draft;
 }
 

@@ -50,7 +50,7 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
         count(keyframes);
         emit(std::move(keyframes));
       }),
-      arm_(job.home, job.home, emit_, run) {
+      arm_(job.home, job.change, emit_, run) {
   double max_radius_m = 0;
   for (const MillTool& tool : job.tools) max_radius_m = std::max(max_radius_m, tool.cutter.radius_m);
   around_ = grid_around(job.grid, max_radius_m + room_around_m);
@@ -59,6 +59,7 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
 void Carver::take_tool(std::size_t number) {
   const MillTool& tool = job_.tools[number];
   auto held = std::make_unique<HeldTool>(job_.cell, tool, job_.grid, around_);
+  held->see(cells_of(stock_.standing(), job_.grid, around_));
   meter_ = std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3));
   arm_.take_tool(static_cast<int>(number), *held);  // the one before is there until then
   held_ = std::move(held);

@@ -32,7 +32,7 @@ struct MillJob {
   const Mesh& part;  ///< placed, in metres, in the stock frame
   const std::vector<MillTool>& tools;
   MillWishes wishes;
-  Configuration home;
+  Configuration home, change;  ///< change: where tools are changed
 };
 
 /// The directions that a plan may hold its tools in, in the order of the trajectory's header.

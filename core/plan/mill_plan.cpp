@@ -59,7 +59,7 @@ TrajectoryHeader make_header(const Job& job, const MillInputs& inputs, const Gri
   return header;
 }
 
-/// Each tool is taken at home: there it must touch nothing, also before the first cut.
+/// At home and where it is changed no tool may touch anything, also before the first cut.
 void check_home(const Cell& cell, const std::vector<MillTool>& tools, const Grid& grid, const VoxelSet& stock) {
   for (const MillTool& tool : tools) {
     const Cell carried = carrying(cell, tool);
@@ -67,6 +67,9 @@ void check_home(const Cell& cell, const std::vector<MillTool>& tools, const Grid
     if (const std::string contact = scene.describe_contact(cell.home(scene.chain())); !contact.empty())
       throw InputError("tools_invalid", "with tool '" + tool.name + "' at home " + contact +
                                             ": choose a home farther from the stock, or a shorter tool");
+    if (const std::string contact = scene.describe_contact(cell.change_place(scene.chain())); !contact.empty())
+      throw InputError("tools_invalid", "with tool '" + tool.name + "' where tools are changed " + contact +
+                                            ": choose another tool_change in the cell file");
     if (const auto contacts = find_home_contacts(carried, scene.chain().joints()); !contacts.empty())
       throw InputError("cell_invalid", "cell '" + cell.name + "' with tool '" + tool.name +
                                            "': " + describe_home_contact(carried.robot, contacts.front()));
@@ -96,10 +99,11 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
   const Cell first = carrying(inputs.cell, inputs.tools.front());
   const Chain chain = first.chain();
   const TrajectoryHeader header = make_header(job, inputs, result.grid, chain);
+  const Configuration change = rounded(inputs.cell.change_place(chain), chain.lower(), chain.upper());
   check_home(inputs.cell, inputs.tools, result.grid, result.voxels.stock);
   Output output({place, header, chain, result.voxels, report.voxels.remove, job.threads}, watch);
   const MillJob milled{inputs.cell,  result.grid,          result.voxels, inputs.part,
-                       inputs.tools, wishes_of(*job.mill), header.home};
+                       inputs.tools, wishes_of(*job.mill), header.home,   change};
   const MillResult done = mill(
       milled, [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, run);
   report.plan_sha256 = output.finish().sha256;

@@ -91,29 +91,45 @@ void MillArm::move(const std::vector<Configuration>& way) {
   if (!keyframes.empty()) emit_(std::move(keyframes));
 }
 
-/// Over to another place outside the stock, from where the tip is.
-void MillArm::leave_for(const Configuration& to) {
-  if (q_ == to) return;
+/// From outside the stock.
+void MillArm::go_home() {
+  if (q_ == home_) return;
   ++transits_;
-  std::vector<Configuration> way = find_way(to, -1);
+  std::vector<Configuration> way = find_way(home_, -1);
   if (way.empty())
     throw InputError("no_transit",
                      "the arm finds no way out of a direction of the tool: keep what stands beside the stock lower");
   move(way);
   searched_.erase(-1);
   way_home_.clear();
-  if (to != home_) way_home_.assign(way.rbegin() + 1, way.rend());
   tip_.reset();
   field_ = nullptr;
   direction_ = -1;
 }
 
 void MillArm::take_tool(int number, const HeldTool& held) {
-  if (held_ != nullptr) {
-    leave_for(change_);
+  const bool is_first = held_ == nullptr;
+  if (!is_first) {
+    go_home();
+    go_over(change_);
     emit_({Keyframe{q_, false, {}, {}, MillStep{{}, -1, number, 0}}});
   }
   held_ = &held;
+  if (!is_first) go_over(home_);  // with the other tool no edge of the way there is known to be free
+}
+
+void MillArm::go_over(const Configuration& to) {
+  std::vector<Configuration> way{q_, to};
+  if (!is_free(q_, to))
+    way = plan_transit(held_->carrying(), q_, to, mix(run_.seed, ++transits_), run_.watch.stop,
+                       {search_steps, search_range})
+              .path;
+  if (run_.watch.stop.stop_requested()) throw Cancelled{};
+  if (way.empty())
+    throw InputError("no_transit",
+                     "the arm finds no way between home and where tools are changed: set tool_change in the cell file "
+                     "nearer to home");
+  move(way);
 }
 
 bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
@@ -153,10 +169,6 @@ void MillArm::commit(FollowedMill followed) {
   q_ = last.q;
   tip_ = point_of(last.mill->tip);
   emit_(std::move(followed.keyframes));
-}
-
-void MillArm::go_home() {
-  leave_for(home_);
 }
 
 }  // namespace sculpt

@@ -21,8 +21,9 @@ class MillArm {
   MillArm(const Configuration& home, const Configuration& change, const Emit& emit, const RunContext& run)
       : home_(home), change_(change), emit_(emit), run_(run), q_(home) {}
 
-  /// Takes the tool of this number: from its direction to where tools are changed, and rests there. The first one is in
-  /// the spindle at the start. Throws InputError `no_transit` where no way leads there.
+  /// Takes the tool of this number, which has seen what stands: from its direction home, to where tools are changed,
+  /// where it rests, and home again. The first one is in the spindle at the start. Throws InputError `no_transit` where
+  /// no way leads there.
   void take_tool(int number, const HeldTool& held);
 
   /// Holds the tool in this direction, its tip at `tip`, which must be in the field, outside the stock. False, and
@@ -44,7 +45,7 @@ class MillArm {
   std::vector<Configuration> way_by_home(const std::vector<Configuration>& places, const Configuration& to) const;
   bool is_free(const Configuration& from, const Configuration& to) const;
   void move(const std::vector<Configuration>& way);
-  void leave_for(const Configuration& to);
+  void go_over(const Configuration& to);
 
   Configuration home_, change_;
   const Emit& emit_;

@@ -189,6 +189,26 @@ TEST(CellFile, HomeOfFixedAndFollowingJointsIsRefused) {
   EXPECT_NE(refusal(with(good, "\"lift\"", "\"twin\""), more).find("'lift'"), std::string::npos);
 }
 
+TEST(CellFile, ToolsAreChangedAtHomeOrWhereTheFileSays) {
+  const auto change = [](const std::string& cell_json) {
+    const Cell cell = parse_cell({"test", cell_json, {{"r.urdf", urdf}}});
+    return cell.change_place(cell.chain())[0];
+  };
+  const auto saying = [](const std::string& posture) {
+    return with(good, "\"home\"", "\"tool_change\": " + posture + ", \"home\"");
+  };
+  EXPECT_EQ(change(good), 0.2);
+  EXPECT_EQ(change(saying("{}")), 0.2);
+  EXPECT_EQ(change(saying("{\"lift\": 0.4}")), 0.4);
+  expect_refused(saying("{\"lift\": 0.6}"), "/tool_change/lift", "0.1 to 0.5");
+  expect_refused(saying("{\"lft\": 0.4}"), "/tool_change/lft", "no such joint");
+  expect_refused(saying("[0.4]"), "/tool_change", "object");
+  const std::string beside = with(urdf, "</robot>", R"(<link name="x"/>
+    <joint name="door" type="prismatic"><parent link="room"/><child link="x"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1" velocity="1" effort="1"/></joint></robot>)");
+  EXPECT_NE(refusal(saying("{\"door\": 0.5}"), beside).find("does not move the tool"), std::string::npos);
+}
+
 TEST(CellFile, ToolThatNothingMovesIsRefused) {
   EXPECT_TRUE(refusal(with(good, "\"head\"", "\"room\"")).starts_with("chain_empty"));
 }

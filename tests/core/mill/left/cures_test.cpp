@@ -37,7 +37,7 @@ std::vector<Cure> cures_in(const Mesh& part, const std::vector<std::string>& nam
   const VoxelGrid voxels{VoxelSet(n), VoxelSet(n)};
   const std::vector<MillTool> tools =
       choose_tools(read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), names);
-  const MillJob job{cell, grid, voxels, part, tools, {}, {}};
+  const MillJob job{cell, grid, voxels, part, tools, {}, {}, {}};
   VoxelSet left(n);
   left.insert({n / 2, n / 2, 20});
   PartViews views(part, mill_directions().size());
@@ -93,7 +93,7 @@ TEST(Cures, NothingLeftNeedsNone) {
   PartViews views(part, mill_directions().size());
   const Helpers helpers(1);
   const Watch watch;
-  EXPECT_TRUE(find_cures({cell, grid, voxels, part, tools, {}, {}}, VoxelSet(n), views, {0, helpers, watch}).empty());
+  EXPECT_TRUE(find_cures({cell, grid, voxels, part, tools, {}, {}, {}}, VoxelSet(n), views, {0, helpers, watch}).empty());
 }
 
 }  // namespace
