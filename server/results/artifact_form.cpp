@@ -17,7 +17,7 @@ constexpr std::array kinds{
     ArtifactKind{"voxels", {Format{"binvox"}}},
     ArtifactKind{"stock", {Format{"binvox"}, Format{"zip", Origin::job}}},
     ArtifactKind{"surface", {Format{"ply", Origin::job}}},
-    ArtifactKind{"residue", {Format{"ndjson"}}},
+    ArtifactKind{"residue", {Format{"ndjson"}, Format{"gzip", Origin::first_form}}},
     ArtifactKind{"report", {Format{"json"}}},
     ArtifactKind{"program", {Format{"zip", Origin::program}}}};
 

@@ -30,7 +30,7 @@ class Completion(ClientTest):
         for command in ("plan", "submit"):
             self.assertEqual(self.complete(command, "a.stl", "--robot", "pan"), {"panda-turntable", "panda-turntable-6mm"})
             self.assertEqual(self.complete(command, "--search", ""), {"sweep", "octree", "voxel", "mill"})
-        self.assertEqual(self.complete("fetch", "JOB", "--format", ""), {"ndjson", "binary", "csv", "tokens", "gzip"})
+        self.assertEqual(self.complete("fetch", "JOB", "--format", ""), {"ndjson", "binary", "csv", "tokens", "gzip", "binvox", "zip"})
         self.assertEqual(self.complete("fetch", "--artifact", "r"), {"residue", "report"})
         self.assertEqual(self.complete("queue", ""), {"pause", "resume"})
         self.assertEqual(self.complete("cell", ""), {"new", "gantry", "panda-turntable", "panda-turntable-6mm", "six-axis-turntable", "studio", "ur10e-plinth"})

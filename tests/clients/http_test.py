@@ -52,7 +52,9 @@ class Http(WithAJob):
         with sculpt.Client(self.server.address) as client:
             tokens = b"".join(client.read_artifact(self.job, "timeline"))
             packed = b"".join(client.read_artifact(self.job, "timeline", format="gzip"))
+            residue, packed_residue = (b"".join(client.read_artifact(self.job, "residue", format=form)) for form in ("ndjson", "gzip"))
         self.assertEqual(gzip.decompress(packed), tokens)
+        self.assertEqual(gzip.decompress(packed_residue), residue)
         response, body = self.get(f"/v1/artifacts/{self.job}/timeline?format=gzip")
         self.assertEqual((response.getheader("Content-Type"), body), ("application/gzip", packed))
         header, runs, cuts = sculpt.read_timeline(tokens)

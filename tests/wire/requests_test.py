@@ -178,7 +178,7 @@ class Requests(unittest.TestCase):
         yield "events.subscribe", {"job": nobody, "after": 1}
         yield "events.unsubscribe", {"job": nobody}
         yield "artifact.list", {"job": nobody}
-        for artifact, format in (("trajectory", "csv"), ("timeline", "gzip"), ("voxels", "binvox"), ("stock", "binvox"), ("stock", "zip"), ("surface", "ply"), ("residue", "ndjson"), ("report", "json")):
+        for artifact, format in (("trajectory", "csv"), ("timeline", "gzip"), ("residue", "gzip"), ("voxels", "binvox"), ("stock", "binvox"), ("stock", "zip"), ("surface", "ply"), ("residue", "ndjson"), ("report", "json")):
             yield "artifact.read", {"job": self.job, "artifact": artifact, "format": format, "offset": 0, "bytes": 8}
         for artifact, format in (("trajectory", "csv"), ("timeline", "gzip")):
             yield "artifact.link", {"job": self.job, "artifact": artifact, "format": format}

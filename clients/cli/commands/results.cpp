@@ -129,9 +129,11 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
   command.add_option("job", options->job, "The id that submit printed")->type_name("JOB")->required();
   command.add_option("-o,--output", options->output, "Where to write, or - for stdout")->type_name("FILE")->required();
   command
-      .add_option("--format", options->format,
-                  "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip; "
-                  "of the stock: binvox (default) or, with milling tools, zip, what stands after each of them")
+      .add_option(
+          "--format", options->format,
+          "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip, as "
+          "of the residue; "
+          "of the stock: binvox (default) or, with milling tools, zip, what stands after each of them")
       ->check(CLI::IsMember(format_names));
   command
       .add_option("--artifact", options->artifact,

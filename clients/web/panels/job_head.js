@@ -68,6 +68,6 @@ async function download(job, [artifact, format], menu, world) {
 
 /** @param {string} job @returns {Promise<any[]>} the residue, one entry a voxel */
 export async function read_residue(job) {
-  const text = await (await get(`/v1/artifacts/${job}/residue`)).text();
+  const {body} = await get(`/v1/artifacts/${job}/residue?format=gzip`), text = await new Response(body.pipeThrough(new DecompressionStream('gzip'))).text();
   return text.split('\n').filter(Boolean).map((line) => JSON.parse(line));
 }
