@@ -278,8 +278,8 @@ class Model:
         job = self.some_job()
         result = self.expect(self.call(connection, "artifact.list", job=job), "fine" if job in self.states else "not_found")
         if result and self.states[job] in FINAL:
-            # a robot program is made when it is asked for: in the list it has no bytes and is never final
-            kit.expect(all(artifact["final"] == (self.states[job] == "succeeded") for artifact in result["artifacts"] if artifact["artifact"] != "program"), f"{result}")
+            # a robot program, or a surface, is made when it is asked for: in the list it has no bytes and is never final
+            kit.expect(all(artifact["final"] == (self.states[job] == "succeeded") for artifact in result["artifacts"] if artifact["artifact"] not in ("program", "surface")), f"{result}")
 
     def report(self, connection):
         job = self.some_job()

@@ -1,6 +1,7 @@
 #include "core/verify/mill/machined_surface.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,15 @@ constexpr double edges_along = 256;
 constexpr std::size_t enough_triangles = 2'000'000;
 /// Vertices whose triangles face each other have no side of their own.
 constexpr double least_normal = 1e-6;
+
+/// As far as the smallest ball leaves something in an upright corner (mm), within reason.
+double near_of(const std::vector<MillTool>& tools) {
+  constexpr double least = 1, most = 5, more = 1.1;
+  double radius_m = std::numeric_limits<double>::infinity();
+  for (const MillTool& tool : tools)
+    if (tool.cutter.kind == CutterKind::ball) radius_m = std::min(radius_m, tool.cutter.radius_m);
+  return std::clamp(1000 * more * radius_m, least, most);
+}
 
 /// Outward where triangles turn about it as they should (unit vectors); nothing where it has no side, or lies inside.
 std::vector<std::optional<Vec3>> normals_of(const Mesh& mesh, const VoxelGrid& voxels, const Grid& grid) {
@@ -105,7 +115,7 @@ MachinedSurface machined_surface(std::istream& plan, Mesh part, const VoxelGrid&
   const std::vector<std::optional<Vec3>> normals = normals_of(fine, voxels, grid);
   std::vector<SurfacePoint> vertices;
   MachinedSurface surface = keep_sided(fine, normals, vertices);
-  SurfacePoints points(vertices, grid);
+  SurfacePoints points(vertices, grid, near_of(reader.header().mill->tools));
   VoxelSet standing = voxels.stock;
   carry_out(reader, points, standing, voxels.keep.size(), grid, watch);
   surface.excess_m = points.judge(standing).excess_m;

@@ -10,11 +10,9 @@ namespace {
 
 constexpr double points_a_mm2 = 2;
 constexpr double fewest = 20000, most = 250000;
-/// Balls that pass a point at more than this count as not near it; a larger excess is that of the voxels.
-constexpr double near_mm = 1;
 constexpr double uncut = std::numeric_limits<double>::infinity();
 constexpr double gouge_mm = 1e-3;
-/// A millimetre so often halved is below a tenth of a micrometre.
+/// Five millimetres so often halved are below a fifth of a micrometre.
 constexpr int halvings = 15;
 
 /// From a point to a segment.
@@ -66,7 +64,8 @@ std::vector<SurfacePoint> draw_points(const Mesh& part, const VoxelGrid& voxels,
   return found;
 }
 
-SurfacePoints::SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid) : grid_(grid) {
+SurfacePoints::SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid, double near_mm)
+    : grid_(grid), near_mm_(near_mm) {
   if (points.empty()) return;
   Eigen::AlignedBox3d all;
   for (const SurfacePoint& point : points) all.extend(point.at);
@@ -96,7 +95,7 @@ std::size_t SurfacePoints::box_of(const Vec3& at) const {
 void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double stray) {
   if (points_.empty()) return;
   const Vec3 way = to - from;
-  const Eigen::Array3d room = Eigen::Array3d::Constant(radius + near_mm);
+  const Eigen::Array3d room = Eigen::Array3d::Constant(radius + near_mm_);
   const Eigen::Array3d low = from.array().min(to.array()) - room, high = from.array().max(to.array()) + room;
   const Eigen::Array3d top = low_.array() + edge_ * boxes_.cast<double>();
   if ((high < low_.array()).any() || (low > top).any()) return;
@@ -112,7 +111,7 @@ void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double 
       for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at) {
         Point& point = points_[at];
         const double here = away(point.at, from, way);
-        if (here > radius + near_mm) continue;
+        if (here > radius + near_mm_) continue;
         if (radius + stray - here > gouge_mm) {
           ++gouged_;
           deepest_ = std::max(deepest_, radius + stray - here);
@@ -122,7 +121,7 @@ void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double 
           continue;
         }
         // Along the normal the distance from the way is convex: first where it is least, then where the ball begins.
-        double near = 0, far = std::min(point.excess, near_mm);
+        double near = 0, far = std::min(point.excess, near_mm_);
         const double there = away(point.at + far * point.normal, from, way);
         if ((here + there - far) / 2 >= surely) continue;  // nowhere between: it changes by no more than the way
         if (there >= surely) {

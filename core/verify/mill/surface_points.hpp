@@ -26,7 +26,8 @@ std::optional<Vec3> outward(const Vec3& at, const Vec3& normal, const VoxelGrid&
 /// Not shared between threads.
 class SurfacePoints {
  public:
-  SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid);
+  /// Balls that pass a point at more than `near_mm` count as not near it; a larger excess is that of the voxels.
+  SurfacePoints(const std::vector<SurfacePoint>& points, const Grid& grid, double near_mm = 1);
 
   /// A ball of `radius` cuts on its middle's way from one place to the other, and strays by up to `stray`.
   void cut(const Vec3& from, const Vec3& to, double radius, double stray);
@@ -44,6 +45,7 @@ class SurfacePoints {
   std::size_t box_of(const Vec3& at) const;
 
   Grid grid_;
+  double near_mm_;
   std::vector<Point> points_;  ///< by box
   std::vector<std::uint32_t> begin_;
   Vec3 low_ = Vec3::Zero();
