@@ -25,9 +25,9 @@ struct Step {
 };
 
 /// Takes from the beginning of a run what a share of its keyframe's voxels has for it; what is left of the share.
-int cut_part(VoxelSet& standing, const std::pair<Voxel, Voxel>& run, int gone) {
+std::int64_t cut_part(VoxelSet& standing, const std::pair<Voxel, Voxel>& run, std::int64_t gone) {
   const auto& [first, last] = run;
-  const int length = std::min(gone, l1(first, last) + 1);
+  const int length = static_cast<int>(std::min<std::int64_t>(gone, l1(first, last) + 1));
   if (length > 0) standing.erase(first, first + sign(last - first) * (length - 1));
   return gone - length;
 }
@@ -42,12 +42,12 @@ void go_to(StockMoment& moment, double share, const Next& next) {
   for (std::uint64_t number = 0; const std::optional<Step> step = next(); ++number) {
     // Of this keyframe; the little more is for shares that a double does not hold exactly.
     const double part = std::clamp(at - static_cast<double>(number), 0.0, 1.0);
-    int length = 0;
+    std::int64_t length = 0;
     for (const auto& [first, last] : step->runs) {
       moment.left.erase(first, last);
       length += l1(first, last) + 1;
     }
-    int gone = static_cast<int>(std::floor(part * length + 1e-9));
+    auto gone = static_cast<std::int64_t>(std::floor(part * static_cast<double>(length) + 1e-9));
     moment.removed += static_cast<std::uint64_t>(gone);
     if (step->tool >= 0 && part > 0) moment.tool = step->tool;
     for (const auto& run : step->runs) gone = cut_part(moment.standing, run, gone);

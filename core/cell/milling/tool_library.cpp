@@ -218,7 +218,11 @@ std::vector<fs::path> shipped_tool_folders() {
 
 std::vector<ToolLibraryFile> read_tool_libraries(const std::vector<fs::path>& folders) {
   std::vector<ToolLibraryFile> libraries;
-  for (const std::string& name : cell_names(folders)) libraries.push_back(read_tool_library(name, folders));
+  for (const std::string& name : cell_names(folders)) try {
+      libraries.push_back(read_tool_library(name, folders));
+    } catch (const InputError&) {
+      // Who asks for it by its name is told why it cannot be read.
+    }
   return libraries;
 }
 

@@ -30,7 +30,7 @@ inline constexpr std::size_t max_tools = 16;
 std::vector<std::filesystem::path> tool_folders(std::vector<std::filesystem::path> cells);
 /// Those of the shipped cells.
 std::vector<std::filesystem::path> shipped_tool_folders();
-/// All libraries in the folders, by name; of one name that which read_tool_library finds.
+/// All libraries in the folders that can be read, by name; of one name that which read_tool_library finds.
 std::vector<ToolLibraryFile> read_tool_libraries(const std::vector<std::filesystem::path>& folders);
 
 /// `library`: a path to a file (anything with a '/' or ending in .json), else a name looked up in each of `folders`.

@@ -1,7 +1,9 @@
 #include "core/cell/milling/tool_library.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -106,6 +108,22 @@ TEST(ToolLibrary, IsFoundByNameOrPath) {
   EXPECT_EQ(read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}).name, "carving");
   EXPECT_THROW(read_tool_library("nothing", {SOURCE_DIR "/config/tools"}), InputError);
   EXPECT_THROW(read_tool_library("./nothing.json", {}), InputError);
+}
+
+TEST(ToolLibrary, OfAFolderThoseThatCanBeReadAreThere) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("sculpt-tools-" + std::to_string(getpid())),
+                 other = folder / "x";
+  fs::create_directories(other);
+  fs::create_directories(folder / "no-file.json");
+  std::ofstream(folder / "b.json") << "one";
+  std::ofstream(other / "b.json") << "another";
+  std::ofstream(other / "a.json") << "two";
+  std::string found;
+  for (const ToolLibraryFile& library : read_tool_libraries({folder, folder / "nowhere", other}))
+    found += library.name + "=" + library.json + " ";
+  EXPECT_EQ(found, "a=two b=one ");
+  fs::remove_all(folder);
 }
 
 }  // namespace
