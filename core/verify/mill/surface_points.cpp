@@ -12,14 +12,32 @@ constexpr double points_a_mm2 = 2;
 constexpr double fewest = 20000, most = 250000;
 constexpr double uncut = std::numeric_limits<double>::infinity();
 constexpr double gouge_mm = 1e-3;
-/// Five millimetres so often halved are below a fifth of a micrometre.
-constexpr int halvings = 15;
-
-/// From a point to a segment.
-double away(const Vec3& point, const Vec3& from, const Vec3& way) {
+/// From a point to a segment, squared.
+double away2(const Vec3& point, const Vec3& from, const Vec3& way) {
   const double length2 = way.squaredNorm();
   const double share = length2 > 0 ? std::clamp((point - from).dot(way) / length2, 0.0, 1.0) : 0;
-  return (point - from - share * way).norm();
+  return (point - from - share * way).squaredNorm();
+}
+
+/// How far along the ray of unit vector `ray` from `off`, as seen from its middle, a ball is entered from outside.
+double enter_ball(const Vec3& off, const Vec3& ray, double radius) {
+  const double b = off.dot(ray), inside = b * b - (off.squaredNorm() - radius * radius);
+  return b < 0 && inside >= 0 ? -b - std::sqrt(inside) : uncut;
+}
+
+/// The same for all that a ball is in on its middle's way: where the ray meets the ball at either end, or in between
+/// the cylinder about the way.
+double enter_swept(const Vec3& point, const Vec3& ray, const Vec3& from, const Vec3& way, double radius) {
+  const Vec3 off = point - from;
+  const double ends = std::min(enter_ball(off, ray, radius), enter_ball(off - way, ray, radius));
+  const double length2 = way.squaredNorm();
+  if (!(length2 > 0)) return ends;
+  const Vec3 off_across = off - off.dot(way) / length2 * way, ray_across = ray - ray.dot(way) / length2 * way;
+  const double a = ray_across.squaredNorm(), b = off_across.dot(ray_across),
+               c = off_across.squaredNorm() - radius * radius, inside = b * b - a * c;
+  if (!(a > 0) || c < 0 || b >= 0 || inside < 0) return ends;
+  const double there = (-b - std::sqrt(inside)) / a, along = (off + there * ray).dot(way);
+  return along >= 0 && along <= length2 ? std::min(ends, there) : ends;
 }
 
 bool contains(const VoxelSet& voxels, const Grid& grid, const Vec3& at_mm) {
@@ -110,37 +128,16 @@ void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double 
       const std::uint32_t end = begin_[row + static_cast<std::size_t>(last[0]) + 1];
       for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at) {
         Point& point = points_[at];
-        const double here = away(point.at, from, way);
-        if (here > radius + near_mm_) continue;
+        const double most = std::min(point.excess, near_mm_), reach = std::max(radius + stray, surely + most);
+        const double here2 = away2(point.at, from, way);
+        if (here2 > reach * reach) continue;  // along the normal it comes no nearer than by as much as it goes
+        const double here = std::sqrt(here2);
         if (radius + stray - here > gouge_mm) {
           ++gouged_;
           deepest_ = std::max(deepest_, radius + stray - here);
         }
-        if (here < surely) {
-          point.excess = 0;
-          continue;
-        }
-        // Along the normal the distance from the way is convex: first where it is least, then where the ball begins.
-        double near = 0, far = std::min(point.excess, near_mm_);
-        const double there = away(point.at + far * point.normal, from, way);
-        if ((here + there - far) / 2 >= surely) continue;  // nowhere between: it changes by no more than the way
-        if (there >= surely) {
-          double begin = 0, end_of = far;
-          for (int halving = 0; halving < 2 * halvings; ++halving) {
-            const double third = (end_of - begin) / 3, a = begin + third, b = end_of - third;
-            if (away(point.at + a * point.normal, from, way) < away(point.at + b * point.normal, from, way))
-              end_of = b;
-            else
-              begin = a;
-          }
-          far = (begin + end_of) / 2;
-          if (away(point.at + far * point.normal, from, way) >= surely) continue;
-        }
-        for (int halving = 0; halving < halvings; ++halving) {
-          const double middle = (near + far) / 2;
-          (away(point.at + middle * point.normal, from, way) < surely ? far : near) = middle;
-        }
-        point.excess = std::min(point.excess, far);
+        const double there = here < surely ? 0 : enter_swept(point.at, point.normal, from, way, surely);
+        if (there < most) point.excess = there;
       }
     }
 }
