@@ -126,7 +126,7 @@ export class Stage extends EventTarget {
   // Nothing more will come, and all is decoded.
   #show_whole() {
     if (!this.head) return;
-    this.joints = new Joints(this.job.job, this.head.header.joints, this.head.header.home);
+    this.joints = new Joints(this.job.job, this.head.header);
     this.whole = true;
     this.time.go((this.wish.at ?? 1) * this.time.keyframes);
   }

@@ -25,6 +25,7 @@ class Milled(PageTest):
                                  env=environment(cls.daemon.address), check=True, capture_output=True, text=True).stdout.split()[0]
         with sculpt.Client(cls.daemon.address) as client:
             cls.report = client.call("job.report", job=cls.job)
+            cls.lines = [json.loads(line) for line in b"".join(client.read_artifact(cls.job)).splitlines()]
             cls.timeline = sculpt.read_timeline(b"".join(client.read_artifact(cls.job, "timeline")))
 
     def test_the_stock_goes_cut_by_cut(self):
@@ -41,6 +42,11 @@ class Milled(PageTest):
             self.assertEqual(page.app("[app.time.cut, app.stage.shown]"), [gone, gone])
             tools = [cut for cut in cuts[:keyframe] if isinstance(cut, int)]
             self.assertEqual(page.app("app.stage.robot.held.name"), ["D20", "D12"][tools[-1] if tools else 0])
+            posture = self.lines[keyframe]["q"] if keyframe else self.lines[0]["home"]
+            for shown, wanted in zip(page.app("app.stage.joints.names.map(name => app.stage.robot.urdf.joints[name].angle)"), posture, strict=True):
+                self.assertAlmostEqual(shown, wanted, 6, keyframe)
+        page.app("app.view.look_from('cell')")
+        self.assertTrue(all(abs(float(value)) < 20 for value in page.app("app.view.place").split(",")))
         kinds = page.app(f"[...app.time.kinds.slice(0, {len(cuts)})]")
         self.assertEqual([kind & 7 == 7 for kind in kinds], [isinstance(cut, list) for cut in cuts])
         self.assert_well_behaved(page)

@@ -9,7 +9,7 @@ const WORDS = {
   side: [...['\u2212x', '+x', '\u2212y', '+y', '\u2212z', '+z'].map((text, at) => [SIDES[at], text]), ['#9a8f80', 'raw stock']],
 };
 
-const MACHINED = [['#33bf33', 'within the tolerance'], ['#ffbf33', 'up to half of ten times that'], ['#ff0033', 'ten times and more']];
+const MACHINED = [['#33bf33', 'within the tolerance'], ['#ffbf33', 'five times as much'], ['#ff0033', 'ten times and more']];
 
 /** @param {string} look `machined`: of the surface at the end @param {string} note */
 export function show_legend(look, note) {

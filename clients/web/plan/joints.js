@@ -8,13 +8,17 @@ const HEAD = 1 + 4 + 8 + 4 + 4;
 const KEPT = 24;
 const QUANTUM = 1e-7;
 
-/** @param {Uint8Array} body @param {number} count keyframes @param {number} joints @returns {Float64Array[]} one column a joint */
-export function decode_joints(body, count, joints) {
+/** What a token says behind itself is skipped. @param {Varints} numbers @param {boolean} milled of a plan with milling tools */
+function skip_token(numbers, milled) {
+  const token = numbers.next();
+  if (milled && token % 4 > 1) numbers.next();  // a cut's voxels, a change's tool
+  if (!milled && token > 1 && (token - 2) % 7 === 6) for (let axis = 0; axis < 3; ++axis) numbers.next();
+}
+
+/** @param {Uint8Array} body @param {number} count keyframes @param {number} joints @param {boolean} milled @returns {Float64Array[]} one column a joint */
+export function decode_joints(body, count, joints, milled) {
   const numbers = new Varints(body);
-  for (let at = 0; at < count; ++at) {
-    const token = numbers.next();
-    if (token > 1 && (token - 2) % 7 === 6) for (let axis = 0; axis < 3; ++axis) numbers.next();
-  }
+  for (let at = 0; at < count; ++at) skip_token(numbers, milled);
   return Array.from({length: joints}, () => read_column(numbers, count));
 }
 
@@ -37,11 +41,14 @@ function read_column(numbers, count) {
 
 /** The joints of one finished job. */
 export class Joints {
-  /** @param {string} job @param {string[]} names @param {number[]} home */
-  constructor(job, names, home) {
+  /** @param {string} job @param {any} header of its trajectory */
+  constructor(job, header) {
     this.path = `/v1/artifacts/${job}/trajectory?format=binary`;
-    this.names = names;
-    this.home = home;
+    /** @type {string[]} */
+    this.names = header.joints;
+    /** @type {number[]} */
+    this.home = header.home;
+    this.milled = Boolean(header.tools);
     /** @type {Promise<{offset: number, first: number}[]> | null} */
     this.index = null;
     /** @type {Map<number, Promise<Float64Array[]>>} the last ones used at the end */
@@ -91,7 +98,7 @@ export class Joints {
 
   async #fetch_segment(segment, next) {
     const bytes = await this.#range(`bytes=${segment.offset}-${next.offset - 1}`);
-    return decode_joints(bytes.subarray(HEAD), next.first - segment.first, this.names.length);
+    return decode_joints(bytes.subarray(HEAD), next.first - segment.first, this.names.length, this.milled);
   }
 
   async #read_index() {
