@@ -132,8 +132,7 @@ void add_fetch(CLI::App& app, Invocation& invocation) {
       .add_option(
           "--format", options->format,
           "Form of the trajectory: ndjson (default), binary or csv; of the timeline: tokens (default) or gzip, as "
-          "of the residue; "
-          "of the stock: binvox (default) or, with milling tools, zip, what stands after each of them")
+          "of the residue; of the stock: binvox (default) or, with milling tools, zip, what stands after each of them")
       ->check(CLI::IsMember(format_names));
   command
       .add_option("--artifact", options->artifact,

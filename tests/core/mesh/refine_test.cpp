@@ -5,27 +5,19 @@
 #include <map>
 
 #include "core/base/random.hpp"
+#include "tests/core/mesh/box.hpp"
 
 namespace sculpt {
 namespace {
 
 /// A box with corners anywhere: its sides are no planes, its edges of all lengths.
 Mesh bent_box(Random& random) {
-  Mesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-    mesh.vertices.push_back(Vec3(corner & 1, 7 * (corner >> 1 & 1), corner >> 2) +
-                            Vec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), random.between(-0.3, 0.3)));
-  const auto side = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  };
-  side(0, 2, 3, 1);
-  side(4, 5, 7, 6);
-  side(0, 1, 5, 4);
-  side(2, 6, 7, 3);
-  side(0, 4, 6, 2);
-  side(1, 3, 7, 5);
-  return mesh;
+  std::array<Vec3, 8> corners;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double x = random.between(-0.3, 0.3), y = random.between(-0.3, 0.3), z = random.between(-0.3, 0.3);
+    corners[static_cast<std::size_t>(corner)] = Vec3((corner & 1) + x, 7 * (corner >> 1 & 1) + y, (corner >> 2) + z);
+  }
+  return box_between(corners);
 }
 
 double volume(const Mesh& mesh) {

@@ -8,6 +8,7 @@
 
 #include "core/trajectory/milling/quanta_point.hpp"
 #include "core/trajectory/writer.hpp"
+#include "tests/core/mesh/box.hpp"
 
 namespace sculpt {
 namespace {
@@ -18,21 +19,11 @@ const Grid grid{n, voxel_m, Vec3(-0.01, 0.02, 0.5)};
 
 /// The lower half of the block, as a box.
 Mesh lower_half() {
-  Mesh mesh;
+  std::array<Vec3, 8> corners;
   for (int corner = 0; corner < 8; ++corner)
-    mesh.vertices.push_back(grid.origin_m + Vec3(size_m * (corner & 1), size_m * (corner >> 1 & 1),
-                                                 part_m * static_cast<double>(corner >> 2)));
-  const auto side = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  };
-  side(0, 2, 3, 1);
-  side(4, 5, 7, 6);
-  side(0, 1, 5, 4);
-  side(2, 6, 7, 3);
-  side(0, 4, 6, 2);
-  side(1, 3, 7, 5);
-  return mesh;
+    corners[static_cast<std::size_t>(corner)] =
+        grid.origin_m + Vec3(size_m * (corner & 1), size_m * (corner >> 1 & 1), part_m * (corner >> 2));
+  return box_between(corners);
 }
 
 VoxelGrid halves() {
