@@ -6,7 +6,6 @@ namespace sculpt::proto {
 namespace {
 
 constexpr std::size_t max_cell_bytes = 1 << 20;
-constexpr std::size_t max_name_bytes = 200;
 
 }  // namespace
 

@@ -12,6 +12,9 @@
 
 namespace sculpt::proto {
 
+/// Of a cell, a robot or a tool library, as given by clients.
+inline constexpr std::size_t max_name_bytes = 200;
+
 /// Every method throws ProtocolError `params_invalid` with the field's pointer when it is missing or not what was asked
 /// for. Refers to the object, which must outlive it.
 class Fields {

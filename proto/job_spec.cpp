@@ -7,7 +7,7 @@ namespace {
 
 constexpr double huge = 1e6;  // metres or radians: beyond this a value is surely a mistake
 constexpr int max_threads = 256;
-constexpr std::size_t max_name_bytes = 200, max_job_bytes = 64;
+constexpr std::size_t max_job_bytes = 64;
 
 BlobRef read_blob_ref(Fields fields) {
   BlobRef ref{fields.sha256("blob"), fields.text("name", max_name_bytes)};

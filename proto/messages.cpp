@@ -5,7 +5,7 @@
 namespace sculpt::proto {
 namespace {
 
-constexpr std::size_t max_id_bytes = 64;
+constexpr std::size_t max_job_id_bytes = 64;
 constexpr std::size_t max_text_bytes = 200;
 constexpr int max_priority = 100;
 constexpr int max_list = 1000;
@@ -117,7 +117,7 @@ std::vector<double> read_holds(Fields& fields) {
 
 std::string read_job_id(const Json& params) {
   Fields fields = params_of(params);
-  std::string job = fields.text("job", max_id_bytes);
+  std::string job = fields.text("job", max_job_id_bytes);
   fields.done();
   return job;
 }
@@ -125,8 +125,8 @@ std::string read_job_id(const Json& params) {
 ListParams read_list(const Json& params) {
   Fields fields = params_of(params);
   ListParams list;
-  if (fields.has("after")) list.after = fields.text("after", max_id_bytes);
-  if (fields.has("before")) list.before = fields.text("before", max_id_bytes);
+  if (fields.has("after")) list.after = fields.text("after", max_job_id_bytes);
+  if (fields.has("before")) list.before = fields.text("before", max_job_id_bytes);
   if (fields.has("order")) list.newest = read_order(fields) == "newest";
   if (fields.has("limit")) list.limit = static_cast<int>(fields.integer("limit", 1, max_list));
   fields.done();
@@ -135,7 +135,7 @@ ListParams read_list(const Json& params) {
 
 WaitParams read_wait(const Json& params) {
   Fields fields = params_of(params);
-  WaitParams wait{fields.text("job", max_id_bytes), fields.number("timeout_s", 0, max_wait_s)};
+  WaitParams wait{fields.text("job", max_job_id_bytes), fields.number("timeout_s", 0, max_wait_s)};
   fields.done();
   return wait;
 }
@@ -143,7 +143,7 @@ WaitParams read_wait(const Json& params) {
 SubscribeParams read_subscribe(const Json& params) {
   Fields fields = params_of(params);
   SubscribeParams subscribe;
-  if (fields.has("job")) subscribe.job = fields.text("job", max_id_bytes);
+  if (fields.has("job")) subscribe.job = fields.text("job", max_job_id_bytes);
   if (fields.has("after")) subscribe.after = fields.count("after");
   fields.done();
   return subscribe;
@@ -151,7 +151,7 @@ SubscribeParams read_subscribe(const Json& params) {
 
 std::string read_unsubscribe(const Json& params) {
   Fields fields = params_of(params);
-  std::string job = fields.has("job") ? fields.text("job", max_id_bytes) : std::string();
+  std::string job = fields.has("job") ? fields.text("job", max_job_id_bytes) : std::string();
   fields.done();
   return job;
 }
@@ -168,7 +168,7 @@ std::optional<ProgramSpec> read_wanted_program(Fields& fields, const std::string
 
 ArtifactReadParams read_artifact_read(const Json& params) {
   Fields fields = params_of(params);
-  ArtifactReadParams read{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
+  ArtifactReadParams read{fields.text("job", max_job_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
   if (fields.has("format")) read.format = fields.text("format", max_text_bytes);
   read.offset = fields.count("offset");
   read.bytes = static_cast<std::size_t>(fields.integer("bytes", 1, max_chunk_bytes));
@@ -179,7 +179,7 @@ ArtifactReadParams read_artifact_read(const Json& params) {
 
 ArtifactReadParams read_artifact_link(const Json& params) {
   Fields fields = params_of(params);
-  ArtifactReadParams wanted{fields.text("job", max_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
+  ArtifactReadParams wanted{fields.text("job", max_job_id_bytes), fields.text("artifact", max_text_bytes), {}, 0, 0};
   if (fields.has("format")) wanted.format = fields.text("format", max_text_bytes);
   wanted.program = read_wanted_program(fields, wanted.artifact);
   fields.done();
@@ -188,7 +188,7 @@ ArtifactReadParams read_artifact_link(const Json& params) {
 
 CellReadParams read_cell_read(const Json& params) {
   Fields fields = params_of(params);
-  CellReadParams read{fields.text("job", max_id_bytes), {}, fields.count("offset"), 0};
+  CellReadParams read{fields.text("job", max_job_id_bytes), {}, fields.count("offset"), 0};
   if (fields.has("file")) read.file = fields.sha256("file");
   read.bytes = static_cast<std::size_t>(fields.integer("bytes", 1, max_chunk_bytes));
   fields.done();
@@ -198,7 +198,7 @@ CellReadParams read_cell_read(const Json& params) {
 SamplesParams read_samples(const Json& params) {
   Fields fields = params_of(params);
   SamplesParams samples;
-  samples.job = fields.text("job", max_id_bytes);
+  samples.job = fields.text("job", max_job_id_bytes);
   if (fields.has("motion")) samples.motion = read_motion(fields.object("motion"));
   samples.rate_hz = fields.number("rate_hz", min_rate_hz, max_rate_hz);
   if (fields.has("from_s")) samples.from_s = fields.number("from_s", 0, max_motion_s);
@@ -212,7 +212,7 @@ SamplesParams read_samples(const Json& params) {
 
 PinParams read_pin(const Json& params) {
   Fields fields = params_of(params);
-  PinParams pin{fields.text("job", max_id_bytes), true};
+  PinParams pin{fields.text("job", max_job_id_bytes), true};
   if (fields.has("pinned")) pin.pinned = fields.flag("pinned");
   fields.done();
   return pin;

@@ -13,6 +13,9 @@
 
 namespace sculpt {
 
+/// Of a holder, or of the body of a tool.
+inline constexpr std::size_t max_sections = 16;
+
 inline InputError cell_error(const std::string& where, const std::string& sentence) {
   return {"cell_invalid", "cell file, " + (where.empty() ? std::string("top level") : where) + ": " + sentence};
 }

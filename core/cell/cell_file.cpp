@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 using Field = CellField;
 
-constexpr std::size_t max_sections = 16;  // of the holder
-
 Field top_level(const json& document) {
   Field top(document, "");
   top.require_object({"name", "urdf", "packages", "stock", "tool", "home", "tool_change", "ignore_pairs", "check_pairs",

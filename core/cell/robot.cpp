@@ -20,10 +20,6 @@ namespace sculpt {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw InputError("urdf_invalid", sentence);
-}
-
 std::string joint_named(const std::string& name) {
   return "joint '" + name + "'";
 }
@@ -60,7 +56,7 @@ urdf::ModelInterfaceSharedPtr parse_model(const std::string& xml) {
   // on with it.
   if (model && messages.text().empty()) return model;
   const std::string why = !messages.text().empty() ? messages.text() : !thrown.empty() ? thrown : "not XML";
-  refuse("the URDF cannot be parsed: " + why);
+  refuse_urdf("the URDF cannot be parsed: " + why);
 }
 
 Vec3 to_vector(const urdf::Vector3& v) {
@@ -71,7 +67,7 @@ Frame to_frame(const urdf::Pose& pose, const std::string& owner) {
   const Eigen::Quaterniond turn(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
   const Vec3 shift = to_vector(pose.position);
   if (!shift.allFinite() || !turn.coeffs().allFinite() || turn.norm() < 0.5) {
-    refuse("the <origin> of " + owner + " is not finite: give numbers for xyz (m) and rpy (rad)");
+    refuse_urdf("the <origin> of " + owner + " is not finite: give numbers for xyz (m) and rpy (rad)");
   }
   return Eigen::Translation3d(shift) * turn.normalized();
 }
@@ -81,14 +77,14 @@ void require_size(double value, const char* what, const std::string& owner) {
   std::ostringstream text;
   text << "the " << what << " of a collision shape of " << owner << " is " << value << ": it must be above 0 m";
   if (value > max_body_m) text << ", and at most " << max_body_m << " m: lengths in a URDF are metres, not millimetres";
-  refuse(text.str());
+  refuse_urdf(text.str());
 }
 
 Shape to_shape(const urdf::Collision& collision, const std::string& owner, MeshShelf& meshes) {
   Shape shape;
   shape.pose = to_frame(collision.origin, "a collision shape of " + owner);
   if (!collision.geometry)
-    refuse("a <collision> of " + owner + " has no <geometry>: give it a box, cylinder, sphere or mesh");
+    refuse_urdf("a <collision> of " + owner + " has no <geometry>: give it a box, cylinder, sphere or mesh");
   switch (collision.geometry->type) {
     case urdf::Geometry::SPHERE:
       shape.kind = ShapeKind::sphere;
@@ -124,7 +120,7 @@ Shape to_shape(const urdf::Collision& collision, const std::string& owner, MeshS
 void set_limits(Joint& joint, const urdf::Joint& source) {
   if (source.limits) joint.max_speed = source.limits->velocity;
   if (!std::isfinite(joint.max_speed) || joint.max_speed < 0) {
-    refuse("the velocity limit of " + joint_named(joint.name) + " must be a number of at least 0");
+    refuse_urdf("the velocity limit of " + joint_named(joint.name) + " must be a number of at least 0");
   }
   if (source.type == urdf::Joint::CONTINUOUS) {
     joint.lower = -2 * std::numbers::pi;
@@ -137,9 +133,10 @@ void set_limits(Joint& joint, const urdf::Joint& source) {
   }
   if (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || joint.lower >= joint.upper) {
     if (joint.lower > joint.upper)
-      refuse(joint_named(joint.name) + " has a lower limit above its upper one: swap them");
-    refuse(joint_named(joint.name) +
-           " has no range to move in: give it <limit lower=... upper=.../> with lower below upper, or make it fixed");
+      refuse_urdf(joint_named(joint.name) + " has a lower limit above its upper one: swap them");
+    refuse_urdf(
+        joint_named(joint.name) +
+        " has no range to move in: give it <limit lower=... upper=.../> with lower below upper, or make it fixed");
   }
   constexpr double max_limit = 10'000;  // proofs over a whole range take longer the wider it is
   if (std::max(-joint.lower, joint.upper) > max_limit) {
@@ -147,7 +144,7 @@ void set_limits(Joint& joint, const urdf::Joint& source) {
     text << joint_named(joint.name) << " goes from " << joint.lower << " to " << joint.upper
          << " rad or m, and more than " << max_limit << " either way is no joint of a robot: correct its <limit>"
          << (joint.kind == JointKind::revolute ? ", or make it continuous" : "");
-    refuse(text.str());
+    refuse_urdf(text.str());
   }
 }
 
@@ -166,17 +163,17 @@ Joint to_joint(const urdf::Joint& source) {
       joint.kind = JointKind::prismatic;
       break;
     case urdf::Joint::FLOATING:
-      refuse(joint_named(source.name) +
-             " is floating: only fixed, revolute, continuous and prismatic joints are known");
+      refuse_urdf(joint_named(source.name) +
+                  " is floating: only fixed, revolute, continuous and prismatic joints are known");
     case urdf::Joint::PLANAR:
-      refuse(joint_named(source.name) + " is planar: use two prismatic joints and a revolute one instead");
+      refuse_urdf(joint_named(source.name) + " is planar: use two prismatic joints and a revolute one instead");
     default:
-      refuse(joint_named(source.name) + " has no known type: use fixed, revolute, continuous or prismatic");
+      refuse_urdf(joint_named(source.name) + " has no known type: use fixed, revolute, continuous or prismatic");
   }
   const Vec3 axis = to_vector(source.axis);
   if (!axis.allFinite() || axis.norm() < 1e-9) {
-    refuse("the axis of " + joint_named(joint.name) +
-           " has no direction: give <axis xyz=.../> a vector that is not zero");
+    refuse_urdf("the axis of " + joint_named(joint.name) +
+                " has no direction: give <axis xyz=.../> a vector that is not zero");
   }
   joint.axis = axis.normalized();
   set_limits(joint, source);
@@ -187,17 +184,17 @@ Joint to_joint(const urdf::Joint& source) {
 void resolve_mimics(Robot& robot, const std::map<std::string, urdf::JointMimicSharedPtr>& mimics) {
   const auto apply = [&](Joint& joint, const urdf::JointMimic& mimic) {
     if (!std::isfinite(mimic.multiplier) || !std::isfinite(mimic.offset)) {
-      refuse("multiplier and offset of the mimic of " + joint_named(joint.name) + " must be finite");
+      refuse_urdf("multiplier and offset of the mimic of " + joint_named(joint.name) + " must be finite");
     }
     joint.mimic_offset += joint.mimic_multiplier * mimic.offset;
     joint.mimic_multiplier *= mimic.multiplier;
     joint.mimic = robot.find_joint(mimic.joint_name);
     if (joint.mimic < 0) {
-      refuse(joint_named(joint.name) + " mimics '" + mimic.joint_name + "', which is no joint of the URDF");
+      refuse_urdf(joint_named(joint.name) + " mimics '" + mimic.joint_name + "', which is no joint of the URDF");
     }
     const Joint& leader = robot.joints[static_cast<std::size_t>(joint.mimic)];
     if (leader.kind == JointKind::fixed) {
-      refuse(joint_named(joint.name) + " mimics '" + leader.name + "', which is fixed: remove the mimic");
+      refuse_urdf(joint_named(joint.name) + " mimics '" + leader.name + "', which is fixed: remove the mimic");
     }
   };
   for (Joint& joint : robot.joints) {
@@ -205,7 +202,7 @@ void resolve_mimics(Robot& robot, const std::map<std::string, urdf::JointMimicSh
     auto mimic = mimics.find(joint.name);
     for (std::size_t hops = 0; mimic != mimics.end(); ++hops) {
       if (hops > robot.joints.size())
-        refuse(joint_named(joint.name) + " mimics itself in a circle: let one of them move freely");
+        refuse_urdf(joint_named(joint.name) + " mimics itself in a circle: let one of them move freely");
       apply(joint, *mimic->second);
       mimic = mimics.find(robot.joints[static_cast<std::size_t>(joint.mimic)].name);
     }
@@ -219,7 +216,7 @@ void require_resting_place(const Joint& joint) {
   text << joint_named(joint.name) << " mimics with multiplier 0, so it stands at its offset " << joint.mimic_offset
        << ", outside its limits of " << joint.lower << " to " << joint.upper
        << ": change the offset or the limits, or make it fixed";
-  refuse(text.str());
+  refuse_urdf(text.str());
 }
 
 /// A joint may only go where all its followers can go with it. Continuous followers can go anywhere.
@@ -236,8 +233,8 @@ void narrow_limits_to_followers(Robot& robot, const urdf::ModelInterface& model)
     leader.lower = std::max(leader.lower, std::min(a, b));
     leader.upper = std::min(leader.upper, std::max(a, b));
     if (leader.lower >= leader.upper) {
-      refuse("the limits of " + joint_named(joint.name) + " and of '" + leader.name +
-             "', which it mimics, leave no range to move in");
+      refuse_urdf("the limits of " + joint_named(joint.name) + " and of '" + leader.name +
+                  "', which it mimics, leave no range to move in");
     }
   }
 }
@@ -283,7 +280,8 @@ void add_tree(Robot& robot, const urdf::ModelInterface& model, MeshShelf& meshes
     for (const urdf::Joint* source : joints_below(*sources[at])) {
       const urdf::Link& child = *model.links_.at(source->child_link_name);
       if (child.parent_joint.get() != source) {
-        refuse("link '" + child.name + "' is the child of more than one joint: a URDF is a tree, give it one parent");
+        refuse_urdf("link '" + child.name +
+                    "' is the child of more than one joint: a URDF is a tree, give it one parent");
       }
       Joint joint = to_joint(*source);
       joint.parent_link = static_cast<int>(at);
@@ -295,7 +293,7 @@ void add_tree(Robot& robot, const urdf::ModelInterface& model, MeshShelf& meshes
   }
   for (const auto& [name, link] : model.links_) {
     if (robot.find_link(name) < 0) {
-      refuse("link '" + name + "' is not connected to the root link '" + robot.links[0].name + "'");
+      refuse_urdf("link '" + name + "' is not connected to the root link '" + robot.links[0].name + "'");
     }
   }
 }
@@ -315,7 +313,7 @@ int Robot::find_joint(const std::string& joint) const {
 Robot parse_urdf(const std::string& xml, const std::function<std::string(const std::string& reference)>& read_file) {
   const urdf::ModelInterfaceSharedPtr model = parse_model(xml);
   const LinksLetGo links_let_go(*model);
-  if (!model->getRoot()) refuse("the URDF has no links: give it at least one <link>");
+  if (!model->getRoot()) refuse_urdf("the URDF has no links: give it at least one <link>");
   Robot robot;
   robot.name = model->getName();
   MeshShelf meshes(read_file);

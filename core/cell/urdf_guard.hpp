@@ -9,4 +9,7 @@ namespace sculpt {
 /// out of stack, has a document type or control characters in its names, or is a xacro source.
 void check_urdf(const std::string& xml);
 
+/// Throws InputError `urdf_invalid`.
+[[noreturn]] void refuse_urdf(const std::string& sentence);
+
 }  // namespace sculpt

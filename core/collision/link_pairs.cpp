@@ -10,7 +10,6 @@
 namespace sculpt {
 namespace {
 
-constexpr int travel_points = 65;
 /// Gaps at home that are told apart (m).
 constexpr std::array gaps_m{touching_m, 5e-5, 1e-4, 2e-4};
 

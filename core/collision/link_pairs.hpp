@@ -22,6 +22,9 @@ struct UncheckedLinks {
   std::string why;
 };
 
+/// Places along a joint\'s travel that are looked at: at how many of them do two links touch?
+inline constexpr int travel_points = 65;
+
 struct LinkPairs {
   std::vector<CheckedLinks> checked;      ///< in order of their links, a pair once
   std::vector<UncheckedLinks> unchecked;  ///< in order, a pair once a reason

@@ -9,7 +9,6 @@
 namespace sculpt {
 namespace {
 
-constexpr int travel_points = 65;
 constexpr double min_share = 0.5;
 
 std::vector<LinkShape> shapes_of(const Robot& robot, int link) {

@@ -7,6 +7,7 @@
 
 #include "core/collision/link_pairs.hpp"
 #include "core/doctor/describe_cell.hpp"
+#include "core/doctor/metres.hpp"
 
 namespace sculpt {
 namespace {
@@ -19,12 +20,6 @@ constexpr double min_reach = 0.999, little_reach = 0.5;
 
 std::string quoted(const std::string& name) {
   return "'" + name + "'";
-}
-
-std::string in_m(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g m", metres);
-  return text;
 }
 
 std::string in_mm(double metres) {
@@ -59,9 +54,10 @@ std::string another_home(const CellFindings& found) {
 
 void check_sizes(const BodyFinding& body, std::vector<Fault>& faults) {
   if (body.size_m.maxCoeff() > max_body_m)
-    faults.push_back({Weight::warning, "body_size",
-                      quoted(body.link) + " is " + in_m(body.size_m.maxCoeff()) + " long: its mesh seems to be in mm",
-                      "give its <mesh> scale=\"0.001 0.001 0.001\" in the URDF"});
+    faults.push_back(
+        {Weight::warning, "body_size",
+         quoted(body.link) + " is " + in_metres(body.size_m.maxCoeff()) + " long: its mesh seems to be in mm",
+         "give its <mesh> scale=\"0.001 0.001 0.001\" in the URDF"});
   if (body.size_m.maxCoeff() < min_body_m)
     faults.push_back({Weight::warning, "body_size",
                       quoted(body.link) + " is no more than " + in_mm(body.size_m.maxCoeff()) + " long",
@@ -238,7 +234,7 @@ void find_faults_of_home(const CellDraft& draft, CellFindings& found) {
   found.faults.push_back({Weight::warning, "home_low",
                           std::string("at home the ball is ") +
                               (inside ? "inside the stock's cube" : "below the top of the stock") + ", at " +
-                              in_m(found.home.ball_m.z()) + " above its bottom",
+                              in_metres(found.home.ball_m.z()) + " above its bottom",
                           another_home(found)});
 }
 

@@ -11,6 +11,9 @@ namespace sculpt {
 /// nothing but the tool in the full stock. An estimate that costs milliseconds. Any thread. Throws Cancelled.
 double probe_reach(const Scene& scene, const Configuration& from, const Watch& watch);
 
+/// For a quick look: voxels and places along an edge.
+inline constexpr int coarse_resolution = 16, coarse_places = 3;
+
 /// At how many of the corners and the middle of the stock's cube, over the straight directions, joints within limits
 /// can hold the tool, found from `start` and a few random configurations; no contact is looked at. Any thread.
 int count_joint_reach(const Cell& cell, const Configuration& start);

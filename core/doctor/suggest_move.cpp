@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::array steps{0.5, 1.0};  // in edges of the stock
 constexpr std::size_t tried_in_full = 3;
-constexpr int coarse_resolution = 16, coarse_places = 3;
 constexpr double worth_it = 0.05;  // of reach
 
 /// Joints from the link up to the root.

@@ -21,24 +21,24 @@ using Transform = Eigen::Affine3d;
 
 constexpr int deepest = 64;  // nodes in nodes, and in nodes of the library
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_collada(const std::string& what) {
   throw InputError("mesh_unreadable",
                    "the file is no readable .dae mesh (" + what + "): export it again as binary STL");
 }
 
-[[noreturn]] void refuse(const XMLElement& element, const std::string& what) {
-  refuse("<" + std::string(element.Name()) + "> in line " + std::to_string(element.GetLineNum()) + " " + what);
+[[noreturn]] void refuse_collada(const XMLElement& element, const std::string& what) {
+  refuse_collada("<" + std::string(element.Name()) + "> in line " + std::to_string(element.GetLineNum()) + " " + what);
 }
 
 const XMLElement& child(const XMLElement& element, const char* name) {
   const XMLElement* found = element.FirstChildElement(name);
-  if (found == nullptr) refuse(element, "has no <" + std::string(name) + ">");
+  if (found == nullptr) refuse_collada(element, "has no <" + std::string(name) + ">");
   return *found;
 }
 
 std::string attribute(const XMLElement& element, const char* name) {
   const char* text = element.Attribute(name);
-  if (text == nullptr) refuse(element, "has no " + std::string(name));
+  if (text == nullptr) refuse_collada(element, "has no " + std::string(name));
   return text;
 }
 
@@ -66,7 +66,7 @@ std::vector<double> numbers(const XMLElement& element) {
   std::vector<double> found;
   for_each_word(element, [&](std::string_view word) {
     const auto number = parse_coordinate(word);
-    if (!number) refuse(element, "has '" + std::string(word) + "', which is no number");
+    if (!number) refuse_collada(element, "has '" + std::string(word) + "', which is no number");
     found.push_back(*number);
   });
   return found;
@@ -74,7 +74,7 @@ std::vector<double> numbers(const XMLElement& element) {
 
 std::vector<double> numbers(const XMLElement& element, std::size_t count) {
   std::vector<double> found = numbers(element);
-  if (found.size() != count) refuse(element, "must have " + std::to_string(count) + " numbers");
+  if (found.size() != count) refuse_collada(element, "must have " + std::to_string(count) + " numbers");
   return found;
 }
 
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> indices(const XMLElement& element) {
     std::uint32_t index = 0;
     const auto read = std::from_chars(word.data(), word.data() + word.size(), index);
     if (read.ec != std::errc() || read.ptr != word.data() + word.size())
-      refuse(element, "has '" + std::string(word) + "', which is no whole number from 0 on");
+      refuse_collada(element, "has '" + std::string(word) + "', which is no whole number from 0 on");
     found.push_back(index);
   });
   return found;
@@ -107,7 +107,7 @@ std::optional<Transform> transform_of(const XMLElement& element) {
   if (name != "rotate") return std::nullopt;
   const std::vector<double> v = numbers(element, 4);
   const Vec3 axis(v[0], v[1], v[2]);
-  if (!(axis.norm() > 0)) refuse(element, "turns about no axis");
+  if (!(axis.norm() > 0)) refuse_collada(element, "turns about no axis");
   return transform.rotate(Eigen::AngleAxisd(v[3] * std::numbers::pi / 180, axis.normalized()));
 }
 
@@ -141,11 +141,12 @@ class Geometry {
       const std::size_t all = words.size() / corners.stride;
       std::size_t at = 0;
       const auto add = [&](std::size_t count) {
-        if (count > all - at) refuse(*p, "has fewer corners than its faces need");
+        if (count > all - at) refuse_collada(*p, "has fewer corners than its faces need");
         polygon.clear();
         for (std::size_t corner = at; corner < at + count; ++corner) {
           const std::uint32_t index = words[corner * corners.stride + corners.offset];
-          if (index >= corners.count) refuse(*p, "names corner " + std::to_string(index) + ", which there is not");
+          if (index >= corners.count)
+            refuse_collada(*p, "names corner " + std::to_string(index) + ", which there is not");
           polygon.push_back(corners.first + index);
         }
         add_polygon(polygon, mesh_);
@@ -185,7 +186,8 @@ class Geometry {
       const XMLElement& accessor = child(child(source, "technique_common"), "accessor");
       const std::size_t stride = accessor.UnsignedAttribute("stride", 1),
                         offset = accessor.UnsignedAttribute("offset", 0);
-      if (stride < 3 || stride > 64 || offset > values.size()) refuse(accessor, "gives no places of three coordinates");
+      if (stride < 3 || stride > 64 || offset > values.size())
+        refuse_collada(accessor, "gives no places of three coordinates");
       corners.first = static_cast<std::uint32_t>(mesh_.vertices.size());
       for (std::size_t at = offset; at + 3 <= values.size(); at += stride)
         mesh_.vertices.emplace_back(values[at], values[at + 1], values[at + 2]);
@@ -201,7 +203,7 @@ class Geometry {
     for (const XMLElement* each = parent.FirstChildElement(name); each != nullptr;
          each = each->NextSiblingElement(name))
       if (!id.empty() && each->Attribute("id", id.c_str()) != nullptr) return *each;
-    refuse(who, "names <" + std::string(name) + " id=\"" + id + "\">, which there is not");
+    refuse_collada(who, "names <" + std::string(name) + " id=\"" + id + "\">, which there is not");
   }
 
   Mesh mesh_;
@@ -224,7 +226,7 @@ class ShownScene {
     const XMLElement* asset = root_.FirstChildElement("asset");
     const XMLElement* unit = asset == nullptr ? nullptr : asset->FirstChildElement("unit");
     const double metres = unit == nullptr ? 1 : unit->DoubleAttribute("meter", 1);
-    if (!(metres > 0) || !std::isfinite(metres)) refuse(*unit, "must have a meter above 0");
+    if (!(metres > 0) || !std::isfinite(metres)) refuse_collada(*unit, "must have a meter above 0");
     for (Vec3& vertex : mesh_.vertices) vertex *= metres;
     return std::move(mesh_);
   }
@@ -232,7 +234,7 @@ class ShownScene {
  private:
   /// Nodes, scenes and geometries by their ids; the first of two alike counts.
   void index(const XMLElement& element, int depth) {
-    if (depth > deepest) refuse(element, "lies in more than " + std::to_string(deepest) + " others");
+    if (depth > deepest) refuse_collada(element, "lies in more than " + std::to_string(deepest) + " others");
     for (const XMLElement* each = element.FirstChildElement(); each != nullptr; each = each->NextSiblingElement()) {
       const std::string_view name = each->Name();
       const char* id = each->Attribute("id");
@@ -243,12 +245,12 @@ class ShownScene {
 
   const XMLElement& named(const std::string& id, const XMLElement& who) const {
     const auto at = by_id_.find(id);
-    if (at == by_id_.end()) refuse(who, "names '" + id + "', which there is not");
+    if (at == by_id_.end()) refuse_collada(who, "names '" + id + "', which there is not");
     return *at->second;
   }
 
   void show(const XMLElement& node, Transform at, int depth) {
-    if (depth > deepest) refuse(node, "lies in more than " + std::to_string(deepest) + " others, or in itself");
+    if (depth > deepest) refuse_collada(node, "lies in more than " + std::to_string(deepest) + " others, or in itself");
     if (++shown_ > cap_ / sizeof(Transform)) refuse_size();  // nodes without a geometry in one another
     for (const XMLElement* each = node.FirstChildElement(); each != nullptr; each = each->NextSiblingElement()) {
       const std::string_view name = each->Name();
@@ -289,9 +291,9 @@ class ShownScene {
 Mesh read_collada(std::string_view bytes, std::uint64_t memory_cap_bytes) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS)
-    refuse(bytes.empty() ? "it is empty" : std::string(document.ErrorStr()));
+    refuse_collada(bytes.empty() ? "it is empty" : std::string(document.ErrorStr()));
   const XMLElement* root = document.RootElement();
-  if (root == nullptr || std::string_view(root->Name()) != "COLLADA") refuse("it has no <COLLADA>");
+  if (root == nullptr || std::string_view(root->Name()) != "COLLADA") refuse_collada("it has no <COLLADA>");
   return ShownScene(*root, memory_cap_bytes).read();
 }
 

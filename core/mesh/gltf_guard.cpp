@@ -13,7 +13,7 @@ namespace {
 constexpr int depth_limit = 64;     // of JSON; plain glTF stays below 10
 constexpr int parent_limit = 2000;  // nodes with children: the longest chain of nodes there can be
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_gltf(const std::string& why) {
   throw InputError("mesh_unreadable", "the glTF file " + why);
 }
 
@@ -31,7 +31,7 @@ class Guard {
       }
       if (c == '{' || c == '[') ++depth;
       if (c == '}' || c == ']') --depth;
-      if (depth > depth_limit) refuse("nests its JSON deeper than 64 levels: export the mesh again");
+      if (depth > depth_limit) refuse_gltf("nests its JSON deeper than 64 levels: export the mesh again");
       ++at_;
     }
   }
@@ -50,10 +50,11 @@ class Guard {
     ++at_;
     skip_space();
     if (at_ >= json_.size() || json_[at_] != ':') return;
-    if (escaped) refuse("has an escaped name in its JSON: export the mesh again");
+    if (escaped) refuse_gltf("has an escaped name in its JSON: export the mesh again");
     ++at_;
     if (word == "children") {
-      if (++parents_ > parent_limit) refuse("has more than 2000 nodes with children: join its parts and export again");
+      if (++parents_ > parent_limit)
+        refuse_gltf("has more than 2000 nodes with children: join its parts and export again");
       check_references(children_);
     } else if (word == "nodes") {
       std::unordered_set<std::uint64_t> roots;
@@ -70,7 +71,8 @@ class Guard {
       std::uint64_t node = 0;
       const auto [end, error] = std::from_chars(json_.data() + at, json_.data() + json_.size(), node);
       if (error == std::errc{} && !seen.insert(node).second)
-        refuse("shows node " + std::to_string(node) + " in more than one place: apply the instances and export again");
+        refuse_gltf("shows node " + std::to_string(node) +
+                    " in more than one place: apply the instances and export again");
       at = error == std::errc{} ? static_cast<std::size_t>(end - json_.data()) : at + 1;
     }
   }

@@ -45,9 +45,9 @@ std::uint64_t min_size(const PlyElement& element, PlyHeader::Form form) {
   return size;
 }
 
-class Reader {
+class HeaderReader {
  public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}
 
   PlyHeader read() {
     if (take_line() != "ply") refuse_ply("does not begin with \"ply\"");
@@ -142,7 +142,7 @@ class Reader {
 }  // namespace
 
 PlyHeader read_ply_header(std::string_view bytes) {
-  return Reader(bytes).read();
+  return HeaderReader(bytes).read();
 }
 
 void refuse_ply(const std::string& why) {

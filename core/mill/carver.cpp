@@ -15,7 +15,7 @@ namespace {
 /// Beyond the stock the tip needs room for its cutter and to turn around in.
 constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
 /// Tips are whole numbers of quanta.
-constexpr double same_place_m = 1e-6;
+constexpr double same_tip_m = 1e-6;
 /// Nails: of a square of the finest stepover, but no more and no fewer than these.
 constexpr double nails_a_stepover = 2;
 constexpr std::size_t fewest_nails = 20000, max_nails = 300000;
@@ -118,7 +118,7 @@ bool Carver::hold(std::size_t number, const Site& site, const PostureField& fiel
 }
 
 void Carver::draw_back(const Site& site) {
-  while ((tip(site) - hub_).norm() > same_place_m) {
+  while ((tip(site) - hub_).norm() > same_tip_m) {
     for (const double min_height : {-std::numeric_limits<double>::infinity(), hub_.z()}) {
       std::vector<MillStroke> strokes;
       hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);

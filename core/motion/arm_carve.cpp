@@ -11,13 +11,13 @@ namespace {
 
 constexpr int max_effort = 2;
 /// Iterations of OMPL's searches that may find nothing, at first: few where there is little to gain.
-constexpr std::uint64_t iterations_a_voxel = 20, min_iterations = 300, max_iterations = 3000;
+constexpr std::uint64_t cell_iterations_a_voxel = 20, min_cell_iterations = 300, max_cell_iterations = 3000;
 
 std::uint64_t iterations_for(const Octree& octree) {
   std::uint64_t voxels = 0;
   for (const Block& block : octree.leaves)
     if (block.label == Label::remove) voxels += static_cast<std::uint64_t>(block.size) * block.size * block.size;
-  return std::clamp(iterations_a_voxel * voxels, min_iterations, max_iterations);
+  return std::clamp(cell_iterations_a_voxel * voxels, min_cell_iterations, max_cell_iterations);
 }
 
 }  // namespace

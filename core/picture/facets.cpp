@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int sides = 24, rings = 12;
+constexpr int prism_sides = 24, rings = 12;
 
 /// Takes corners in the shape's own frame.
 class Surface {
@@ -39,13 +39,13 @@ void add_box(const Vec3& half, Surface& surface) {
 
 /// A point of the circle around z at a whole number of its sides.
 Vec3 on_circle(double radius, int side, double z) {
-  const double angle = 2 * std::numbers::pi * side / sides;
+  const double angle = 2 * std::numbers::pi * side / prism_sides;
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
 void add_cylinder(double radius, double length, Surface& surface) {
   const double top = length / 2;
-  for (int side = 0; side < sides; ++side) {
+  for (int side = 0; side < prism_sides; ++side) {
     const Vec3 a = on_circle(radius, side, top), b = on_circle(radius, side + 1, top),
                c = on_circle(radius, side + 1, -top), d = on_circle(radius, side, -top);
     surface.square(a, b, c, d);
@@ -60,7 +60,7 @@ void add_sphere(double radius, Surface& surface) {
     return on_circle(radius * std::sin(tilt), side, radius * std::cos(tilt));
   };
   for (int ring = 0; ring < rings; ++ring)
-    for (int side = 0; side < sides; ++side)
+    for (int side = 0; side < prism_sides; ++side)
       surface.square(at(ring, side), at(ring, side + 1), at(ring + 1, side + 1), at(ring + 1, side));
 }
 

@@ -23,7 +23,7 @@ struct MillInputs {
   Mesh part;
 };
 
-MillInputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
+MillInputs read_mill_inputs(const Job& job, Watch& watch, JobResult& result) {
   Report& report = result.report;
   const Stopwatch load;
   watch.step(Stage::load, 0, 1);
@@ -93,7 +93,7 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
   JobResult result;
   Report& report = result.report;
   report.search = name(Search::mill);
-  const MillInputs inputs = read_inputs(job, watch, result);
+  const MillInputs inputs = read_mill_inputs(job, watch, result);
 
   const Stopwatch planning;
   const Cell first = carrying(inputs.cell, inputs.tools.front());

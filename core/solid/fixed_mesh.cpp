@@ -8,7 +8,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double unit = std::int64_t{1} << unit_bits;
+constexpr double units_an_edge = std::int64_t{1} << unit_bits;
 
 Vec3 round_to_units(const Vec3& vertex, const Grid& grid) {
   constexpr double limit = 8192;  // voxels; products of two coordinates then stay below 2^62
@@ -16,7 +16,7 @@ Vec3 round_to_units(const Vec3& vertex, const Grid& grid) {
   if (!(at.cwiseAbs().maxCoeff() < limit))
     throw InputError("target_outside_stock",
                      "the mesh reaches more than 8192 voxels out of the grid: check its units (metres) and its place");
-  return {std::round(at.x() * unit), std::round(at.y() * unit), std::round(at.z() * unit)};
+  return {std::round(at.x() * units_an_edge), std::round(at.y() * units_an_edge), std::round(at.z() * units_an_edge)};
 }
 
 }  // namespace

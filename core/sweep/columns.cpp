@@ -8,17 +8,6 @@
 #include <utility>
 
 namespace sculpt {
-namespace {
-
-/// Travelling above material keeps a voxel more than needed, so that long edges may leave their line by half a voxel.
-constexpr double travel_tolerance = 0.5;
-
-Vec3 centre(Voxel cell) {
-  return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
-}
-
-}  // namespace
-
 Columns::Columns(const ToolView& view, const VoxelSet& standing, const VoxelSet& keep, const ReachRows& reach,
                  std::vector<Run> given_up)
     : view_(view),

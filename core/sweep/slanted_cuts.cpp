@@ -8,18 +8,13 @@ namespace sculpt {
 namespace {
 
 /// Outside the grid the ball keeps a voxel more than needed, so that long edges may leave their line by half a voxel.
-constexpr double travel_tolerance = 0.5;
 constexpr int outside_by = 2;  ///< cells from the last of the grid to where the ball travels
 /// Of the search around the ball: cells looked at, and how far off they may be.
 constexpr std::size_t max_hops = 3000;
 /// After so many cells it goes on only if some cut is so few steps off: in open air it comes no farther than that.
 constexpr std::size_t first_hops = 256;
-constexpr int max_steps = 16;
+constexpr int max_window_steps = 16;
 constexpr int window = 64;  ///< a row of it is a word
-
-Vec3 centre(Voxel cell) {
-  return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
-}
 
 int dot(Voxel a, Voxel b) {
   return a.i * b.i + a.j * b.j + a.k * b.k;
@@ -134,7 +129,7 @@ bool SlantedCuts::cut_near(Sortie& sortie) {
   see(at_);
   hops_ = {{at_, 0}};
   for (std::size_t hop = 0; hop < hops_.size() && hop < max_hops; ++hop) {
-    if (hop == first_hops && !is_any_within(max_steps)) return false;
+    if (hop == first_hops && !is_any_within(max_window_steps)) return false;
     for (const Voxel step : steps) {
       const Voxel next = hops_[hop].cell + step;
       if (!see(next)) continue;

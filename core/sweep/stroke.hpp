@@ -7,6 +7,13 @@
 
 namespace sculpt {
 
+/// Travelling above material keeps a voxel more than needed, so that long edges may leave their line by half a voxel.
+inline constexpr double travel_tolerance = 0.5;
+
+inline Vec3 centre(Voxel cell) {
+  return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
+}
+
 /// From where the last stroke ended, in cells of a view. A cut goes along one axis and removes the cells it comes to,
 /// `count` of them; all others pass through air only.
 struct Stroke {

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double body_stray_m = 2e-4;  // of what is above the cutter: maps keep 0.3 mm off
 constexpr double kept = 0.97;          // of what may be strayed: the rest is for the replay to prove
-constexpr double share_of_link_margin = 0.75;
 
 /// From the tip to the farthest point of all that is fixed to the tool link, at most (m).
 double reach_of(const Cell& cell, const Chain& chain) {

@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t max_places = 10;
-constexpr double kept = 1 - 1e-3;  // of the feed: what is above that is as fast as was asked for
+constexpr double at_feed = 1 - 1e-3;  // of the feed: what is above that is as fast as was asked for
 
 std::string text(double value) {
   std::ostringstream out;
@@ -71,7 +71,8 @@ class SlowPlaces {
 
   /// What is no slower changes nothing.
   double slow_enough(double feed) const {
-    const double wanted = found_.size() < max_places ? kept * feed : std::min(kept * feed, found_.back().feed_m_s);
+    const double wanted =
+        found_.size() < max_places ? at_feed * feed : std::min(at_feed * feed, found_.back().feed_m_s);
     return demands_.keep_feed ? std::max(wanted, *demands_.keep_feed * feed) : wanted;
   }
 
@@ -103,8 +104,8 @@ class SlowPlaces {
     const Configuration way = step / length;
     const double cruise = static_cast<double>(corner(point).cruise);
     const float x_before = point > 1 ? corner(point - 1).x_mid : 0, x_after = corner(point).x_mid;
-    const bool by_joints = cruise * way.cwiseAbs().cwiseQuotient(velocity_).maxCoeff() > kept;
-    if (!by_joints && std::sqrt(static_cast<double>(std::min(x_before, x_after))) >= kept * cruise) return;
+    const bool by_joints = cruise * way.cwiseAbs().cwiseQuotient(velocity_).maxCoeff() > at_feed;
+    if (!by_joints && std::sqrt(static_cast<double>(std::min(x_before, x_after))) >= at_feed * cruise) return;
     const auto rate_at = [&](float x, bool is_line_end) {
       // One voxel from where the line of cuts ends the motion may have risen again.
       const double there = static_cast<double>(x) + (is_line_end ? 2 * rise * voxel * length : 0);
@@ -116,7 +117,7 @@ class SlowPlaces {
     before.put(rates, path_.configuration(point - 1));
     after.put(rates, path_.configuration(point));
     const double slowest = std::min({feed, rate_before * before.ball(way).norm(), rate_after * after.ball(way).norm()});
-    if (slowest >= kept * feed) return;
+    if (slowest >= at_feed * feed) return;
     if (demands_.keep_feed && slowest < *demands_.keep_feed * feed) refuse({point, slowest});
     if (found_.size() == max_places && slowest >= found_.back().feed_m_s) return;
     found_.insert(std::ranges::upper_bound(found_, slowest, {}, &Found::feed_m_s), {point, slowest});
@@ -142,8 +143,9 @@ class SlowPlaces {
     throw InputError("feed_not_kept", "at keyframe " + std::to_string(place.keyframe) + ", voxel (" +
                                           std::to_string(place.voxel.i) + ", " + std::to_string(place.voxel.j) + ", " +
                                           std::to_string(place.voxel.k) + "), joint '" + place.joint + "' lets only " +
-                                          text(place.feed_m_s) + " m/s be kept of the " + text(feed_of(found.point)) +
-                                          " asked for: ask for --feed " + text(place.feed_m_s / *demands_.keep_feed) +
+                                          text(place.feed_m_s) + " m/s be at_feed of the " +
+                                          text(feed_of(found.point)) + " asked for: ask for --feed " +
+                                          text(place.feed_m_s / *demands_.keep_feed) +
                                           " at most, or for a smaller --keep-feed than " + text(*demands_.keep_feed));
   }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/verify/replay_finding.hpp"
+#include "core/verify/findings/replay_finding.hpp"
 #include "core/verify/robot/link_motion.hpp"
 
 namespace sculpt {

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
 namespace {
 
 // Two things that can come closer than this while they move this little are reported: nobody could prove that they do
 // not touch.
 constexpr double too_close_mm = 0.01;
-// Added to every geometry whose absence of contact is taken as proof, over libccd's own error.
-constexpr double slack_mm = 0.001;
 
 Vec3 centre_of(const SolidBody& body, const std::vector<Frame>& poses) {
   return poses[static_cast<std::size_t>(body.link)] * body.pose.translation();
@@ -92,7 +92,7 @@ bool LinkReplay::near(const Pair& pair, const std::vector<Frame>& poses, double 
 bool LinkReplay::unsettled(const Pair& pair, const std::vector<Frame>& poses, const Configuration& steps, double t,
                            const OnContact& on_contact) const {
   const double travel = pair.clearance.bound().at(poses, steps);
-  if (!near(pair, poses, travel + slack_mm)) return false;
+  if (!near(pair, poses, travel + contact_slack_mm)) return false;
   const auto& links = cell_.robot.links;
   const std::string names =
       "link " + links[static_cast<std::size_t>(pair.first->link)].name + " and " +
@@ -127,7 +127,7 @@ void LinkReplay::renew_clearance(Pair& pair, const std::vector<Frame>& poses, co
   if (gap > 0) kept.prove(gap);
   for (double times : {256, 64, 16, 4}) {
     if (kept.proved() >= times * travel) return;
-    if (near(pair, poses, times * travel + slack_mm)) continue;
+    if (near(pair, poses, times * travel + contact_slack_mm)) continue;
     kept.prove(times * travel);
     return;
   }
@@ -145,7 +145,7 @@ void LinkReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
 
 bool LinkReplay::may_touch_in(Pair& pair, const OpenItems::Box& box) const {
   const ApproachBound& bound = pair.clearance.bound();
-  if (!near(pair, box.poses, bound.at(box.poses, box.half) + slack_mm)) return false;
+  if (!near(pair, box.poses, bound.at(box.poses, box.half) + contact_slack_mm)) return false;
   const std::vector<MovingJoint>& joints = bound.joints();
   const int coordinate = joints.empty() ? 0 : joints.front().coordinate;
   const bool moved_by_one = std::ranges::all_of(joints, [&](const auto& one) { return one.coordinate == coordinate; });
@@ -156,7 +156,7 @@ bool LinkReplay::may_touch_in(Pair& pair, const OpenItems::Box& box) const {
     steps[coordinate] = half;
     std::vector<Frame> poses;
     motion_.place_links(at, poses);
-    return !near(pair, poses, bound.at(poses, steps) + slack_mm);
+    return !near(pair, poses, bound.at(poses, steps) + contact_slack_mm);
   };
   const double middle = box.middle[coordinate], half = box.half[coordinate];
   return !pair.ranges.hold(middle - half, middle + half, is_free);

@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/verify/findings/replay_finding.hpp"
 #include "core/verify/free_ranges.hpp"
 #include "core/verify/kept_clearance.hpp"
 #include "core/verify/material/standing_voxels.hpp"
 #include "core/verify/open_items.hpp"
-#include "core/verify/replay_finding.hpp"
 #include "core/verify/robot/solid_body.hpp"
 
 namespace sculpt {

@@ -4,21 +4,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/verify/findings/finding_text.hpp"
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
 namespace {
 
-constexpr double joint_slack = 1e-9;
-constexpr double length_slack_m = 1e-9;
-
-std::string text(Voxel v) {
-  return "(" + std::to_string(v.i) + ", " + std::to_string(v.j) + ", " + std::to_string(v.k) + ")";
-}
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
+constexpr double tolerance_slack_m = 1e-9;
 
 // The voxels of a cut, in order; of none if it is a move.
 class Run {
@@ -157,7 +149,7 @@ void PieceReplay::replay_parts(const JointMotion& whole, const Keyframe& keyfram
 void PieceReplay::remove_voxel(Voxel voxel, const Configuration& q) {
   ++found_.voxels_checked;
   const double miss_m = (tool_.ball_at(q) / 1000 - scene_.grid.centre(voxel)).norm();
-  if (!(miss_m <= scene_.header.tolerance_m + length_slack_m))
+  if (!(miss_m <= scene_.header.tolerance_m + tolerance_slack_m))
     find("the ball is " + text(miss_m / scene_.header.grid.voxel_m) + " voxels from the centre of voxel " +
          text(voxel) + " that it removes");
   switch (scene_.voxels.label(voxel)) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
-#include "core/verify/findings.hpp"
+#include "core/verify/findings/findings.hpp"
 #include "core/verify/link_replay.hpp"
 #include "core/verify/robot/checked_pairs.hpp"
 #include "core/verify/tool_replay.hpp"

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
 namespace {
 
-constexpr double mm = 1000;
 // A tool that can touch while it moves less than this (in voxels) is reported.
 constexpr double too_close_voxels = 0.002;
-// Added to every geometry whose absence of contact is taken as proof, over libccd's own error.
-constexpr double slack_mm = 0.001;
 
 // Middle of a..b, z along it.
 Frame along(const Vec3& a, const Vec3& b) {
@@ -92,7 +91,7 @@ bool ToolReplay::is_clear(const Target& target, const JointMotion& motion) const
   const View& view = views_[target.view];
   const Sweep sweep{seen_from(target, view.before.line), seen_from(target, view.after.line),
                     sagitta(view.chain, view.before, view.after, motion.step)};
-  return !ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + slack_mm) &&
+  return !ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + contact_slack_mm) &&
          !(has_shank() && swept_shank_meets(target, sweep));
 }
 
@@ -127,7 +126,7 @@ bool ToolReplay::shank_meets(const Target& target, const Line& line, double grow
 // turning, and a thicker cylinder in the middle, tight when it hardly moves. It meets nothing if either does not.
 bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) const {
   const Line &start = sweep.start, &end = sweep.end;
-  const double radius = shank_ + sweep.sagitta + slack_mm;
+  const double radius = shank_ + sweep.sagitta + contact_slack_mm;
   const Vec3 low = start.ball.cwiseMin(end.ball).cwiseMin(start.top).cwiseMin(end.top).array() - radius;
   const Vec3 high = start.ball.cwiseMax(end.ball).cwiseMax(start.top).cwiseMax(end.top).array() + radius;
   if ((low.array() > target.high.array()).any() || (high.array() < target.low.array()).any()) return false;
@@ -151,7 +150,7 @@ bool ToolReplay::swept_shank_meets(const Target& target, const Sweep& sweep) con
   const double way = std::max(ball_way, top_way), tilt = (ball_way + top_way) / length;
   if (way > voxel_ || tilt > 0.5) return true;
   // Points off the axis move along it when the shank tilts: asin(tilt) < 1.1 tilt up to 0.5.
-  return shank_meets(target, middle, way + slack_mm, way + 1.1 * tilt * shank_ + slack_mm);
+  return shank_meets(target, middle, way + contact_slack_mm, way + 1.1 * tilt * shank_ + contact_slack_mm);
 }
 
 ToolReplay::Finding ToolReplay::settle(const Task& task, const Placed& start, const Placed& middle, const Placed& end,
@@ -166,7 +165,7 @@ ToolReplay::Finding ToolReplay::settle(const Task& task, const Placed& start, co
     if (!swept_shank_meets(target, sweep)) return Finding::free;
     if (shank_meets(target, half_way, 0, 0)) return Finding::touches;
   } else {
-    if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + slack_mm)) return Finding::free;
+    if (!ball_meets(target, sweep.start.ball, sweep.end.ball, sweep.sagitta + contact_slack_mm)) return Finding::free;
     if (ball_meets(target, half_way.ball, half_way.ball, 0)) return Finding::touches;
   }
   return way + sweep.sagitta < too_close_voxels * voxel_ ? Finding::too_close : Finding::unknown;
@@ -220,11 +219,11 @@ bool ToolReplay::keeps_off_the_rest(const JointMotion& motion, Voxel first, Voxe
                 first_line.top + t * (last_line.top - first_line.top)};
   };
   int part = 0;
-  while (part < parts && stays_off(part, between(part), between(part + 1), stray, stray + slack_mm)) ++part;
+  while (part < parts && stays_off(part, between(part), between(part + 1), stray, stray + contact_slack_mm)) ++part;
   if (part == parts) return true;
 
   // A part has the same second derivative, and 1/n the time.
-  const double room = stray / (parts * parts) + slack_mm;
+  const double room = stray / (parts * parts) + contact_slack_mm;
   Line before = first_line;
   Placed placed;
   for (part = 0; part < parts; ++part) {
@@ -243,7 +242,8 @@ void ToolReplay::look_ahead(const TrajectoryPiece& piece, bool prove_ahead) {
   }
   ahead_ = OpenItems(motion_, piece, targets_.size(), [this](std::size_t at, const OpenItems::Box& box) {
     const Target& target = targets_[at];
-    return target.body == nullptr || comes_near(target, box.poses, target.approach.at(box.poses, box.half) + slack_mm);
+    return target.body == nullptr ||
+           comes_near(target, box.poses, target.approach.at(box.poses, box.half) + contact_slack_mm);
   });
 }
 

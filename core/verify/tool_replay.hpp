@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/verify/approach_bound.hpp"
+#include "core/verify/findings/replay_finding.hpp"
 #include "core/verify/material/standing_voxels.hpp"
 #include "core/verify/open_items.hpp"
-#include "core/verify/replay_finding.hpp"
 #include "core/verify/robot/solid_body.hpp"
 
 namespace sculpt {

@@ -14,6 +14,8 @@
 
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/reader.hpp"
+#include "core/verify/findings/finding_text.hpp"
+#include "core/verify/findings/slack.hpp"
 #include "core/verify/home_contacts.hpp"
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/piece_replay.hpp"
@@ -24,16 +26,7 @@ namespace sculpt {
 namespace {
 
 constexpr double max_tolerance_voxels = 0.04;
-constexpr double joint_slack = 1e-9;
-// Joint values are stored in steps of 1e-7 rad or m, rounded to the inside of the limits: home may be that far aside.
-constexpr double home_slack = 1e-7 + joint_slack;
-constexpr double length_slack_m = 1e-12;
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
+constexpr double header_slack_m = 1e-12;
 
 // The joints that a trajectory of this cell must name: the independent ones on the way from the stock to the tool.
 std::vector<int> expected_joints(const Cell& cell) {
@@ -219,15 +212,15 @@ class Replay {
            std::to_string(voxels_.n()));
     if (header().joints != names || header().grid.n != voxels_.n()) return false;
     const Grid grid = cell_.grid(voxels_.n());
-    if (std::abs(header().grid.voxel_m - grid.voxel_m) > length_slack_m ||
-        (header().grid.origin_m - grid.origin_m).norm() > length_slack_m)
+    if (std::abs(header().grid.voxel_m - grid.voxel_m) > header_slack_m ||
+        (header().grid.origin_m - grid.origin_m).norm() > header_slack_m)
       find("the header's voxel size or origin is not the cell's");
     const Tool tool = make_tool(cell_.tool, grid.voxel_m);
-    if (std::abs(header().tool.ball_radius_m - tool.ball_radius_m) > length_slack_m ||
-        std::abs(header().tool.shank_radius_m - tool.shank_radius_m) > length_slack_m ||
-        std::abs(header().tool.stickout_m - tool.stickout_m) > length_slack_m)
+    if (std::abs(header().tool.ball_radius_m - tool.ball_radius_m) > header_slack_m ||
+        std::abs(header().tool.shank_radius_m - tool.shank_radius_m) > header_slack_m ||
+        std::abs(header().tool.stickout_m - tool.stickout_m) > header_slack_m)
       find("the header's tool is not the cell's");
-    if (header().tolerance_m > max_tolerance_voxels * grid.voxel_m + length_slack_m)
+    if (header().tolerance_m > max_tolerance_voxels * grid.voxel_m + header_slack_m)
       find("the header's tolerance is " + text(header().tolerance_m / grid.voxel_m) + " voxels, more than " +
            text(max_tolerance_voxels));
     for (std::size_t at = 0; at < joints_.size(); ++at)

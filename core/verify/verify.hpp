@@ -11,9 +11,9 @@
 #include "core/base/watch.hpp"
 #include "core/cell/cell.hpp"
 #include "core/material/voxel_grid.hpp"
-#include "core/verify/findings.hpp"
+#include "core/verify/findings/findings.hpp"
+#include "core/verify/findings/surface_verdict.hpp"
 #include "core/verify/robot/exempt_pair.hpp"
-#include "core/verify/surface_verdict.hpp"
 
 namespace sculpt {
 

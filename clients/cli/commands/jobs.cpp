@@ -21,7 +21,7 @@ struct ListOptions {
   std::size_t limit = 0;
 };
 
-std::string text_of(const Json& object, const char* field) {
+std::string text_or_dash(const Json& object, const char* field) {
   if (!object.contains(field)) return "-";
   const Json& value = object[field];
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -30,7 +30,7 @@ std::string text_of(const Json& object, const char* field) {
 std::string progress_of(const Json& job) {
   if (!job.contains("progress")) return "";
   const Json& progress = job["progress"];
-  return text_of(progress, "stage") + " " + text_of(progress, "done") + "/" + text_of(progress, "total");
+  return text_or_dash(progress, "stage") + " " + text_or_dash(progress, "done") + "/" + text_or_dash(progress, "total");
 }
 
 int run_list(const std::string& server, const ListOptions& options) {
@@ -38,28 +38,30 @@ int run_list(const std::string& server, const ListOptions& options) {
   const Json found = client.list({.newest = options.newest, .limit = options.limit});
   const Json& jobs = found.at("jobs");
   for (const Json& job : found.value("damaged", Json::array()))
-    std::cerr << "sculpt: warning: " << text_of(job, "job") << " is left out: " << text_of(job, "message") << "\n";
+    std::cerr << "sculpt: warning: " << text_or_dash(job, "job") << " is left out: " << text_or_dash(job, "message")
+              << "\n";
   if (options.json) {
     std::cout << proto::write_json({{"jobs", jobs}}) << "\n";
     return exit_fine;
   }
   std::printf("%-26s  %-11s  %-24s  %5s  %-16s  %s\n", "JOB", "STATE", "MESH", "N", "ROBOT", "SUBMITTED");
   for (const Json& job : jobs)
-    std::printf("%-26s  %-11s  %-24s  %5s  %-16s  %s  %s\n", text_of(job, "job").c_str(), text_of(job, "state").c_str(),
-                text_of(job, "mesh").c_str(), text_of(job, "resolution").c_str(), text_of(job, "robot").c_str(),
-                text_of(job, "submitted_at").c_str(), progress_of(job).c_str());
+    std::printf("%-26s  %-11s  %-24s  %5s  %-16s  %s  %s\n", text_or_dash(job, "job").c_str(),
+                text_or_dash(job, "state").c_str(), text_or_dash(job, "mesh").c_str(),
+                text_or_dash(job, "resolution").c_str(), text_or_dash(job, "robot").c_str(),
+                text_or_dash(job, "submitted_at").c_str(), progress_of(job).c_str());
   return exit_fine;
 }
 
 void print_status(const Json& job) {
   for (const auto& [field, value] : job.items()) {
     if (value.is_object()) continue;
-    std::printf("%-14s%s\n", field.c_str(), text_of(job, field.c_str()).c_str());
+    std::printf("%-14s%s\n", field.c_str(), text_or_dash(job, field.c_str()).c_str());
   }
   if (job.contains("progress")) std::printf("%-14s%s\n", "progress", progress_of(job).c_str());
   if (job.contains("error"))
-    std::printf("%-14s%s: %s\n", "error", text_of(job["error"], "code").c_str(),
-                text_of(job["error"], "message").c_str());
+    std::printf("%-14s%s: %s\n", "error", text_or_dash(job["error"], "code").c_str(),
+                text_or_dash(job["error"], "message").c_str());
 }
 
 int run_status(const std::string& server, const JobArgument& options) {

@@ -9,6 +9,8 @@
 #include <set>
 #include <tuple>
 
+#include "clients/cli/place/formatted.hpp"
+
 namespace sculpt::cli {
 
 namespace {
@@ -24,13 +26,6 @@ constexpr std::array scale{0.0, 90.0, 99.0, 99.9, 99.99};                       
 using Rest = std::tuple<double, double, double, double>;
 Rest rest_of(const Stand& stand) {
   return {stand.at_m.z(), stand.height_m, stand.stickout_m, stand.turn_rad};
-}
-
-template <typename... Values>
-std::string print(const char* format, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
 }
 
 using Colour = std::array<int, 3>;
@@ -58,7 +53,7 @@ const char* ink_on(const Colour& colour) {
 /// A share of what is to be removed, in its colour.
 std::string box(double x, double y, double reached, int digits) {
   const Colour colour = colour_of(reached);
-  return print(
+  return formatted(
       "<rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" fill=\"#%02x%02x%02x\" stroke=\"white\"/>"
       "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\" fill=\"%s\">%.*f</text>\n",
       x, y, cell_width, cell_height, colour[0], colour[1], colour[2], x + cell_width / 2, y + 17, ink_on(colour),
@@ -66,7 +61,7 @@ std::string box(double x, double y, double reached, int digits) {
 }
 
 std::string frame(double x, double y, const char* dashes) {
-  return print(
+  return formatted(
       "<rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" fill=\"none\" stroke=\"black\" "
       "stroke-width=\"2\" stroke-dasharray=\"%s\"/>\n",
       x + 1, y + 1, cell_width - 2, cell_height - 2, dashes);
@@ -85,8 +80,8 @@ std::string legend() {
     x += cell_width;
   }
   for (const auto& [dashes, words] : {std::pair(own_frame, "as the cell stands"), std::pair(best_frame, "the best")}) {
-    text +=
-        frame(x + 16, y, dashes) + print("<text x=\"%.0f\" y=\"%.0f\">%s</text>\n", x + cell_width + 24, text_y, words);
+    text += frame(x + 16, y, dashes) +
+            formatted("<text x=\"%.0f\" y=\"%.0f\">%s</text>\n", x + cell_width + 24, text_y, words);
     x += cell_width + 130;
   }
   return text;
@@ -119,7 +114,7 @@ class Maps {
     const std::size_t rows = (maps_.size() + maps_a_row - 1) / maps_a_row;
     const double columns = static_cast<double>(std::min(maps_.size(), maps_a_row));
     const double all_width = std::max(width * columns, 760.0), all_height = head + height * static_cast<double>(rows);
-    std::string text = print(
+    std::string text = formatted(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
         "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
         all_width, all_height, all_width, all_height);
@@ -129,8 +124,8 @@ class Maps {
             legend();
     std::size_t number = 0;
     for (const auto& [rest, stands] : maps_) {
-      text += print("<g transform=\"translate(%.0f %.0f)\">\n", width * static_cast<double>(number % maps_a_row),
-                    head + height * static_cast<double>(number / maps_a_row));
+      text += formatted("<g transform=\"translate(%.0f %.0f)\">\n", width * static_cast<double>(number % maps_a_row),
+                        head + height * static_cast<double>(number / maps_a_row));
       text += draw_one(rest, stands) + "</g>\n";
       ++number;
     }
@@ -140,13 +135,14 @@ class Maps {
  private:
   std::string draw_one(const Rest& rest, const std::vector<const RatedStand*>& stands) const {
     const auto [z, height, tool, turn] = rest;
-    std::string text = print(
+    std::string text = formatted(
         "<text x=\"%.0f\" y=\"16\" font-weight=\"bold\">z %.3f m, block at %.3f m, tool %.3f m, turn %.0f°</text>\n",
         left, z, height, tool, turn * 180 / std::numbers::pi);
     for (const double x : xs_)
-      text += print("<text x=\"%.0f\" y=\"36\" text-anchor=\"middle\">%.3f</text>\n", column(x) + cell_width / 2, x);
+      text +=
+          formatted("<text x=\"%.0f\" y=\"36\" text-anchor=\"middle\">%.3f</text>\n", column(x) + cell_width / 2, x);
     for (const double y : ys_)
-      text += print("<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%.3f</text>\n", left - 6, row(y) + 17, y);
+      text += formatted("<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%.3f</text>\n", left - 6, row(y) + 17, y);
     std::string frames;
     for (const RatedStand* one : stands) {
       const double x = column(one->stand.at_m.x()), y = row(one->stand.at_m.y());

@@ -7,18 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "clients/cli/place/formatted.hpp"
+
 namespace sculpt::cli {
 
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-
-template <typename... Values>
-std::string print(const char* format, Values... values) {
-  char line[256];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 const std::string& link_name(const Cell& cell, int link) {
   return cell.robot.links[static_cast<std::size_t>(link)].name;
@@ -33,12 +28,13 @@ std::string row(const PlaceReport& report, std::size_t at) {
   if (one.reach.is_blocked) notes += " stands in something";
   if (!one.reach.home_is_free) notes += " home touches";
   const std::string certified =
-      at < report.certified.size() ? print("%10.2f", percent(report.certified[at].held, report.certified[at].removable))
-                                   : "         -";
-  return print("%5zu %8.3f %8.3f %8.3f %7.1f %8.3f %8.3f  %7.2f%s  %6.2f %6.2f %6.2f %6.2f %6.2f", at + 1,
-               stand.at_m.x(), stand.at_m.y(), stand.at_m.z(), stand.turn_rad * degrees, stand.height_m,
-               stand.stickout_m, of_all(share.held), certified.c_str(), of_all(share.tool), of_all(share.stock),
-               of_all(share.links), of_all(share.limits), of_all(share.reach)) +
+      at < report.certified.size()
+          ? formatted("%10.2f", percent(report.certified[at].held, report.certified[at].removable))
+          : "         -";
+  return formatted("%5zu %8.3f %8.3f %8.3f %7.1f %8.3f %8.3f  %7.2f%s  %6.2f %6.2f %6.2f %6.2f %6.2f", at + 1,
+                   stand.at_m.x(), stand.at_m.y(), stand.at_m.z(), stand.turn_rad * degrees, stand.height_m,
+                   stand.stickout_m, of_all(share.held), certified.c_str(), of_all(share.tool), of_all(share.stock),
+                   of_all(share.links), of_all(share.limits), of_all(share.reach)) +
          notes + "\n";
 }
 
@@ -54,13 +50,13 @@ std::string map_text(const PlaceReport& report) {
   }
   if (xs.size() * ys.size() < 2) return "";
   std::string text = "\nestimate in % at x (across) and y (down), the best of all else\n   y \\ x";
-  for (const double x : xs) text += print("%8.3f", x);
+  for (const double x : xs) text += formatted("%8.3f", x);
   text += "\n";
   for (auto y = ys.rbegin(); y != ys.rend(); ++y) {
-    text += print("%8.3f", *y);
+    text += formatted("%8.3f", *y);
     for (const double x : xs) {
       const auto at = best.find({*y, x});
-      text += at == best.end() ? "       ." : print("%8.2f", at->second);
+      text += at == best.end() ? "       ." : formatted("%8.2f", at->second);
     }
     text += "\n";
   }
@@ -70,10 +66,10 @@ std::string map_text(const PlaceReport& report) {
 std::string turn_over_text(const PlaceReport& report) {
   if (report.turn_overs.empty()) return "";
   std::string text =
-      print("\nTogether with a second clamping at rank %zu, the mesh turned (estimate in %%):\n", report.best + 1);
+      formatted("\nTogether with a second clamping at rank %zu, the mesh turned (estimate in %%):\n", report.best + 1);
   for (const TurnOver& turn : report.turn_overs)
-    text += print("  %-24s --rotate %g,%g,%g%*s %7.2f\n", turn.name.c_str(), turn.rotate_deg.x(), turn.rotate_deg.y(),
-                  turn.rotate_deg.z(), 4, "", percent(turn.share.held, turn.share.removable));
+    text += formatted("  %-24s --rotate %g,%g,%g%*s %7.2f\n", turn.name.c_str(), turn.rotate_deg.x(),
+                      turn.rotate_deg.y(), turn.rotate_deg.z(), 4, "", percent(turn.share.held, turn.share.removable));
   return text;
 }
 

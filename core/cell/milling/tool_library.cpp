@@ -17,7 +17,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t max_sections = 16;
 constexpr int max_number = 9999;
 /// No tool of a spindle is larger: who writes 20 means millimetres.
 constexpr double max_diameter_m = 0.3, max_length_m = 1.5, fastest_m_s = 10;

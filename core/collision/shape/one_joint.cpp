@@ -10,7 +10,7 @@ namespace {
 using Node = ShapeTree::Node;
 
 /// Pairs of nodes that are looked at, of bodies that nearly touch: then it is given up.
-constexpr int max_looks = 1'000'000;
+constexpr int max_node_pairs = 1'000'000;
 
 /// Where a node is about the axis, whatever the joint does: heights along it and radii.
 struct Profile {
@@ -100,7 +100,7 @@ class MovingPair {
 }  // namespace
 
 bool stay_apart(const Body& moves, const Body& other, const OneJointMotion& motion, double margin_m) {
-  int looks_left = max_looks;
+  int looks_left = max_node_pairs;
   for (const Body::Part& part : moves.parts)
     for (const Body::Part& of_other : other.parts)
       if (!MovingPair(*part.tree, *of_other.tree, motion, margin_m, looks_left).stay_apart()) return false;

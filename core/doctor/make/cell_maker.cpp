@@ -13,6 +13,7 @@
 #include "core/doctor/describe_cell.hpp"
 #include "core/doctor/make/find_tool.hpp"
 #include "core/doctor/make/urdf_text.hpp"
+#include "core/doctor/metres.hpp"
 #include "core/verify/home_contacts.hpp"
 
 namespace sculpt {
@@ -26,13 +27,7 @@ constexpr std::array far_of_arm{0.4, 0.5, 0.6, 0.7}, high_of_arm{0.05, 0.2, 0.35
 constexpr std::array far_of_hanging_arm{0.0, 0.2, 0.4, 0.55};
 constexpr double floor_below_hanging_arm = 1.15;
 
-std::string in_m(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g m", metres);
-  return text;
-}
-
-std::string in_m(const Vec3& v) {
+std::string in_metres(const Vec3& v) {
   char text[96];
   const Vec3 settled = (v.array().abs() < 5e-7).select(0, v);
   std::snprintf(text, sizeof text, "x %.3g, y %.3g, z %.3g m", settled.x(), settled.y(), settled.z());
@@ -149,19 +144,19 @@ std::vector<std::string> CellMaker::remarks(const Vec3& table_m) const {
   if (wishes_.tool_link.empty())
     said.push_back("the tool sits on '" + flange + "', the end of the longest row of joints");
   if (std::abs(out_.z() - 1) > 1e-3)
-    said.push_back("out of '" + flange + "' is along (" + in_m(out_).substr(0, in_m(out_).size() - 2) +
+    said.push_back("out of '" + flange + "' is along (" + in_metres(out_).substr(0, in_metres(out_).size() - 2) +
                    ") of its frame, by its last joint");
   if (needs_nose() && spindle_length_m_ > 0 && !wishes_.spindle_length_m)
-    said.push_back("a spindle of " + in_m(2 * spindle_radius_m_) + " by " + in_m(spindle_length_m_) +
+    said.push_back("a spindle of " + in_metres(2 * spindle_radius_m_) + " by " + in_metres(spindle_length_m_) +
                    " is assumed on it: give yours with --spindle");
   if (!has_room_)
     said.push_back(
         "a spindle of any width touches the wrist: give a link farther out with --tool-link, or leave the "
         "spindle out with --spindle 0,0");
-  if (!wishes_.stickout_m) said.push_back("a tool that sticks out by " + in_m(stickout_m_) + " is assumed");
-  if (!wishes_.stock_size_m) said.push_back("a stock of " + in_m(stock_m_) + " is assumed");
+  if (!wishes_.stickout_m) said.push_back("a tool that sticks out by " + in_metres(stickout_m_) + " is assumed");
+  if (!wishes_.stock_size_m) said.push_back("a stock of " + in_metres(stock_m_) + " is assumed");
   if (wishes_.table != Table::none && !wishes_.table_at_m)
-    said.push_back("the middle of the table's top is put at " + in_m(table_m) + " of '" +
+    said.push_back("the middle of the table's top is put at " + in_metres(table_m) + " of '" +
                    robot_.links[static_cast<std::size_t>(robot_.root)].name + "'");
   for (const IgnoredPair& pair : ignored_)
     said.push_back("'" + pair.first + "' and '" + pair.second + "' " + pair.why +

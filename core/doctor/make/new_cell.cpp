@@ -12,7 +12,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t looked_at_in_full = 6;
-constexpr int coarse_resolution = 16, coarse_places = 3, fine_resolution = 64;
+constexpr int fine_resolution = 64;
 
 Scene full_scene(const Cell& cell, int resolution) {
   const Grid grid = cell.grid(resolution);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mill/map/float_bound.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -62,13 +64,6 @@ double segment_distance2(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3
 /// How far a value is outside of a range.
 double outside(double value, double low, double high) {
   return std::max({0.0, low - value, value - high});
-}
-
-float below(double value) {
-  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
-}
-float above(double value) {
-  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
 /// Between two points in plan.

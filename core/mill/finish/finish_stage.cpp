@@ -25,7 +25,7 @@ constexpr double link_spacings = 4;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
 constexpr std::size_t strokes_a_batch = 1000, looked_at = 6;
-constexpr int max_failures = 100;
+constexpr int max_refused = 100;
 
 class FinishStage {
  public:
@@ -220,7 +220,7 @@ class FinishStage {
   std::vector<Contour> carry_out(const Site& site, const EnvelopeTask& task, std::vector<Contour> contours,
                                  double min_height) {
     std::vector<Contour> apart;
-    for (int failures = 0; !contours.empty() && failures < max_failures; ++failures) {
+    for (int failures = 0; !contours.empty() && failures < max_refused; ++failures) {
       ContourStrokes laid({site, task, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
                            beside_spacings * spacing_m_, min_height},
                           carver_.stock().left(), carver_.tip(site));

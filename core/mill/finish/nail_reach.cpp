@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 /// Lattices for what is above the cutter: cells of its radius, and no finer than this.
-constexpr double cells_a_radius = 8, finest_cell_m = 8e-4;
+constexpr double reach_cells_a_radius = 8, finest_reach_cell_m = 8e-4;
 /// The body keeps that much more off than it may stray.
 constexpr double body_room_m = 1e-4;
 /// Of the tolerance: a nail counts as reached where the cutter would leave no more, the allowance aside.
@@ -56,7 +56,7 @@ Site& NailReach::site(std::size_t direction) {
   if (!sites_[direction])
     sites_[direction] =
         carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_stray_m + body_room_m},
-                          std::max(finest_cell_m, radius_m_ / cells_a_radius));
+                          std::max(finest_reach_cell_m, radius_m_ / reach_cells_a_radius));
   return *sites_[direction];
 }
 

@@ -8,7 +8,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never_met = std::numeric_limits<double>::infinity();
 constexpr double nails_a_box = 6;
 /// How far from the surface it is found out what is inside (voxel edges).
 constexpr double look_voxels = 1.0;
@@ -38,7 +38,7 @@ std::optional<Vec3> outward(const Vec3& point, const Vec3& normal, const VoxelGr
 
 /// From a point along a direction to the side of the block.
 double way_out(const Grid& grid, const Vec3& point, const Vec3& direction) {
-  double way = infinity;
+  double way = never_met;
   for (int axis = 0; axis < 3; ++axis) {
     const double side = grid.origin_m[axis] + (direction[axis] > 0 ? grid.n * grid.voxel_m : 0);
     if (direction[axis] != 0) way = std::min(way, (side - point[axis]) / direction[axis]);
@@ -51,9 +51,9 @@ double way_out(const Grid& grid, const Vec3& point, const Vec3& direction) {
 double way_to_ball(const Vec3& point, const Vec3& direction, const Vec3& middle, double radius) {
   const Vec3 to = middle - point;
   const double along = to.dot(direction), left = along * along - to.squaredNorm() + radius * radius;
-  if (left < 0) return infinity;
+  if (left < 0) return never_met;
   const double root = std::sqrt(left);
-  return along + root < 0 ? infinity : along - root;
+  return along + root < 0 ? never_met : along - root;
 }
 
 Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed) {
@@ -102,7 +102,7 @@ Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::s
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   nails_.resize(found.size());
   for (const Nail& nail : found) nails_[next[box_of(nail)]++] = nail;
-  excess_.assign(nails_.size(), static_cast<float>(uncut));
+  excess_.assign(nails_.size(), static_cast<float>(never_met));
   reachable_.resize(nails_.size());
   for (std::size_t at = 0; at < nails_.size(); ++at)
     if (const double way = way_out(grid, nails_[at].point, nails_[at].normal); way < farthest_m)

@@ -5,14 +5,12 @@
 #include <bit>
 #include <cmath>
 
+#include "core/mill/map/float_bound.hpp"
+
 namespace sculpt {
 namespace {
 
 /// Up, by more than a float rounds.
-float above(double height) {
-  return std::nextafter(static_cast<float>(height), std::numeric_limits<float>::infinity());
-}
-
 /// Voxels of which the neighbour along one of the axis' steps does not stand, or is outside.
 template <typename Visit>
 void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, const Visit& visit) {

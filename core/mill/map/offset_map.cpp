@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mill/map/float_bound.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -10,10 +12,6 @@ namespace {
 constexpr double fine_cells = 14;
 
 /// Down, by more than a float rounds.
-float below(double height) {
-  return std::nextafter(static_cast<float>(height), -std::numeric_limits<float>::infinity());
-}
-
 /// The least distance of two cells so many cells apart.
 double min_distance(int da, int db, double step) {
   return step * std::hypot(std::max(0, std::abs(da) - 1), std::max(0, std::abs(db) - 1));

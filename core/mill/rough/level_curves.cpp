@@ -7,26 +7,26 @@ namespace sculpt {
 namespace {
 
 /// Sides of a square between four middles: below, right, above, left; its corners from the lower left one around.
-struct Segment {
+struct LevelSegment {
   int from = -1, to = -1;
 };
 /// By which corners are larger, a bit each; of the two ways in which opposite corners can be joined, apart.
-constexpr std::array<std::array<Segment, 2>, 16> segments{{{{}},
-                                                           {{{0, 3}}},
-                                                           {{{1, 0}}},
-                                                           {{{1, 3}}},
-                                                           {{{2, 1}}},
-                                                           {{{0, 3}, {2, 1}}},
-                                                           {{{2, 0}}},
-                                                           {{{2, 3}}},
-                                                           {{{3, 2}}},
-                                                           {{{0, 2}}},
-                                                           {{{1, 0}, {3, 2}}},
-                                                           {{{1, 2}}},
-                                                           {{{3, 1}}},
-                                                           {{{0, 1}}},
-                                                           {{{3, 0}}},
-                                                           {{}}}};
+constexpr std::array<std::array<LevelSegment, 2>, 16> segments{{{{}},
+                                                                {{{0, 3}}},
+                                                                {{{1, 0}}},
+                                                                {{{1, 3}}},
+                                                                {{{2, 1}}},
+                                                                {{{0, 3}, {2, 1}}},
+                                                                {{{2, 0}}},
+                                                                {{{2, 3}}},
+                                                                {{{3, 2}}},
+                                                                {{{0, 2}}},
+                                                                {{{1, 0}, {3, 2}}},
+                                                                {{{1, 2}}},
+                                                                {{{3, 1}}},
+                                                                {{{0, 1}}},
+                                                                {{{3, 0}}},
+                                                                {{}}}};
 
 class Tracer {
  public:
@@ -40,7 +40,7 @@ class Tracer {
       for (int a = 0; a + 1 < lattice.width; ++a) {
         const unsigned larger =
             is_larger(a, b) | is_larger(a + 1, b) << 1 | is_larger(a + 1, b + 1) << 2 | is_larger(a, b + 1) << 3;
-        for (const Segment& segment : segments[larger]) {
+        for (const LevelSegment& segment : segments[larger]) {
           if (segment.from < 0) continue;
           next_[side(a, b, segment.from)] = static_cast<std::int32_t>(side(a, b, segment.to));
           is_entered_[side(a, b, segment.to)] = 1;

@@ -8,7 +8,7 @@ namespace sculpt {
 namespace {
 
 /// Of the search for a way in, where the straight one is not free.
-constexpr int max_iterations = 2000;
+constexpr int way_in_iterations = 2000;
 constexpr double max_edge_m = 0.1;
 
 }  // namespace
@@ -70,7 +70,7 @@ void Gantry::move(const Configuration& q) {
 
 void Gantry::enter() {
   const auto q = configuration_at(at_);
-  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {max_iterations, max_edge_m}).path;
+  if (q) way_in_ = plan_transit(scene_, home_, *q, seed_, stop_, {way_in_iterations, max_edge_m}).path;
   if (stop_.stop_requested()) throw Cancelled{};
   if (way_in_.empty()) throw note_refusal(at_, at_);
   for (std::size_t stop = 1; stop < way_in_.size(); ++stop) move(way_in_[stop]);

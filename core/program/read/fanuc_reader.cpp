@@ -11,9 +11,9 @@ namespace sculpt {
 namespace {
 
 /// What is read of a part so far, and where in it the reader stands.
-class FanucPart {
+class FanucLines {
  public:
-  explicit FanucPart(std::size_t axes) : axes_(axes) {}
+  explicit FanucLines(std::size_t axes) : axes_(axes) {}
 
   void take(ProgramLine& line) {
     if (line.take("P[")) {
@@ -116,7 +116,7 @@ class FanucPart {
 }  // namespace
 
 ReadPart read_fanuc(std::string_view text, std::size_t axes) {
-  FanucPart part(axes);
+  FanucLines part(axes);
   for_lines(text, true, [&](ProgramLine& line) { part.take(line); });
   return part.finish();
 }

@@ -7,7 +7,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int decimals = 3;
+constexpr int fanuc_decimals = 3;
 
 class FanucPart : public PartWriter {
  public:
@@ -24,7 +24,7 @@ class FanucPart : public PartWriter {
     add_line("  PR[90]=JPOS   ");
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
       std::string difference = "  R[90]=PR[90," + std::to_string(at + 1) + "]-(";
-      append_fixed(difference, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(difference, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), fanuc_decimals);
       add_line(difference + ")   ");
       add_line("  IF (R[90]>.01 OR R[90]<(-.01)),JMP LBL[999]");
     }
@@ -60,7 +60,8 @@ class FanucPart : public PartWriter {
       const bool robot = at < layout_.robot_axes;
       positions_text_ += (at % 3 == 0 ? "\t" : "") + std::string(robot ? "J" : "E") +
                          std::to_string(robot ? at + 1 : at + 1 - layout_.robot_axes) + "= ";
-      append_fixed(positions_text_, in_degrees_or_mm(layout_.axes[at], axes[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(positions_text_, in_degrees_or_mm(layout_.axes[at], axes[static_cast<Eigen::Index>(at)]),
+                   fanuc_decimals);
       positions_text_ += layout_.axes[at].turns ? " deg" : "  mm";
       if (at + 1 < layout_.axes.size()) positions_text_ += at % 3 == 2 ? ",\r\n" : ",\t";
     }

@@ -8,7 +8,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int decimals = 5;
+constexpr int krl_decimals = 5;
 // $VEL_AXIS and $OV_PRO are whole percent: together they say a speed in steps of a tenth of a percent and less.
 constexpr int slow_override = 10, min_override = 1;
 
@@ -26,7 +26,7 @@ class KrlPart : public PartWriter {
     text_ += "; it must begin where it begins, within 0.01 degree or mm\r\n";
     for (std::size_t at = 0; at < layout.axes.size(); ++at) {
       text_ += "IF ABS($AXIS_ACT." + axis_name(at) + "-(";
-      append_fixed(text_, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(text_, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), krl_decimals);
       text_ += "))>0.01 THEN\r\n  HALT\r\nENDIF\r\n";
     }
   }
@@ -36,7 +36,7 @@ class KrlPart : public PartWriter {
     text_ += "PTP {";
     for (std::size_t at = 0; at < layout_.axes.size(); ++at) {
       text_ += (at == 0 ? "" : ",") + axis_name(at) + " ";
-      append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]), krl_decimals);
     }
     text_ += "}\r\n";
   }

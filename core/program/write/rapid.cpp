@@ -5,7 +5,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int decimals = 5, time_decimals = 3;
+constexpr int rapid_decimals = 5, rapid_time_decimals = 3;
 
 class RapidPart : public PartWriter {
  public:
@@ -23,7 +23,7 @@ class RapidPart : public PartWriter {
                (robot ? "robax.rax_" + std::to_string(at + 1)
                       : std::string("extax.eax_") + static_cast<char>('a' + at - layout.robot_axes)) +
                "-(";
-      append_fixed(text_, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(text_, in_degrees_or_mm(layout.axes[at], start[static_cast<Eigen::Index>(at)]), rapid_decimals);
       text_ += "))>0.01 THEN\r\n      Stop;\r\n    ENDIF\r\n";
     }
   }
@@ -32,19 +32,20 @@ class RapidPart : public PartWriter {
     text_ += "    MoveAbsJ [[";
     for (std::size_t at = 0; at < 6; ++at) {
       if (at > 0) text_ += ',';
-      append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]), decimals);
+      append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]), rapid_decimals);
     }
     text_ += "],[";
     for (std::size_t external = 0; external < 6; ++external) {
       if (external > 0) text_ += ',';
       const std::size_t at = layout_.robot_axes + external;
       if (at < layout_.axes.size())
-        append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]), decimals);
+        append_fixed(text_, in_degrees_or_mm(layout_.axes[at], move.axes[static_cast<Eigen::Index>(at)]),
+                     rapid_decimals);
       else
         text_ += "9E9";
     }
     text_ += "]]\\NoEOffs,v1000\\T:=";
-    append_fixed(text_, move.seconds + 0.0005, time_decimals);  // rounded up
+    append_fixed(text_, move.seconds + 0.0005, rapid_time_decimals);  // rounded up
     text_ += ",fine,tool0;\r\n";
   }
 

@@ -8,14 +8,14 @@
 namespace sculpt {
 namespace {
 
-constexpr int decimals = 8;
+constexpr int ros2_decimals = 8;
 constexpr double min_s = 1e-6;  // between points: times are whole nanoseconds and must rise
 
 void append_list(std::string& text, const char* name, const Configuration& values) {
   text += name;
   for (Eigen::Index at = 0; at < values.size(); ++at) {
     if (at > 0) text += ", ";
-    append_fixed(text, values[at], decimals);
+    append_fixed(text, values[at], ros2_decimals);
   }
   text += "]\n";
 }

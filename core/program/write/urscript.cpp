@@ -5,7 +5,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int decimals = 7, time_decimals = 4;
+constexpr int ur_decimals = 7, ur_time_decimals = 4;
 
 class UrPart : public PartWriter {
  public:
@@ -18,7 +18,7 @@ class UrPart : public PartWriter {
     text_ += "  # it must begin where it begins, within 0.01 degree\n  local here = get_actual_joint_positions()\n";
     for (std::size_t at = 0; at < 6; ++at) {
       text_ += "  if norm(here[" + std::to_string(at) + "] - (";
-      append_fixed(text_, start[static_cast<Eigen::Index>(at)], decimals);
+      append_fixed(text_, start[static_cast<Eigen::Index>(at)], ur_decimals);
       text_ +=
           ")) > 0.00018:\n    popup(\"not where this part begins\", title=\"sculpt\", error=True, blocking=True)\n    "
           "halt\n  end\n";
@@ -29,10 +29,10 @@ class UrPart : public PartWriter {
     text_ += "  movej([";
     for (std::size_t at = 0; at < 6; ++at) {
       if (at > 0) text_ += ", ";
-      append_fixed(text_, move.axes[static_cast<Eigen::Index>(at)], decimals);
+      append_fixed(text_, move.axes[static_cast<Eigen::Index>(at)], ur_decimals);
     }
     text_ += "], t=";
-    append_fixed(text_, move.seconds + 0.00005, time_decimals);
+    append_fixed(text_, move.seconds + 0.00005, ur_time_decimals);
     text_ += ")\n";
   }
 

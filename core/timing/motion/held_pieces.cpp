@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t points_a_mark = 256;
 /// The law's own accelerations are rounded so little; its limits are 5e-4 below the joints'.
-constexpr double rounding = 1e-6;
+constexpr double joint_rounding = 1e-6;
 
 /// What r'' may be: within -a and a are all of `way` r'' + `bend` x.
 struct Rises {
@@ -21,7 +21,7 @@ struct Rises {
     for (Eigen::Index j = 0; j < way.size(); ++j) {
       const double by = std::abs(way[j]);
       if (by * 1e12 < a[j] / 1e6) continue;
-      const double middle = -bend[j] * x / way[j], reach = a[j] * (1 + rounding) / by;
+      const double middle = -bend[j] * x / way[j], reach = a[j] * (1 + joint_rounding) / by;
       low = std::max(low, middle - reach);
       high = std::min(high, middle + reach);
     }

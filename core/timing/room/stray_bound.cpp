@@ -15,7 +15,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double share_of_link_margin = 0.75, share_of_tool_margin = 0.6;
+constexpr double share_of_tool_margin = 0.6;
 
 // The one that moves less of the two, seen from the other.
 Configuration approach_speed(const Chain& chain, const Body& first, const Body& second) {

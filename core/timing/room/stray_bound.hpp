@@ -10,6 +10,8 @@
 
 namespace sculpt {
 
+inline constexpr double share_of_link_margin = 0.75;
+
 /// Every planner certifies its edges with these to spare (core/collision/margins): 0.2 mm between links, and from links
 /// to material, or 0.6 of the gap that two links have at home; 0.005 voxel about ball and shank. A configuration that
 /// is off a certified one by d_j in joint j is therefore free if, for all pairs of bodies, sum R_j |d_j| is below what

@@ -7,6 +7,7 @@
 #include "core/trajectory/quantum.hpp"
 #include "core/trajectory/text/line_fields.hpp"
 #include "core/trajectory/text/number_text.hpp"
+#include "core/trajectory/text/write_text.hpp"
 
 namespace sculpt {
 namespace {
@@ -18,11 +19,6 @@ constexpr int max_component = 1000;
 
 std::string json_text(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-char* write_text(char* out, std::string_view text) {
-  std::memcpy(out, text.data(), text.size());
-  return out + text.size();
 }
 
 void append_field(std::string& text, const char* name, double value) {

@@ -11,6 +11,7 @@
 #include "core/trajectory/milling/mill_line.hpp"
 #include "core/trajectory/text/line_fields.hpp"
 #include "core/trajectory/text/number_text.hpp"
+#include "core/trajectory/text/write_text.hpp"
 
 namespace sculpt {
 namespace {
@@ -18,11 +19,6 @@ namespace {
 using Json = LineFields::Json;
 
 constexpr int max_nesting = 8;
-
-char* write_text(char* out, std::string_view text) {
-  std::memcpy(out, text.data(), text.size());
-  return out + text.size();
-}
 
 char* write_voxel(char* out, Voxel voxel) {
   for (auto [before, value] : {std::pair{'[', voxel.i}, {',', voxel.j}, {',', voxel.k}}) {

@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double slack = 1.1;
+constexpr double chip_slack = 1.1;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::string ChipScale::weigh(const MillTool& tool, std::uint64_t voxels, double 
     chips_.pop_front();
   }
   // A box holds the centres of no more voxels than (side / voxel + 1), along each side.
-  const double chip = slack * depth * width + voxel_mm * (depth + width + voxel_mm);
+  const double chip = chip_slack * depth * width + voxel_mm * (depth + width + voxel_mm);
   if (length_ < diameter || volume_ <= chip * (length_ + voxel_mm)) return {};
   std::ostringstream text;
   text << "over the last " << length_ << " mm the cutter takes off " << volume_ / length_ << " mm2, more than " << depth

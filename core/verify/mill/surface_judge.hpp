@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cell/milling/mill_tool.hpp"
-#include "core/verify/findings.hpp"
+#include "core/verify/findings/findings.hpp"
 #include "core/verify/mill/surface_grid.hpp"
 #include "core/verify/mill/surface_points.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/material/voxel_grid.hpp"
 #include "core/mesh/mesh.hpp"
-#include "core/verify/surface_verdict.hpp"
+#include "core/verify/findings/surface_verdict.hpp"
 
 namespace sculpt {
 

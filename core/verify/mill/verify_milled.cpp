@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "core/trajectory/reader.hpp"
+#include "core/verify/findings/finding_text.hpp"
+#include "core/verify/findings/slack.hpp"
 #include "core/verify/home_contacts.hpp"
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/mill/chip_scale.hpp"
@@ -19,16 +21,10 @@
 namespace sculpt {
 namespace {
 
-constexpr double joint_slack = 1e-9, home_slack = 1e-7 + joint_slack, length_slack_m = 1e-9;
+constexpr double length_slack_m = 1e-9;
 /// A tip may be that far from where its keyframe says (mm), an axis turned by so much (rad): joints are rounded.
 constexpr double tip_slack_mm = 1e-3, axis_slack = 1e-5;
 constexpr double level_mm = 1e-3;
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 class MilledReplay {
  public:

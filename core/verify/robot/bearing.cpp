@@ -16,10 +16,6 @@ struct Ray {
   Vec3 start, way;
 };
 
-Frame pose_of(const SolidBody& body, const std::vector<Frame>& poses) {
-  return poses[static_cast<std::size_t>(body.link)] * body.pose;
-}
-
 // Where along the ray it goes through the triangle, if it does: its start seen from the three edges.
 std::optional<double> crossing(const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 from_a = a - ray.start, from_b = b - ray.start, from_c = c - ray.start;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int max_parts = 4096;
 // Over the rounding errors of depths and bounds.
-constexpr double slack_mm = 1e-6;
+constexpr double depth_slack_mm = 1e-6;
 
 // One body with points of it, and the joints that move it as the other sees it.
 struct Side {
@@ -18,10 +18,6 @@ struct Side {
   std::vector<Vec3> points;
   std::vector<MovingJoint> joints;
 };
-
-Frame pose_of(const SolidBody& body, const std::vector<Frame>& poses) {
-  return poses[static_cast<std::size_t>(body.link)] * body.pose;
-}
 
 enum class Depth { none, some, enough };
 
@@ -32,9 +28,9 @@ Depth deepest(const Side& moved, const SolidBody& still, const std::vector<Frame
   for (const Vec3& point : moved.points) {
     const Vec3 place = at * point;
     const double depth = depth_in(still, into * place);
-    if (depth <= slack_mm) continue;
+    if (depth <= depth_slack_mm) continue;
     found = Depth::some;
-    if (motion_limit(moved.joints, poses, range.half, place, 0) + slack_mm < depth) return Depth::enough;
+    if (motion_limit(moved.joints, poses, range.half, place, 0) + depth_slack_mm < depth) return Depth::enough;
   }
   return found;
 }

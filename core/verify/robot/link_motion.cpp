@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
 namespace {
-
-constexpr double mm = 1000;
 
 std::vector<int> joints_to_root(const Robot& robot, int link) {
   std::vector<int> joints;

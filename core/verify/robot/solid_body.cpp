@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
 namespace {
 
-constexpr double mm = 1000;
 void add_mesh(const Mesh& source, SolidBody& body) {
   std::vector<CoverTree::Triangle> triangles;
   fcl::AABBd box;

@@ -26,6 +26,11 @@ struct SolidBody {
   CoverTree cover;  ///< of a mesh, in the shape's frame
 };
 
+/// `poses`: of the links. Of the shape\'s frame, then.
+inline Frame pose_of(const SolidBody& body, const std::vector<Frame>& poses) {
+  return poses[static_cast<std::size_t>(body.link)] * body.pose;
+}
+
 std::vector<SolidBody> make_solid_bodies(const Robot& robot);
 
 bool solids_touch(const fcl::CollisionGeometryd& a, const Frame& pose_a, const fcl::CollisionGeometryd& b,

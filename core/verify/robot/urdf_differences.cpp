@@ -12,7 +12,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double slack = 1e-9;
+constexpr double urdf_slack = 1e-9;
 
 std::string text_of(double value) {
   std::ostringstream out;
@@ -37,13 +37,14 @@ const std::string& text_of(const std::string& text) {
 }
 
 bool same(double a, double b) {
-  return std::abs(a - b) <= slack * std::max({1.0, std::abs(a), std::abs(b)});
+  return std::abs(a - b) <= urdf_slack * std::max({1.0, std::abs(a), std::abs(b)});
 }
 bool same(const Vec3& a, const Vec3& b) {
   return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
 }
 bool same(const Frame& a, const Frame& b) {
-  return same(Vec3(a.translation()), Vec3(b.translation())) && (a.linear() - b.linear()).cwiseAbs().maxCoeff() <= slack;
+  return same(Vec3(a.translation()), Vec3(b.translation())) &&
+         (a.linear() - b.linear()).cwiseAbs().maxCoeff() <= urdf_slack;
 }
 bool same(const std::string& a, const std::string& b) {
   return a == b;
@@ -91,22 +92,22 @@ Follow follow(const UrdfText& text, const std::string& name) {
   return way;
 }
 
-struct Limits {
+struct JointBounds {
   double lower = 0, upper = 0;
 };
 
 // Of every joint: a leader goes no farther than its followers can.
-std::map<std::string, Limits> all_limits(const UrdfText& text) {
+std::map<std::string, JointBounds> all_limits(const UrdfText& text) {
   constexpr double turn = 2 * std::numbers::pi;
-  std::map<std::string, Limits> limits;
+  std::map<std::string, JointBounds> limits;
   for (const auto& [name, joint] : text.joints)
-    limits[name] = joint.type == "continuous" ? Limits{-turn, turn} : Limits{joint.lower, joint.upper};
+    limits[name] = joint.type == "continuous" ? JointBounds{-turn, turn} : JointBounds{joint.lower, joint.upper};
   for (const auto& [name, joint] : text.joints) {
     const Follow way = follow(text, name);
     const auto leader = limits.find(way.leader);
     if (way.leader == name || way.multiplier == 0 || joint.type == "continuous" || leader == limits.end()) continue;
     const double a = (joint.lower - way.offset) / way.multiplier, b = (joint.upper - way.offset) / way.multiplier;
-    Limits& narrowed = leader->second;
+    JointBounds& narrowed = leader->second;
     narrowed = {std::max(narrowed.lower, std::min(a, b)), std::min(narrowed.upper, std::max(a, b))};
   }
   return limits;
@@ -163,7 +164,7 @@ class Differences {
     compare<Frame>(of, "origin", said.origin, joint.origin);
     if (said.type == "fixed") return;
     compare<Vec3>(of, "axis", said.axis.normalized(), joint.axis);
-    const Limits& limits = limits_.at(joint.name);
+    const JointBounds& limits = limits_.at(joint.name);
     compare(of, "lower limit", limits.lower, joint.lower);
     compare(of, "upper limit", limits.upper, joint.upper);
     const Follow way = follow(text_, joint.name);
@@ -198,7 +199,7 @@ class Differences {
       Frame place = Frame::Identity();
       place.translation().z() = (held_m + end_m) / 2;
       if (body.kind != ShapeKind::cylinder || !same(place, body.pose) ||
-          body.radius_m + slack < holder_radius(cell_.tool.holder, held_m + slack, end_m - slack))
+          body.radius_m + urdf_slack < holder_radius(cell_.tool.holder, held_m + urdf_slack, end_m - urdf_slack))
         break;
       held_m = end_m;
     }
@@ -227,7 +228,7 @@ class Differences {
   const UrdfText& text_;
   const Cell& cell_;
   const Robot& robot_;
-  const std::map<std::string, Limits> limits_;
+  const std::map<std::string, JointBounds> limits_;
   std::vector<std::string> sentences_;
 };
 

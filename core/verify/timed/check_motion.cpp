@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/verify/findings/finding_text.hpp"
+#include "core/verify/findings/slack.hpp"
 #include "core/verify/timed/law_replay.hpp"
 #include "core/verify/timed/path_beside.hpp"
 
@@ -15,24 +17,17 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t max_findings = 100;
-constexpr double slack = 1e-9;          // of a limit, for double arithmetic
+constexpr double limit_slack = 1e-9;    // of a limit, for double arithmetic
 constexpr double sampled_slack = 1e-6;  // of differences over a thousandth of a second
-constexpr double mm = 1000;
-constexpr double quantum_m = 3e-7;  // of tips as the file has them, and of the planner's posture
+constexpr double quantum_m = 3e-7;      // of tips as the file has them, and of the planner's posture
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-struct Limits {
+struct MotionLimits {
   Configuration velocity, acceleration, jerk;
 };
 
-Limits read_limits(const Cell& cell, const std::vector<std::string>& joints) {
+MotionLimits read_motion_limits(const Cell& cell, const std::vector<std::string>& joints) {
   const auto size = static_cast<Eigen::Index>(joints.size());
-  Limits limits{Configuration(size), Configuration(size), Configuration(size)};
+  MotionLimits limits{Configuration(size), Configuration(size), Configuration(size)};
   for (Eigen::Index at = 0; at < size; ++at) {
     const std::string& name = joints[static_cast<std::size_t>(at)];
     const int joint = cell.robot.find_joint(name);
@@ -126,7 +121,7 @@ class Checker {
         law_(law),
         watch_(watch),
         check_(check),
-        limits_(read_limits(cell, reader_.header().joints)),
+        limits_(read_motion_limits(cell, reader_.header().joints)),
         replay_(reader_, law,
                 [this](std::uint64_t keyframe, std::string sentence) { find(keyframe, std::move(sentence)); }),
         beside_(cell, reader_.header(), replay_) {}
@@ -176,12 +171,12 @@ class Checker {
   void look_at(const TimePolynomial& piece) {
     ++verdict_.pieces;
     const Configuration acceleration = piece.max_acceleration();
-    verdict_.velocity =
-        std::max(verdict_.velocity, share(piece.max_velocity(), limits_.velocity, slack, piece.keyframe, "velocity"));
-    verdict_.acceleration = std::max(verdict_.acceleration,
-                                     share(acceleration, limits_.acceleration, slack, piece.keyframe, "acceleration"));
-    verdict_.jerk = std::max(verdict_.jerk,
-                             share(2 / law_.law.window_s * acceleration, limits_.jerk, slack, piece.keyframe, "jerk"));
+    verdict_.velocity = std::max(
+        verdict_.velocity, share(piece.max_velocity(), limits_.velocity, limit_slack, piece.keyframe, "velocity"));
+    verdict_.acceleration = std::max(
+        verdict_.acceleration, share(acceleration, limits_.acceleration, limit_slack, piece.keyframe, "acceleration"));
+    verdict_.jerk = std::max(
+        verdict_.jerk, share(2 / law_.law.window_s * acceleration, limits_.jerk, limit_slack, piece.keyframe, "jerk"));
     if (end_ && (piece.place(0) - *end_).cwiseAbs().maxCoeff() > 1e-7)
       find(piece.keyframe, "the motion jumps on the way to it");
     end_ = piece.place(piece.seconds);
@@ -244,7 +239,7 @@ class Checker {
   const LawFile& law_;
   const Watch& watch_;
   const MotionCheck check_;
-  const Limits limits_;
+  const MotionLimits limits_;
   MotionVerdict verdict_;
   LawReplay replay_;
   PathBeside beside_;

@@ -7,7 +7,7 @@ namespace sculpt {
 namespace {
 
 // Of a length or an x, as 32 bits have it.
-constexpr double slack = 1e-6;
+constexpr double law_slack = 1e-6;
 
 // q(r) = p0 + p1 r + p2 r^2 / 2 with r = v t + s t^2 / 2, multiplied out.
 void compose(TimePolynomial& piece, const Configuration& p0, const Configuration& p1, const Configuration& p2, double v,
@@ -121,7 +121,7 @@ void LawReplay::lay_out(const Step& step, const std::optional<Step>& next) {
   const LawCorner& to = corner(step.keyframe);
   const double behind = static_cast<double>(before_.half), half = next ? static_cast<double>(to.half) : 0;
   const double line = step.length - behind - half;
-  if (line < -slack * step.length) {
+  if (line < -law_slack * step.length) {
     find_(step.keyframe, "the parabolas at both ends of the edge to it overlap");
     broken_ = true;
     return;
@@ -129,11 +129,11 @@ void LawReplay::lay_out(const Step& step, const std::optional<Step>& next) {
   const double start = static_cast<double>(before_.x_out), end = static_cast<double>(to.x_in),
                cap = static_cast<double>(to.cruise) * static_cast<double>(to.cruise);
   const double top = std::min(cap, start / 2 + end / 2 + step.acceleration * std::max(0.0, line));
-  if (start > cap * (1 + slack) || end > cap * (1 + slack))
+  if (start > cap * (1 + law_slack) || end > cap * (1 + law_slack))
     find_(step.keyframe, "the edge to it begins or ends faster than it may be gone");
   const double up = std::max(0.0, (top - start) / (2 * step.acceleration)),
                down = std::max(0.0, (top - end) / (2 * step.acceleration));
-  if (up + down > std::max(0.0, line) * (1 + slack) + slack * step.length) {
+  if (up + down > std::max(0.0, line) * (1 + law_slack) + law_slack * step.length) {
     find_(step.keyframe, "the edge to it is too short for its change of speed");
     broken_ = true;
     return;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "core/sweep/stroke.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "tests/core/sweep/clamped_cell.hpp"
 #include "tests/core/sweep/panda_field.hpp"
@@ -12,10 +13,6 @@ namespace {
 
 constexpr int n = 16;
 const Vec3 hub(8, 8, 17);
-
-Vec3 centre(Voxel cell) {
-  return {static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
-}
 
 /// Lines to random places and cuts along the axes, all within usable cells: what Columns makes is of this kind. The
 /// view's cells are the grid's voxels.

@@ -4,7 +4,7 @@
 #include "core/mesh/mesh.hpp"
 #include "core/trajectory/header.hpp"
 #include "core/trajectory/writer.hpp"
-#include "core/verify/findings.hpp"
+#include "core/verify/findings/findings.hpp"
 #include "tests/core/verify/small_cells.hpp"
 
 namespace sculpt {

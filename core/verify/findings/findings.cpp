@@ -1,4 +1,4 @@
-#include "core/verify/findings.hpp"
+#include "core/verify/findings/findings.hpp"
 
 #include <utility>
 
