@@ -22,7 +22,7 @@ struct UncheckedLinks {
   std::string why;
 };
 
-/// Places along a joint\'s travel that are looked at: at how many of them do two links touch?
+/// Places along a joint's travel that are looked at: at how many of them do two links touch?
 inline constexpr int travel_points = 65;
 
 struct LinkPairs {

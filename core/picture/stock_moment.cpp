@@ -93,7 +93,7 @@ StockMoment moment_of_trajectory(std::istream& in, double share) {
     if (!keyframe) return std::nullopt;
     Step step{{}, keyframe->mill ? keyframe->mill->tool : -1, keyframe->q};
     if (milled)
-      step.runs = milled->take(*keyframe);
+      step.runs = milled->take(*keyframe->mill, keyframe->cut);
     else if (keyframe->cut)
       step.runs = {{keyframe->first, keyframe->last}};
     return step;

@@ -269,10 +269,6 @@ ProgramReport make_program(const PlanPath& path, const Cell& cell, const Program
     throw InputError("part_invalid", "a part of 0 bytes says nothing: give --part-bytes 1000 or more");
   if (demands.part_keyframes && *demands.part_keyframes == 0)
     throw InputError("part_invalid", "a part of 0 keyframes does nothing: give --part-keyframes 1 or more");
-  if (demands.stock_files && path.header().mill)
-    throw InputError("part_invalid",
-                     "what a milling tool leaves is not in the path that a program follows: leave out "
-                     "--stock-files");
   const Chain chain = cell.chain();
   check_cell(path, chain, cell);
   if (path.size() < 2) throw InputError("part_invalid", "the plan moves nothing: there is no program to write");

@@ -46,6 +46,7 @@ PlanPath::PlanPath(std::istream& in) {
     at = keyframe->q;
     if (keyframe->cut) cut_before = keyframe->last;
     if (!keyframe->mill) continue;
+    milled_.push_back({*keyframe->mill, edges_.size() - 1, keyframe->cut});
     direction = keyframe->mill->direction;
     if (!keyframe->mill->is_change()) continue;
     tool = keyframe->mill->tool;

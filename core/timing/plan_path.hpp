@@ -29,6 +29,13 @@ class PlanPath {
     bool rest = false;    ///< the motion must come to rest at the point: a tool is changed there
   };
 
+  /// A keyframe of a plan with milling tools, those that are left out too.
+  struct Milled {
+    MillStep step;
+    std::size_t point = 0;  ///< where it ends
+    bool cut = false;
+  };
+
   /// Reads the file to its end. Throws InputError `trajectory_invalid`.
   explicit PlanPath(std::istream& in);
 
@@ -43,6 +50,8 @@ class PlanPath {
     return Eigen::Map<const Configuration>(point(at), static_cast<Eigen::Index>(dof_));
   }
   const Edge& edge_to(std::size_t at) const { return edges_[at]; }
+  /// None of a plan with a thin tool.
+  const std::vector<Milled>& milled() const { return milled_; }
   /// Those that are cut on the edge to this point, the m-th of them.
   Voxel voxel_of(std::size_t at, int m) const;
 
@@ -55,6 +64,7 @@ class PlanPath {
   std::uint64_t keyframes_ = 0;
   std::vector<std::unique_ptr<double[]>> chunks_;
   std::vector<Edge> edges_;
+  std::vector<Milled> milled_;
 };
 
 /// Of all keyframes, those that are left out too.

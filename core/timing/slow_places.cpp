@@ -143,9 +143,8 @@ class SlowPlaces {
     throw InputError("feed_not_kept", "at keyframe " + std::to_string(place.keyframe) + ", voxel (" +
                                           std::to_string(place.voxel.i) + ", " + std::to_string(place.voxel.j) + ", " +
                                           std::to_string(place.voxel.k) + "), joint '" + place.joint + "' lets only " +
-                                          text(place.feed_m_s) + " m/s be at_feed of the " +
-                                          text(feed_of(found.point)) + " asked for: ask for --feed " +
-                                          text(place.feed_m_s / *demands_.keep_feed) +
+                                          text(place.feed_m_s) + " m/s be kept of the " + text(feed_of(found.point)) +
+                                          " asked for: ask for --feed " + text(place.feed_m_s / *demands_.keep_feed) +
                                           " at most, or for a smaller --keep-feed than " + text(*demands_.keep_feed));
   }
 

@@ -73,7 +73,7 @@ void TimelineWriter::add(const Keyframe& keyframe) {
     in_segment_ = 0;
   }
   if (milled_)
-    append_milled(unsent_, keyframe, milled_->take(keyframe), last_);
+    append_milled(unsent_, keyframe, milled_->take(*keyframe.mill, keyframe.cut), last_);
   else
     append_token(unsent_, keyframe, last_);
   ++in_segment_;

@@ -12,7 +12,7 @@ namespace sculpt::server {
 namespace {
 
 constexpr int gzip_window = 15 + 16, memory_level = 8, level = 6;
-constexpr std::size_t piece_bytes = 1 << 16;
+constexpr std::size_t packed_piece_bytes = 1 << 16;
 
 Bytef* bytes_of(char* text) {
   return reinterpret_cast<Bytef*>(text);
@@ -24,7 +24,7 @@ void write_gzip(std::istream& in, std::ostream& out) {
   z_stream stream{};
   if (deflateInit2(&stream, level, Z_DEFLATED, gzip_window, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
-  std::vector<char> plain(piece_bytes), packed(piece_bytes);
+  std::vector<char> plain(packed_piece_bytes), packed(packed_piece_bytes);
   for (int status = Z_OK; status != Z_STREAM_END;) {
     in.read(plain.data(), static_cast<std::streamsize>(plain.size()));
     stream.next_in = bytes_of(plain.data());
@@ -43,7 +43,7 @@ std::string read_gzip(std::string_view bytes) {
   z_stream stream{};
   if (inflateInit2(&stream, gzip_window) != Z_OK) throw std::bad_alloc();
   std::string packed(bytes), plain;
-  std::vector<char> piece(piece_bytes);
+  std::vector<char> piece(packed_piece_bytes);
   stream.next_in = bytes_of(packed.data());
   stream.avail_in = static_cast<uInt>(packed.size());
   int status = Z_OK;

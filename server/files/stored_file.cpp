@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t piece_bytes = 1 << 20;
+constexpr std::uint64_t hashed_piece_bytes = 1 << 20;
 
 bool is_regular(int file) {
   struct stat status {};
@@ -100,8 +100,8 @@ std::string StoredFile::read_shared(std::uint64_t offset, std::uint64_t bytes) c
 FileSeal StoredFile::seal() const {
   Sha256 hash;
   const std::uint64_t all = size();
-  for (std::uint64_t offset = 0; offset < all; offset += piece_bytes)
-    hash.add(read(offset, std::min(piece_bytes, all - offset)));
+  for (std::uint64_t offset = 0; offset < all; offset += hashed_piece_bytes)
+    hash.add(read(offset, std::min(hashed_piece_bytes, all - offset)));
   return {all, hash.hex()};
 }
 

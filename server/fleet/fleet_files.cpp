@@ -10,7 +10,7 @@ namespace sculpt::server {
 namespace {
 
 // A piece is a megabyte, and the disk of the database may be slow.
-constexpr std::chrono::seconds patience{30};
+constexpr std::chrono::seconds file_patience{30};
 
 constexpr const char* size_of = "SELECT size FROM sculptd.file WHERE path=$1";
 // From the piece in which the offset lies: of each its part.
@@ -73,7 +73,7 @@ std::vector<Answered> FleetFiles::Connection::ask_all(const std::vector<Question
 }
 
 FleetFiles::FleetFiles(const PostgresSource& source)
-    : reading_{{}, {source, patience}}, writing_{{}, {source, patience}} {}
+    : reading_{{}, {source, file_patience}}, writing_{{}, {source, file_patience}} {}
 
 std::optional<std::uint64_t> FleetFiles::size(const std::string& path) {
   return first_size(reading_.ask({size_of, {sql_value(path)}}));

@@ -8,7 +8,7 @@ namespace sculpt::server {
 namespace {
 
 // A connection that is half gone shows as a look that is not answered; all others of the daemon are then made anew.
-constexpr std::chrono::seconds patience{2};
+constexpr std::chrono::seconds feed_patience{2};
 constexpr std::chrono::milliseconds min_look{100}, notice_time{100};
 constexpr int look_ms = 1000, jitter_ms = 250;
 
@@ -19,7 +19,7 @@ constexpr const char* progress_of =
 }  // namespace
 
 FleetFollower::FleetFollower(const PostgresSource& source, FleetFeed& feed)
-    : database_(source, patience), feed_(feed) {}
+    : database_(source, feed_patience), feed_(feed) {}
 
 void FleetFollower::start(Changed changed) {
   changed_ = std::move(changed);

@@ -9,7 +9,7 @@
 namespace sculpt::server {
 namespace {
 
-constexpr std::chrono::seconds patience{10};
+constexpr std::chrono::seconds read_patience{10};
 const std::string from_job = std::string("SELECT ") + job_columns + " FROM sculptd.job ";
 
 // Of the numbers that the database has; a greater one is behind all events as well.
@@ -34,7 +34,7 @@ constexpr const char* last_of_one =
 
 }  // namespace
 
-FleetReader::FleetReader(const PostgresSource& source) : database_(source, patience) {}
+FleetReader::FleetReader(const PostgresSource& source) : database_(source, read_patience) {}
 
 Answered FleetReader::ask(const Question& question) {
   const std::lock_guard lock(mutex_);

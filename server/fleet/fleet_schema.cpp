@@ -112,7 +112,7 @@ ALTER TABLE sculptd.piece ALTER bytes SET STORAGE EXTERNAL;
 )";
 
 // An index over a million jobs is made in seconds, on a slow disk in minutes.
-constexpr std::chrono::minutes patience{10};
+constexpr std::chrono::minutes schema_patience{10};
 
 constexpr std::array<const char*, fleet_schema_version> steps{version_1, version_2};
 
@@ -149,7 +149,7 @@ SqlValue sql_value(FleetLock lock) {
 }
 
 void update_fleet_schema(const PostgresSource& source) {
-  Postgres database(source, patience);
+  Postgres database(source, schema_patience);
   const std::int64_t found = read_version(database);
   refuse_newer(found);
   if (found == fleet_schema_version) return;
@@ -168,7 +168,7 @@ void update_fleet_schema(const PostgresSource& source) {
 }
 
 void grant_to_daemons(const PostgresSource& source, const std::string& role) {
-  Postgres database(source, patience);
+  Postgres database(source, schema_patience);
   const std::string name = database.ask({"SELECT quote_ident($1)", {sql_value(role)}}).text(0, 0);
   database.run("GRANT USAGE ON SCHEMA sculptd TO " + name +
                "; GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA sculptd TO " + name +

@@ -20,7 +20,7 @@ namespace {
 
 using enum JobState;
 
-constexpr std::chrono::seconds patience{10};
+constexpr std::chrono::seconds store_patience{10};
 constexpr const char* last_id =
     "SELECT greatest((SELECT max(id) FROM sculptd.job), (SELECT max(id) FROM sculptd.removed))";
 
@@ -29,7 +29,7 @@ class PostgresFleetStore : public FleetStore {
   PostgresFleetStore(FleetRules fleet, StoreRules rules)
       : rules_(std::move(rules)),
         fleet_(std::move(fleet)),
-        database_(fleet_.source, patience),
+        database_(fleet_.source, store_patience),
         reader_((update_fleet_schema(fleet_.source), fleet_.source)),
         leases_(fleet_.source, fleet_.member, fleet_.lease),
         follower_(fleet_.source, feed_) {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view live_path = "/livez", ready_path = "/readyz";
 constexpr std::string_view artifacts_path = "/v1/artifacts/", jobs_path = "/v1/jobs/";
 constexpr std::string_view schema_path = "/schema.json";
-constexpr std::size_t piece_bytes = 1 << 20;
+constexpr std::size_t reply_piece_bytes = 1 << 20;
 constexpr int first_of_input = 5001, last_of_input = 5089;  // numbers of errors that say what cannot be made of what
 
 HttpReply ready_reply(const std::string& reason) {
@@ -34,7 +34,7 @@ void authorize(const HttpSources& sources, const Peer& peer, const HttpRequest& 
   require_scope(sources.access.identify(peer, token), Scope::read);
 }
 
-const char* media_type(const std::string& format) {
+const char* media_type_of_format(const std::string& format) {
   if (format == "gzip") return "application/gzip";
   if (format == "zip") return "application/zip";
   if (format == "json") return "application/json";
@@ -52,9 +52,9 @@ HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams w
                                    " still grows: HTTP gives what is final; follow it with artifact.read");
   }
   wanted.format = now.format;
-  wanted.bytes = piece_bytes;
+  wanted.bytes = reply_piece_bytes;
   const std::string tag = "\"" + now.sha256 + "\"";
-  HttpReply reply{200, media_type(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
+  HttpReply reply{200, media_type_of_format(now.format), {}, {}, {{"ETag", tag}, {"Accept-Ranges", "bytes"}}};
   if (is_known(request, tag)) {
     reply.status = 304;
     return reply;
@@ -67,7 +67,7 @@ HttpReply artifact_reply(const HttpSources& sources, proto::ArtifactReadParams w
     reply.headers.emplace_back("Content-Range", "bytes */" + size);
     return reply;
   }
-  if (range.kind == ByteRange::Kind::whole && now.size <= piece_bytes) {
+  if (range.kind == ByteRange::Kind::whole && now.size <= reply_piece_bytes) {
     reply.body = sources.artifacts.read(wanted, *so_far).bytes;
     return reply;
   }

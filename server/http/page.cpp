@@ -28,7 +28,7 @@ constexpr std::pair<const char*, const char*> page_headers[] = {
     {"Permissions-Policy", "xr-spatial-tracking=(self)"},
     {"Vary", "Accept-Encoding"}};
 
-const char* media_type(const std::string& name) {
+const char* media_type_of_file(const std::string& name) {
   const std::string kind = extension_of(name);
   if (kind == "html") return "text/html; charset=utf-8";
   if (kind == "js") return "text/javascript; charset=utf-8";
@@ -54,7 +54,7 @@ bool is_name(std::string_view name) {
 }
 
 HttpReply with_headers(const std::string& name, std::string body) {
-  HttpReply reply{200, media_type(name), std::move(body)};
+  HttpReply reply{200, media_type_of_file(name), std::move(body)};
   for (const auto& header : page_headers) reply.headers.emplace_back(header);
   return reply;
 }

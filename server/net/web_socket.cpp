@@ -10,7 +10,7 @@ namespace {
 namespace websocket = boost::beast::websocket;
 
 // A peer that takes bytes slowly is seen to take some between two pieces.
-constexpr std::size_t piece_bytes = 64 << 10;
+constexpr std::size_t frame_piece_bytes = 64 << 10;
 
 }  // namespace
 
@@ -34,8 +34,8 @@ void WebSocket::read(std::size_t limit, ReadHandler handler) {
 }
 
 void WebSocket::write(std::string_view rest, Frame kind, WriteHandler handler) {
-  const bool last = rest.size() - 1 <= piece_bytes;
-  const std::size_t bytes = std::min(rest.size() - 1, piece_bytes);
+  const bool last = rest.size() - 1 <= frame_piece_bytes;
+  const std::size_t bytes = std::min(rest.size() - 1, frame_piece_bytes);
   socket_.text(kind == Frame::line);
   socket_.async_write_some(
       last, net::buffer(rest.data(), bytes),

@@ -5,7 +5,7 @@
 namespace sculpt::server {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_mesh(const std::string& why) {
   throw InputError("mesh_unreadable", "the reader of its files " + why +
                                           ": the mesh is damaged in a way that it cannot take; repair it, or export it "
                                           "again as binary STL");
@@ -17,8 +17,8 @@ void check_in_child(StoredSpec stored, const Isolation& isolation, std::chrono::
                     const std::stop_token& stop) {
   stored.time_s = std::chrono::ceil<std::chrono::seconds>(patience).count();
   const ChildAnswer answer = ask_child(stored, isolation, check_job_option, patience, stop);
-  if (answer.too_late) refuse("did not end within " + std::to_string(stored.time_s) + " s (check_s)");
-  if (!answer.said) refuse("ended with " + (answer.end.empty() ? "no word" : answer.end));
+  if (answer.too_late) refuse_mesh("did not end within " + std::to_string(stored.time_s) + " s (check_s)");
+  if (!answer.said) refuse_mesh("ended with " + (answer.end.empty() ? "no word" : answer.end));
   rethrow_reported(*answer.said);
 }
 

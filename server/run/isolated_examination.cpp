@@ -5,7 +5,7 @@
 namespace sculpt::server {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_cell(const std::string& why) {
   throw InputError("cell_invalid", "the examination of the cell " + why +
                                        ": reduce its collision meshes, or repair them; `sculpt cell` examines it on "
                                        "your own machine");
@@ -18,8 +18,8 @@ Json examine_in_child(const std::string& cell_bundle, int resolution, const Isol
   StoredSpec question{proto::write_json({{"resolution", resolution}}), cell_bundle};
   question.time_s = std::chrono::ceil<std::chrono::seconds>(patience).count();
   const ChildAnswer answer = ask_child(question, isolation, check_cell_option, patience, stop);
-  if (answer.too_late) refuse("did not end within " + std::to_string(question.time_s) + " s (check_s)");
-  if (!answer.said) refuse("ended with " + (answer.end.empty() ? "no word" : answer.end));
+  if (answer.too_late) refuse_cell("did not end within " + std::to_string(question.time_s) + " s (check_s)");
+  if (!answer.said) refuse_cell("ended with " + (answer.end.empty() ? "no word" : answer.end));
   rethrow_reported(*answer.said);
   return *answer.said;
 }

@@ -102,7 +102,7 @@ Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::s
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   nails_.resize(found.size());
   for (const Nail& nail : found) nails_[next[box_of(nail)]++] = nail;
-  excess_.assign(nails_.size(), static_cast<float>(never_met));
+  excess_.assign(nails_.size(), static_cast<float>(uncut));
   reachable_.resize(nails_.size());
   for (std::size_t at = 0; at < nails_.size(); ++at)
     if (const double way = way_out(grid, nails_[at].point, nails_[at].normal); way < farthest_m)

@@ -10,7 +10,6 @@
 namespace sculpt {
 namespace {
 
-/// Up, by more than a float rounds.
 /// Voxels of which the neighbour along one of the axis' steps does not stand, or is outside.
 template <typename Visit>
 void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, const Visit& visit) {

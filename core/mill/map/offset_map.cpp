@@ -11,7 +11,6 @@ namespace {
 /// Of a ring's radius at least: rings are looked at on cells as large as that lets them be.
 constexpr double fine_cells = 14;
 
-/// Down, by more than a float rounds.
 /// The least distance of two cells so many cells apart.
 double min_distance(int da, int db, double step) {
   return step * std::hypot(std::max(0, std::abs(da) - 1), std::max(0, std::abs(db) - 1));

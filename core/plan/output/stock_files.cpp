@@ -39,7 +39,7 @@ void give_stocks(const Job& job, std::istream& plan,
       finish();
       tool = static_cast<std::size_t>(keyframe->mill->tool);
     }
-    stock.take(*keyframe);
+    stock.take(*keyframe->mill, keyframe->cut);
     if (watch.stop.stop_requested()) throw Cancelled{};
   }
   finish();

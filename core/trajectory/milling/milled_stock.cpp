@@ -14,14 +14,13 @@ const SweptCutter& MilledStock::cutter(int direction) {
       .first->second;
 }
 
-const std::vector<MilledStock::Run>& MilledStock::take(const Keyframe& keyframe) {
-  const MillStep& step = *keyframe.mill;
+const std::vector<MilledStock::Run>& MilledStock::take(const MillStep& step, bool cut) {
   runs_.clear();
   if (step.is_change()) {
     tool_ = step.tool;
     cutters_.clear();
   }
-  if (keyframe.cut && step.removed > 0) {
+  if (cut && step.removed > 0) {
     SweptSet::Taken taken;
     stock_.take(cutter(step.direction), before_.tip, step.tip, &taken);
     find_runs(taken);

@@ -19,8 +19,8 @@ class MilledStock {
 
   /// Voxels in a row along x, both ends included.
   using Run = std::pair<Voxel, Voxel>;
-  /// Carries out the next keyframe. Gives what it removes, each voxel once; valid until the next call.
-  const std::vector<Run>& take(const Keyframe& keyframe);
+  /// Carries out the next keyframe, a cut or none. Gives what it removes, each voxel once; valid until the next call.
+  const std::vector<Run>& take(const MillStep& step, bool cut);
 
   const VoxelSet& standing() const { return stock_.voxels(); }
 

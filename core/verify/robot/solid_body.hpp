@@ -26,7 +26,7 @@ struct SolidBody {
   CoverTree cover;  ///< of a mesh, in the shape's frame
 };
 
-/// `poses`: of the links. Of the shape\'s frame, then.
+/// `poses`: of the links. Of the shape's frame, then.
 inline Frame pose_of(const SolidBody& body, const std::vector<Frame>& poses) {
   return poses[static_cast<std::size_t>(body.link)] * body.pose;
 }

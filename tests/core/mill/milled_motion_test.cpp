@@ -6,6 +6,7 @@
 
 #include "core/cell/milling/mounted_tool.hpp"
 #include "core/collision/scene.hpp"
+#include "core/material/binvox.hpp"
 #include "core/plan/intake.hpp"
 #include "core/program/make_program.hpp"
 #include "core/program/seams.hpp"
@@ -205,10 +206,18 @@ TEST(MilledMotion, ProgramsStopForEachTool) {
     demands.dialect = dialect;
     demands.name = "bust";
     demands.motion = {0.1, 0.5, {}, 0};
+    demands.stock_files = dialect != Dialect::ros2;
     std::vector<ProgramFile> mounting;
+    std::vector<std::size_t> cut;  // voxels, before each part: the stock was the whole cube
     const ProgramReport report = make_program(one.path, one.cell, demands, [&](const ProgramFile& file) {
       if (file.text.find("MOUNT TOOL ") != std::string::npos) mounting.push_back(file);
+      if (file.name.ends_with(".binvox")) cut.push_back(16 * 16 * 16 - read_binvox(file.text).size());
+      const std::string before = "VOXELS CUT BEFORE ";
+      if (const std::size_t at = file.text.find(before); at != file.text.npos) {
+        EXPECT_EQ(std::stoul(file.text.substr(at + before.size())), cut.back()) << file.name;
+      }
     });
+    EXPECT_EQ(cut.size(), demands.stock_files ? report.parts : 0);
     ASSERT_EQ(mounting.size(), 2U) << facts_of(dialect).name;
     EXPECT_NE(mounting[0].text.find("MOUNT TOOL 2 D12"), std::string::npos);
     EXPECT_NE(mounting[1].text.find("MOUNT TOOL 3 D6"), std::string::npos);

@@ -4,6 +4,7 @@
 
 #include "core/material/binvox.hpp"
 #include "tests/core/program/program_cases.hpp"
+#include "tests/core/trajectory/milling/random_milled.hpp"
 
 namespace sculpt {
 namespace {
@@ -22,6 +23,33 @@ TEST(PartStock, IsTheCubeLessWhatIsCut) {
     EXPECT_TRUE(standing.contains({0, 0, 0}));
   }
   EXPECT_GT(cut.size(), 3U);
+}
+
+TEST(PartStock, IsTheCubeLessWhatMillingToolsSweep) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    VoxelSet standing(16, true);
+    MilledPlan plan = random_milled(seed, standing, 60);
+    std::ostringstream out;
+    TrajectoryWriter writer(out, plan.header);
+    for (std::size_t at = 0; at < plan.keyframes.size(); ++at) {
+      plan.keyframes[at].q[0] = from_quanta(static_cast<std::int64_t>(at / 2 + 1));  // every other one moves nothing
+      writer.add(plan.keyframes[at]);
+    }
+    writer.finish();
+    std::istringstream in(out.str());
+    const PlanPath path(in);
+    ASSERT_EQ(path.size(), 31U);
+    PartStock stock(path);
+    EXPECT_EQ(read_binvox(stock.at(0)), standing);
+    for (std::size_t point = 1; point < path.size(); ++point) {
+      standing -= plan.removed[2 * point - 2];
+      standing -= plan.removed[2 * point - 1];
+      if (point % 3 != 0) continue;
+      EXPECT_EQ(read_binvox(stock.at(point)), standing) << point;
+    }
+    EXPECT_LT(standing.size(), 16 * 16 * 16U);
+  }
 }
 
 TEST(PartStock, ComesWithEachPartThatAsksForIt) {

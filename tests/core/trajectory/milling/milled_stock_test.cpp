@@ -20,7 +20,7 @@ TEST(MilledStock, TakesWhatEachCutSweepsAsRunsAlongX) {
     for (std::size_t at = 0; at < plan.keyframes.size(); ++at) {
       VoxelSet taken(16);
       std::size_t count = 0;
-      for (const auto& [first, last] : milled.take(plan.keyframes[at])) {
+      for (const auto& [first, last] : milled.take(*plan.keyframes[at].mill, plan.keyframes[at].cut)) {
         EXPECT_EQ(first.j, last.j);
         EXPECT_EQ(first.k, last.k);
         for (Voxel v = first; v.i <= last.i; ++v.i, ++count) taken.insert(v);
