@@ -11,7 +11,7 @@
 namespace sculpt::server {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string config_refusal(const std::string& text) {
   const TempFolder folder;
   std::ofstream(folder.path() / "server.json") << text;
   Config config;
@@ -46,13 +46,14 @@ TEST(Config, TheShippedFileIsGoodAndSaysTheDefaults) {
 }
 
 TEST(Config, MistakesAreNamed) {
-  EXPECT_EQ(refusal("{}"), "accepted");
-  EXPECT_NE(refusal("{").find("parse error"), std::string::npos);
-  EXPECT_NE(refusal(R"({"lisen":"x"})").find("/lisen is not known; the nearest setting is listen;"), std::string::npos);
-  EXPECT_NE(refusal(R"({"log":"loud"})").find("/log must be one of trace, debug"), std::string::npos);
-  EXPECT_NE(refusal("[]").find("must be an object"), std::string::npos);
-  EXPECT_NE(refusal(R"({"workers":"2"})").find("/workers"), std::string::npos);
-  EXPECT_NE(refusal(R"({"listen":"7878"})").find("HOST:PORT"), std::string::npos);
+  EXPECT_EQ(config_refusal("{}"), "accepted");
+  EXPECT_NE(config_refusal("{").find("parse error"), std::string::npos);
+  EXPECT_NE(config_refusal(R"({"lisen":"x"})").find("/lisen is not known; the nearest setting is listen;"),
+            std::string::npos);
+  EXPECT_NE(config_refusal(R"({"log":"loud"})").find("/log must be one of trace, debug"), std::string::npos);
+  EXPECT_NE(config_refusal("[]").find("must be an object"), std::string::npos);
+  EXPECT_NE(config_refusal(R"({"workers":"2"})").find("/workers"), std::string::npos);
+  EXPECT_NE(config_refusal(R"({"listen":"7878"})").find("HOST:PORT"), std::string::npos);
 }
 
 TEST(Config, ListenTakesHostsAndPorts) {
