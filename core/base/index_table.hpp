@@ -1,4 +1,4 @@
-// Numbers with a byte each, for searches that are done a million times.
+// Numbers with a value each, for searches that are done a million times.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,20 @@ namespace sculpt {
 
 /// A hash table with linear probing in one block of memory that is kept from search to search: forgetting all costs
 /// nothing. (std::unordered_map takes memory for every number.)
+template <class Value>
 class IndexTable {
  public:
-  /// The byte of `index` (below 2^32), 0 if it is new, and whether it is. The reference holds until the next call.
-  std::pair<std::uint8_t&, bool> enter(std::size_t index) {
+  /// The value of `index` (below 2^32), Value{} if it is new, and whether it is. The reference holds until the next
+  /// call.
+  std::pair<Value&, bool> enter(std::size_t index) {
     if (2 * (size_ + 1) > slots_.size()) grow();
     Slot& slot = slot_of(static_cast<std::uint32_t>(index));
     const bool is_new = slot.round != round_;
     if (is_new) {
-      slot = {static_cast<std::uint32_t>(index), round_, 0};
+      slot = {static_cast<std::uint32_t>(index), round_, {}};
       ++size_;
     }
-    return {slot.byte, is_new};
+    return {slot.value, is_new};
   }
   std::size_t size() const { return size_; }
   void clear() {
@@ -34,7 +36,7 @@ class IndexTable {
  private:
   struct Slot {
     std::uint32_t index = 0, round = 0;
-    std::uint8_t byte = 0;
+    Value value{};
   };
 
   Slot& slot_of(std::uint32_t index) {

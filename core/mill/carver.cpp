@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/mill/drive/hop.hpp"
@@ -27,6 +28,11 @@ double area_of(const Mesh& mesh) {
   return area;
 }
 
+/// No longer than it is wide, and one more where the voxels are that coarse.
+double voxels_of_chip(const MillTool& tool, const Grid& grid) {
+  return 1 + tool.max_depth_m * std::pow(tool.max_width_m, 2) / std::pow(grid.voxel_m, 3);
+}
+
 Nails make_nails(const MillJob& job, std::uint64_t seed) {
   double finest_m2 = std::numeric_limits<double>::infinity();
   for (const MillTool& tool : job.tools)
@@ -43,6 +49,7 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
     : job_(job),
       run_(run),
       stock_(job.voxels.stock, job.grid),
+      pieces_(job.voxels),
       nails_(make_nails(job, run.seed)),
       to_remove_(job.voxels.stock.size() - job.voxels.keep.size()),
       fixtures_(fixture_mesh(job.cell)),
@@ -122,8 +129,10 @@ void Carver::draw_back(const Site& site) {
     for (const double min_height : {-std::numeric_limits<double>::infinity(), hub_.z()}) {
       std::vector<MillStroke> strokes;
       hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);
-      if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes == strokes.size())
-        return go(std::move(followed));
+      if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes() == strokes.size()) {
+        go(std::move(followed));
+        return;
+      }
     }
     if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");
     // Back to where the tip was before, and try from there.
@@ -136,43 +145,70 @@ void Carver::draw_back(const Site& site) {
 }
 
 std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
-  FollowedMill followed = arm_.try_strokes(strokes);
-  const std::size_t done = followed.strokes;
-  go(std::move(followed));
-  return done;
+  return go(arm_.try_strokes(strokes));
 }
 
-void Carver::go(FollowedMill followed) {
+namespace {
+
+/// Calls `visit` with each step that cuts and where the tip is before it.
+template <class Keyframes, class Visit>
+void for_each_cut(Keyframes&& keyframes, QuantaPoint at, const Visit& visit) {
+  for (auto& keyframe : keyframes) {
+    if (keyframe.cut) visit(*keyframe.mill, at);
+    at = keyframe.mill->tip;
+  }
+}
+
+}  // namespace
+
+std::size_t Carver::go(FollowedMill followed) {
   const QuantaPoint begin = quanta_of(*arm_.tip());
+  remove(followed);
   QuantaPoint from = begin;
   for (const Keyframe& keyframe : followed.keyframes) {
     trail_.push_back(point_of(from));
     from = keyframe.mill->tip;
   }
-  const auto for_each_cut = [&](const auto& visit) {
-    QuantaPoint at = begin;
-    for (Keyframe& keyframe : followed.keyframes) {
-      if (keyframe.cut) visit(*keyframe.mill, at);
-      at = keyframe.mill->tip;
-    }
-  };
   const bool is_ball = tool().cutter.kind == CutterKind::ball;
   const Vec3 to_middle = tool().cutter.radius_m * axis_;
-  const std::array<std::function<void()>, 3> changes{
+  const std::array<std::function<void()>, 2> changes{
       [&] {
-        for_each_cut([&](MillStep& step, const QuantaPoint& at) {
-          removed_ += step.removed = stock_.remove(*sweeps_, at, step.tip);
-        });
+        for_each_cut(followed.keyframes, begin,
+                     [&](const MillStep& step, const QuantaPoint& at) { stock_.clear(*sweeps_, at, step.tip); });
       },
-      [&] { for_each_cut([&](const MillStep& step, const QuantaPoint& at) { stock_.clear(*sweeps_, at, step.tip); }); },
       [&] {
         if (!is_ball) return;
-        for_each_cut([&](const MillStep& step, const QuantaPoint& at) {
+        for_each_cut(followed.keyframes, begin, [&](const MillStep& step, const QuantaPoint& at) {
           nails_.cut(point_of(at) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
         });
       }};
   run_.helpers.for_each_index(changes.size(), [&](std::size_t which) { changes[which](); });
+  const std::size_t strokes = followed.strokes();
   arm_.commit(std::move(followed));
+  return strokes;
+}
+
+/// Of the stock, by one stroke after the other, up to the first one that would bring a piece loose.
+void Carver::remove(FollowedMill& followed) {
+  QuantaPoint at = quanta_of(*arm_.tip());
+  std::size_t next = 0;
+  SweptSet::Taken by_stroke, by_cut;
+  for (std::size_t stroke = 0; stroke < followed.strokes(); ++stroke) {
+    std::uint64_t removed = 0;
+    by_stroke.clear();
+    for (; next < followed.ends[stroke]; ++next) {
+      Keyframe& keyframe = followed.keyframes[next];
+      const QuantaPoint from = std::exchange(at, keyframe.mill->tip);
+      if (!keyframe.cut) continue;
+      by_cut.clear();
+      removed += keyframe.mill->removed = stock_.remove(*sweeps_, from, at, by_cut);
+      by_stroke.insert(by_stroke.end(), by_cut.begin(), by_cut.end());
+      if (!pieces_.frees(stock_.left().voxels(), by_cut, voxels_of_chip(tool(), job_.grid))) continue;
+      stock_.undo_remove(by_stroke);
+      return followed.cut_to(stroke);
+    }
+    removed_ += removed;
+  }
 }
 
 /// A place above everything, from where the robot comes down, as near to the middle as there is one; else one from

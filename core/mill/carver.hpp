@@ -14,6 +14,7 @@
 #include "core/mill/map/site.hpp"
 #include "core/mill/mill_job.hpp"
 #include "core/mill/mill_stock.hpp"
+#include "core/mill/piece_watch.hpp"
 #include "core/mill/tool_meter.hpp"
 
 namespace sculpt {
@@ -52,20 +53,22 @@ class Carver {
   /// Of that direction's frame.
   Vec3 tip(const Site& site) const { return site.frame().of(*arm_.tip()); }
 
-  /// Follows strokes as far as that goes; gives how many.
+  /// Follows strokes as far as that goes, and as long as no piece larger than a chip comes loose; gives how many.
   std::size_t carry_out(const std::vector<MillStroke>& strokes);
   /// Up from where the tip is and over to the hub; where that is not possible, from a place where the tip was before.
   void draw_back(const Site& site);
 
  private:
   void count(const std::vector<Keyframe>& keyframes);
-  void go(FollowedMill followed);
+  std::size_t go(FollowedMill followed);
+  void remove(FollowedMill& followed);
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
   std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;
 
   const MillJob& job_;
   const RunContext& run_;
   MillStock stock_;
+  PieceWatch pieces_;
   Nails nails_;
   std::uint64_t to_remove_, removed_ = 0;
   Mesh fixtures_;

@@ -8,8 +8,9 @@ MillSweeps::MillSweeps(const Cutter& cutter, const Direction& direction, double 
     : of_centres(cutter, direction, stray_m),
       of_cubes(cutter, direction, stray_m + voxel_m * std::numbers::sqrt3 / 2) {}
 
-std::uint32_t MillStock::remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to) {
-  return left_.take(sweeps.of_centres, from, to);
+std::uint32_t MillStock::remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to,
+                                SweptSet::Taken& taken) {
+  return left_.take(sweeps.of_centres, from, to, &taken);
 }
 
 void MillStock::clear(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to) {

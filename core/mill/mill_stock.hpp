@@ -23,9 +23,12 @@ class MillStock {
  public:
   MillStock(const VoxelSet& stock, const Grid& grid) : left_(stock, grid), standing_(stock, grid) {}
 
-  /// The cutter goes straight from one tip to the other. Gives the number of voxels that it removes.
-  std::uint32_t remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
-  /// The same for those in which nothing may stand any more.
+  /// The cutter goes straight from one tip to the other. Gives the number of voxels that it removes, and adds them to
+  /// `taken`.
+  std::uint32_t remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to,
+                       SweptSet::Taken& taken);
+  void undo_remove(const SweptSet::Taken& taken) { left_.give_back(taken); }
+  /// Nothing may stand any more in those whose cubes are swept.
   void clear(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to);
 
   /// Not removed yet.

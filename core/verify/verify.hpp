@@ -21,7 +21,7 @@ struct Verdict {
   bool clean = false;
   std::uint64_t collisions = 0;           ///< all findings, also those not listed
   std::uint64_t voxels_checked = 0;       ///< voxels whose removal was replayed
-  std::uint64_t freed = 0;                ///< voxels that came loose from the table, counted when they did
+  std::uint64_t freed = 0;                ///< voxels that came loose from the table; of milled plans: as no mere chips
   VoxelSet left;                          ///< material that still stands at the end
   std::vector<Finding> findings;          ///< the first 100
   std::vector<ExemptPair> exempt_pairs;   ///< links with shapes that were not kept apart

@@ -23,7 +23,7 @@ class SupportSearch {
  public:
   /// Memory that one search after the other may use.
   struct Scratch {
-    IndexTable whole, seen, seen_cubes;
+    IndexTable<std::uint8_t> whole, seen, seen_cubes;
     std::vector<Node> open;  ///< a heap
   };
 

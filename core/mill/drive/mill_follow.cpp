@@ -36,7 +36,6 @@ class MillFollower {
     if (!stand_at(from)) return followed;
     Place place{0, 0};
     Vec3 begin = here_.tip;
-    std::size_t whole = 0;
     for (bool stuck = false; !stuck && place.stroke < strokes.size();) {
       look_ahead(strokes, place, begin);
       if (pieces_.empty()) break;
@@ -54,14 +53,13 @@ class MillFollower {
         followed.keyframes.push_back(std::move(keyframe));
         place = {piece.stroke, piece.share};
         if (piece.share >= 1) {
-          whole = followed.keyframes.size();
+          followed.ends.push_back(followed.keyframes.size());
           begin = here_.tip;
           place = {piece.stroke + 1, 0};
         }
       }
     }
-    followed.keyframes.resize(whole);
-    followed.strokes = place.stroke;
+    followed.cut_to(place.stroke);
     return followed;
   }
 

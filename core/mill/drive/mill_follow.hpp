@@ -12,7 +12,14 @@ namespace sculpt {
 
 struct FollowedMill {
   std::vector<Keyframe> keyframes;  ///< each with its tip; cuts do not know yet what they remove
-  std::size_t strokes = 0;          ///< that many were followed to their end; the next one, if any, failed
+  std::vector<std::size_t> ends;    ///< of each stroke that was followed to its end, how many keyframes that takes
+
+  /// That many; the next one, if any, failed.
+  std::size_t strokes() const { return ends.size(); }
+  void cut_to(std::size_t strokes) {
+    keyframes.resize(strokes == 0 ? 0 : ends[strokes - 1]);
+    ends.resize(strokes);
+  }
 };
 
 /// How far the body above the cutter may stray: maps grow it by so much.

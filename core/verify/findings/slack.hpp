@@ -11,5 +11,7 @@ inline constexpr double joint_slack = 1e-9;
 inline constexpr double home_slack = 1e-7 + joint_slack;
 /// Added to every geometry whose absence of contact is taken as proof, over libccd's own error.
 inline constexpr double contact_slack_mm = 0.001;
+/// The chips of milling tools may be thicker by this factor: no cut is followed exactly.
+inline constexpr double chip_slack = 1.1;
 
 }  // namespace sculpt

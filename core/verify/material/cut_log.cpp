@@ -32,14 +32,21 @@ std::vector<FreedPiece> CutLog::find_freed(const VoxelSet& stock, const VoxelSet
   for (const Cut& cut : cuts_) left.erase(voxel(cut.first), voxel(cut.last));
   HeldVoxels held(left);
   std::vector<FreedPiece> pieces;
+  std::vector<HeldVoxels::Gain> gains;
   for (std::size_t at = cuts_.size(); at-- > 0;) {
     if (at % cuts_a_step == 0) step();
     const Voxel first = voxel(cuts_[at].first), last = voxel(cuts_[at].last);
     const Voxel back = sign(first - last);
     for (int part = 0; part <= l1(first, last); ++part) {
       const Voxel removed = last + back * part;
-      const HeldVoxels::Gain gain = held.put_back(removed, may_fall);
-      if (gain.all > 0) pieces.push_back({cuts_[at].line, removed, gain.all, gain.unforeseen});
+      gains.clear();
+      held.put_back({&removed, 1}, may_fall, gains);
+      if (gains.empty()) continue;
+      FreedPiece& piece = pieces.emplace_back(cuts_[at].line, removed, 0, 0);
+      for (const HeldVoxels::Gain& gain : gains) {
+        piece.voxels += gain.all;
+        piece.unforeseen += gain.unforeseen;
+      }
     }
   }
   std::reverse(pieces.begin(), pieces.end());

@@ -38,35 +38,61 @@ VoxelSet find_never_held(const VoxelGrid& voxels) {
 }
 
 HeldVoxels::HeldVoxels(const VoxelSet& standing)
-    : standing_(standing), held_(on_the_table(standing)), hanging_(standing_.size() - held_.size()) {}
+    : standing_(standing), held_(on_the_table(standing)), back_(standing.n()) {}
 
-HeldVoxels::Gain HeldVoxels::put_back(Voxel voxel, const VoxelSet& may_fall) {
-  standing_.insert(voxel);
+void HeldVoxels::put_back(std::span<const Voxel> voxels, const VoxelSet& may_fall, std::vector<Gain>& pieces) {
   const Grid grid{held_.n(), 1, Vec3::Zero()};
-  const bool is_held = voxel.k == 0 || std::any_of(face_steps.begin(), face_steps.end(), [&](Voxel side) {
-                         return grid.contains(voxel + side) && held_.contains(voxel + side);
-                       });
-  if (!is_held) {
-    ++hanging_;
-    return {};
-  }
-  held_.insert(voxel);
-  Gain gain;
-  if (hanging_ == 0) return gain;
-  for (here_.assign(1, voxel); !here_.empty(); std::swap(here_, next_)) {
-    next_.clear();
-    for (const Voxel from : here_)
-      for (const Voxel side : face_steps) {
-        const Voxel to = from + side;
-        if (!grid.contains(to) || !standing_.contains(to) || held_.contains(to)) continue;
-        held_.insert(to);
-        ++gain.all;
-        gain.unforeseen += !may_fall.contains(to);
-        next_.push_back(to);
+  for (const Voxel voxel : voxels) back_.insert(voxel);
+  const auto join = [&](Voxel voxel) {
+    back_.erase(voxel);
+    held_.insert(voxel);
+    joined_.push_back(voxel);
+  };
+  for (const Voxel voxel : voxels)
+    if (voxel.k == 0 || is_beside_held(voxel)) join(voxel);
+  while (!joined_.empty()) {
+    const Voxel from = joined_.back();
+    joined_.pop_back();
+    for (const Voxel side : face_steps) {
+      const Voxel to = from + side;
+      if (!grid.contains(to) || held_.contains(to)) continue;
+      if (back_.contains(to)) {
+        join(to);
+      } else if (standing_.contains(to)) {
+        pieces.push_back(hold_from(to, may_fall));
       }
+    }
   }
-  hanging_ -= gain.all;
+  for (const Voxel voxel : voxels) {
+    standing_.insert(voxel);
+    back_.erase(voxel);
+  }
+}
+
+HeldVoxels::Gain HeldVoxels::hold_from(Voxel voxel, const VoxelSet& may_fall) {
+  const Grid grid{held_.n(), 1, Vec3::Zero()};
+  Gain gain;
+  const auto hold = [&](Voxel found) {
+    held_.insert(found);
+    ++gain.all;
+    gain.unforeseen += !may_fall.contains(found);
+    piece_.push_back(found);
+    joined_.push_back(found);
+  };
+  hold(voxel);
+  while (!piece_.empty()) {
+    const Voxel from = piece_.back();
+    piece_.pop_back();
+    for (const Voxel side : face_steps)
+      if (const Voxel to = from + side; grid.contains(to) && standing_.contains(to) && !held_.contains(to)) hold(to);
+  }
   return gain;
+}
+
+bool HeldVoxels::is_beside_held(Voxel voxel) const {
+  const Grid grid{held_.n(), 1, Vec3::Zero()};
+  return std::any_of(face_steps.begin(), face_steps.end(),
+                     [&](Voxel side) { return grid.contains(voxel + side) && held_.contains(voxel + side); });
 }
 
 }  // namespace sculpt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/material/voxel_grid.hpp"
@@ -22,16 +23,20 @@ class HeldVoxels {
     std::uint64_t all = 0, unforeseen = 0;
   };
 
-  /// Puts back a voxel that does not stand. Counts the other voxels that were not held and are now; `unforeseen` are
-  /// those of them that are not in `may_fall`.
-  Gain put_back(Voxel voxel, const VoxelSet& may_fall);
+  /// Puts back voxels that do not stand, all at once. Adds to `pieces`, for each face-connected piece of the others
+  /// that was not held and is now, how many voxels it has; `unforeseen` are those of them that are not in `may_fall`.
+  void put_back(std::span<const Voxel> voxels, const VoxelSet& may_fall, std::vector<Gain>& pieces);
 
   bool holds(Voxel voxel) const { return held_.contains(voxel); }
 
  private:
-  VoxelSet standing_, held_;
-  std::uint64_t hanging_;  ///< stand and are not held
-  std::vector<Voxel> here_, next_;
+  /// Holds all that stands and is joined to a voxel without passing through those that are being put back.
+  Gain hold_from(Voxel voxel, const VoxelSet& may_fall);
+  bool is_beside_held(Voxel voxel) const;
+
+  VoxelSet standing_, held_, back_;  ///< `back_`: being put back
+  std::vector<Voxel> joined_;        ///< held since, and not looked around from
+  std::vector<Voxel> piece_;
 };
 
 }  // namespace sculpt

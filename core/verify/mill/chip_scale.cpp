@@ -3,13 +3,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/verify/findings/slack.hpp"
+
 namespace sculpt {
-namespace {
-
-constexpr double chip_slack = 1.1;
-
-}  // namespace
-
 std::string ChipScale::weigh(const MillTool& tool, std::uint64_t voxels, double voxel_mm, double length) {
   const double diameter = 2000 * tool.cutter.radius_m, depth = 1000 * tool.max_depth_m, width = 1000 * tool.max_width_m;
   chips_.emplace_back(static_cast<double>(voxels) * std::pow(voxel_mm, 3), length);

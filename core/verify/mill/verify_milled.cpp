@@ -13,6 +13,7 @@
 #include "core/verify/home_contacts.hpp"
 #include "core/verify/material/held_voxels.hpp"
 #include "core/verify/mill/chip_scale.hpp"
+#include "core/verify/mill/cutter_log.hpp"
 #include "core/verify/mill/cutter_sweep.hpp"
 #include "core/verify/mill/surface_judge.hpp"
 #include "core/verify/mill/tool_scene.hpp"
@@ -40,7 +41,8 @@ class MilledReplay {
         to_remove_(voxels.stock.size() - voxels.keep.size()),
         left_(voxels.stock),
         cubes_(voxels.stock),
-        material_(voxels.stock, 1000 * grid_.voxel_m, false) {}
+        material_(voxels.stock, 1000 * grid_.voxel_m, false),
+        log_(voxels.n(), 1000 * grid_.voxel_m) {}
 
   Verdict run() {
     if (!header().mill)
@@ -58,8 +60,8 @@ class MilledReplay {
       if ((at_ - header().home).cwiseAbs().maxCoeff() > joint_slack) find("the last keyframe is not home");
     }
     found_.add(surface_.finish());
+    find_freed_chunks();
     std::ranges::stable_sort(found_.findings, {}, &Finding::line);
-    count_loose();
     verdict_.surface = surface_.verdict(cubes_);
     if (const SurfaceVerdict& surface = *verdict_.surface; surface.gouged_points > 0)
       find("points of the part are cut below the surface, by up to " + text(1000 * surface.gouge_m) + " mm");
@@ -78,12 +80,14 @@ class MilledReplay {
   const MillHeader& mill() const { return *header().mill; }
   void find(std::string sentence) { found_.find(line_, std::move(sentence)); }
 
-  /// Of what is left at the end, what nothing holds any more, but for parts of the target that nothing could.
-  void count_loose() {
-    const HeldVoxels held(left_);
-    VoxelSet loose = left_;
-    loose -= find_never_held(voxels_);
-    for_each_voxel(loose, [&](Voxel v) { verdict_.freed += !held.holds(v); });
+  void find_freed_chunks() {
+    const auto step = [this] {
+      if (watch_.stop.stop_requested()) throw Cancelled{};
+    };
+    for (const FreedChunk& chunk : log_.find_freed(left_, find_never_held(voxels_), step)) {
+      verdict_.freed += chunk.voxels;
+      found_.find(chunk.line, "a piece of " + std::to_string(chunk.voxels) + " voxels, more than a chip, comes loose");
+    }
   }
 
   bool header_fits() {
@@ -238,7 +242,9 @@ class MilledReplay {
     const Vec3 axis = axis_of(step.direction), a = scene_->tip(from), b = scene_->tip(to);
     ways_.push_back({line_, cutter, axis, a, b, stray});
     const Sweeps& swept = sweeps(step.direction);
-    const std::uint64_t removed = swept.centres.take(left_, grid_, tip_->tip, step.tip);
+    gone_.clear();
+    const std::uint64_t removed = swept.centres.take(left_, grid_, tip_->tip, step.tip, &gone_);
+    log_.add(line_, scene_->tool, gone_);
     if (removed != step.removed)
       find("the cut removes " + std::to_string(removed) + " voxels, not " + std::to_string(step.removed));
     removed_ += removed;
@@ -262,6 +268,7 @@ class MilledReplay {
   std::uint64_t to_remove_;
   VoxelSet left_, cubes_;
   StandingVoxels material_;
+  CutterLog log_;
   std::vector<int> joints_;
   std::unique_ptr<ToolScene> scene_;
   std::map<int, std::unique_ptr<Sweeps>> sweeps_;

@@ -177,6 +177,17 @@ VoxelGrid random_grid(int n, std::uint64_t seed) {
   return grid;
 }
 
+VoxelGrid crumbled(VoxelGrid grid, Random& random) {
+  const double share = 0.3 + 0.7 * random.unit();
+  VoxelSet crumbs(grid.n());
+  for_each_voxel(grid.stock, [&](Voxel v) {
+    if (random.unit() > share) crumbs.insert(v);
+  });
+  grid.stock -= crumbs;
+  grid.keep -= crumbs;
+  return grid;
+}
+
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles)
@@ -214,6 +225,36 @@ VoxelSet loose_by_brute_force(const VoxelSet& standing) {
       queue.push_back(next);
     }
   return loose;
+}
+
+std::vector<std::vector<Voxel>> pieces_of(VoxelSet voxels) {
+  const Grid bounds{voxels.n(), 1, Vec3::Zero()};
+  std::vector<std::vector<Voxel>> pieces;
+  const VoxelSet all = voxels;
+  for_each_voxel(all, [&](Voxel start) {
+    if (!voxels.contains(start)) return;
+    voxels.erase(start);
+    std::vector<Voxel> piece{start};
+    for (std::size_t at = 0; at < piece.size(); ++at)
+      for (Voxel step : face_steps) {
+        const Voxel next = piece[at] + step;
+        if (!bounds.contains(next) || !voxels.contains(next)) continue;
+        voxels.erase(next);
+        piece.push_back(next);
+      }
+    pieces.push_back(std::move(piece));
+  });
+  return pieces;
+}
+
+std::vector<Voxel> random_box_of(const VoxelSet& standing, Random& random) {
+  VoxelSet box(standing.n());
+  fill_box(box, random_voxel(random, standing.n()), random_voxel(random, standing.n()), true);
+  std::vector<Voxel> voxels;
+  for_each_voxel(box, [&](Voxel voxel) {
+    if (standing.contains(voxel)) voxels.push_back(voxel);
+  });
+  return voxels;
 }
 
 std::string shared_data(const std::string& path) {

@@ -35,9 +35,15 @@ void fill(VoxelSet& set, Voxel low, Voxel high);
 std::vector<Voxel> row_of(Voxel first, Voxel last);
 /// What no path of standing voxels joins to layer 0: breadth-first, voxel by voxel.
 VoxelSet loose_by_brute_force(const VoxelSet& standing);
+/// Face-connected.
+std::vector<std::vector<Voxel>> pieces_of(VoxelSet voxels);
+/// Those of a box somewhere that stand.
+std::vector<Voxel> random_box_of(const VoxelSet& standing, Random& random);
 
 /// A random grid of blobs (union of boxes) or of noise, with some air at the top; keep is a subset of stock.
 VoxelGrid random_grid(int n, std::uint64_t seed);
+/// With holes all over it: of pieces that hang together at few places.
+VoxelGrid crumbled(VoxelGrid grid, Random& random);
 
 /// The content of a file of the shared data folder, empty where it is missing.
 std::string shared_data(const std::string& path);
