@@ -33,6 +33,15 @@ double voxels_of_chip(const MillTool& tool, const Grid& grid) {
   return 1 + tool.max_depth_m * std::pow(tool.max_width_m, 2) / std::pow(grid.voxel_m, 3);
 }
 
+/// Calls `visit` with each step that cuts and where the tip is before it.
+template <class Keyframes, class Visit>
+void for_each_cut(Keyframes&& keyframes, QuantaPoint at, const Visit& visit) {
+  for (auto& keyframe : keyframes) {
+    if (keyframe.cut) visit(*keyframe.mill, at);
+    at = keyframe.mill->tip;
+  }
+}
+
 Nails make_nails(const MillJob& job, std::uint64_t seed) {
   double finest_m2 = std::numeric_limits<double>::infinity();
   for (const MillTool& tool : job.tools)
@@ -147,19 +156,6 @@ void Carver::draw_back(const Site& site) {
 std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
   return go(arm_.try_strokes(strokes));
 }
-
-namespace {
-
-/// Calls `visit` with each step that cuts and where the tip is before it.
-template <class Keyframes, class Visit>
-void for_each_cut(Keyframes&& keyframes, QuantaPoint at, const Visit& visit) {
-  for (auto& keyframe : keyframes) {
-    if (keyframe.cut) visit(*keyframe.mill, at);
-    at = keyframe.mill->tip;
-  }
-}
-
-}  // namespace
 
 std::size_t Carver::go(FollowedMill followed) {
   const QuantaPoint begin = quanta_of(*arm_.tip());

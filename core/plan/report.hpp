@@ -39,8 +39,9 @@ struct Report {
     std::uint64_t total = 0, air = 0, keep = 0, remove = 0, removed = 0, residue = 0;
     std::uint64_t loose_keep = 0;         ///< of keep: what hangs on nothing once all around it is gone
     std::uint64_t loose_keep_pieces = 0;  ///< in how many pieces
-    std::uint64_t freed = 0;              ///< came loose from the table while it was carved, as the replay counts it
-    std::uint64_t ambiguous = 0;          ///< the mesh does not say for sure whether they are inside
+    std::uint64_t freed =
+        0;  ///< came loose from the table while it was carved, as the replay counts it (milled plans: chips not)
+    std::uint64_t ambiguous = 0;  ///< the mesh does not say for sure whether they are inside
   } voxels;
   std::vector<std::pair<Reason, std::uint64_t>> residue;  ///< only reasons that occur
   struct {

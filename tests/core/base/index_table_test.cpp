@@ -13,7 +13,7 @@ TEST(IndexTable, KeepsWhatAMapKeepsFromRoundToRound) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    IndexTable table;
+    IndexTable<std::uint8_t> table;
     for (int round = 0; round < 10; ++round) {
       table.clear();
       std::map<std::size_t, std::uint8_t> expected;
