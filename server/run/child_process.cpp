@@ -13,7 +13,9 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "server/confine/confinement.hpp"
 
@@ -53,6 +55,16 @@ struct SpawnFiles {
   posix_spawn_file_actions_t actions;
 };
 
+/// A sanitizer's options, and nothing else.
+std::vector<char*> environment_of_child() {
+  std::vector<char*> variables;
+  for (char** variable = environ; under_sanitizer && *variable != nullptr; ++variable)
+    if (const std::string_view text(*variable); text.substr(0, text.find('=')).ends_with("SAN_OPTIONS"))
+      variables.push_back(*variable);
+  variables.push_back(nullptr);
+  return variables;
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::filesystem::path& program, const std::string& argument) {
@@ -63,9 +75,9 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::stri
   const SpawnFiles files(ends[1]);
   std::string name = program, option = argument;
   std::array<char*, 3> arguments{name.data(), option.data(), nullptr};
-  char* nothing = nullptr;
+  const std::vector<char*> environment = environment_of_child();
   const int error = ::posix_spawn(&process_, name.c_str(), &files.actions, &attributes.attributes, arguments.data(),
-                                  under_sanitizer ? environ : &nothing);
+                                  environment.data());
   ::close(ends[1]);
   if (error != 0) {
     ::close(socket_);

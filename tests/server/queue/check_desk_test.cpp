@@ -11,9 +11,10 @@ namespace sculpt::server {
 namespace {
 
 TEST(CheckDesk, NobodyWaitsForTheTasksOfAnother) {
-  CheckDesk desk(3);
   Gate gate;
   std::atomic<int> done = 0;
+  std::promise<void> last;
+  CheckDesk desk(3);
   for (int i = 0; i < 60; ++i)
     desk.add("many", [&](const std::stop_token& stop) {
       gate.pass(stop);
@@ -26,16 +27,15 @@ TEST(CheckDesk, NobodyWaitsForTheTasksOfAnother) {
   }
   EXPECT_EQ(done, 0);
   gate.open();
-  std::promise<void> last;
   desk.add("many", [&](const std::stop_token&) { last.set_value(); });
   last.get_future().wait();
 }
 
 TEST(CheckDesk, SeveralTasksOfOneClientRunAtOnceButNeverOnAllThreads) {
-  CheckDesk desk(4);
   Gate gate;
   std::atomic<int> at_once = 0, most = 0;
   std::vector<std::promise<void>> ended(20);
+  CheckDesk desk(4);
   for (std::promise<void>& end : ended)
     desk.add("one", [&](const std::stop_token& stop) {
       const int now = ++at_once;
@@ -53,9 +53,9 @@ TEST(CheckDesk, SeveralTasksOfOneClientRunAtOnceButNeverOnAllThreads) {
 
 TEST(CheckDesk, AStopEndsWhatRunsAndDropsWhatWaits) {
   std::atomic<int> began = 0, ended = 0;
-  CheckDesk desk(2);
   Gate gate;
   std::promise<void> first;
+  CheckDesk desk(2);
   for (int i = 0; i < 3; ++i)
     desk.add("one", [&](const std::stop_token& stop) {
       if (++began == 1) first.set_value();
