@@ -224,10 +224,11 @@ std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field
     const Vec3 at(column.x(), column.y(), 0);
     return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m));
   };
+  const double top = site.top();
   for (const bool comes_down : {true, false})
     for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
       for (const Point2& column : columns)
-        if (const Vec3 at(column.x(), column.y(), site.top() + above_m);
+        if (const Vec3 at(column.x(), column.y(), top + above_m);
             is_held(at) && low(column).z() <= at.z() && (!comes_down || floor_->allows(low(column))))
           return at;
   for (const Point2& column : columns)
