@@ -9,8 +9,9 @@ namespace {
 
 /// Of the ball's radius: how far apart it is looked where it rests; but no nearer and no farther than these.
 constexpr double look_share = 1.0 / 6, nearest_look_m = 4e-4, farthest_look_m = 1.5e-3;
-/// Beside an upright wall the line is cut until its pieces are shorter than this, in plan.
-constexpr double finest_m = 4e-6;
+/// Beside an upright wall the line is cut until its pieces are shorter than this, in plan; of a line that must be
+/// whole, which is a way and leaves nothing, sooner: up and over is no longer than such a wall.
+constexpr double finest_m = 4e-6, finest_whole_m = 6e-5;
 
 class Follower {
  public:
@@ -104,7 +105,7 @@ class Follower {
   /// Of an edge that is not proved.
   void divide(const Vec3& a, double share_a, const Vec3& b, double share_b) {
     if (is_given_up()) return;
-    if ((b - a).head<2>().norm() > finest_m) {
+    if ((b - a).head<2>().norm() > (is_whole_ ? finest_whole_m : finest_m)) {
       const double share = (share_a + share_b) / 2;
       if (const auto middle = rest(share)) {
         for (const auto& [from, share_from, to, share_to] :

@@ -11,16 +11,29 @@ namespace {
 
 /// Of the cutter's radius: how long an edge is.
 constexpr double step_share = 0.8;
-/// Of the width of cut: from row to row. Of depth times width: what may be taken off.
-constexpr double width_share = 0.92, cap_share = 1.06;
+/// Of depth times width of cut: what may be taken off.
+constexpr double cap_share = 1.08;
 /// Of what may be taken off over a radius, where a pass begins.
 constexpr double little_share = 0.05;
 /// Of what may be taken off: rows that take off less are left to a smaller tool.
 constexpr double min_share = 0.15;
 /// Ways from pass to pass that are gone at this height (radii).
-constexpr double linked_radii = 8;
+constexpr double linked_radii = 12;
 /// How often half a width is laid before a place that would take off too much.
 constexpr int max_tries = 3;
+
+/// How far inside the edge of a slab, as thick as the depth of cut, the tip takes off depth times width; negative: so
+/// far outside. To `step_m`, and no more.
+double first_row_inside(const MillTool& tool, double step_m) {
+  const double radius = tool.cutter.radius_m;
+  double off = -radius, section_m2 = 0;
+  while (off + step_m < radius) {
+    section_m2 += step_m * std::max(0.0, tool.max_depth_m - tool.cutter.height_m(std::abs(off + step_m / 2)));
+    if (section_m2 > tool.max_depth_m * tool.max_width_m) break;
+    off += step_m;
+  }
+  return off;
+}
 
 }  // namespace
 
@@ -29,7 +42,7 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
       surface_(surface),
       lattice_(surface.lattice()),
       cap_m2_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
-      width_m_(width_share * task.tool.max_width_m),
+      width_m_(task.tool.max_width_m),
       stands_above_(static_cast<float>(task.height + task.cusp_share * task.tool.max_depth_m)),
       stands_(find_reachable()) {
   const Cutter& cutter = task.tool.cutter;
@@ -37,7 +50,9 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
   double cleared = 0;
   while (cleared < cutter.radius_m && cutter.height_m(cleared) <= cusp) cleared += lattice_.step / 4;
   const double step = std::max(step_share * cutter.radius_m, 2 * lattice_.step);
-  rows_.emplace(LevelArea{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared, step}, layout);
+  rows_.emplace(LevelArea{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared,
+                          first_row_inside(task.tool, lattice_.step) - lattice_.step, step},
+                layout);
   for (const LevelRow& row : rows_->rows()) {
     Turn turn{row};
     for (std::size_t other = 0; other < turns_.size(); ++other)

@@ -11,6 +11,9 @@ namespace {
 
 /// The last row is so far from where the tip may not be (cells), the one before it so much nearer than others are.
 constexpr double last_row_cells = 1.2, last_share = 0.7;
+/// Of the width of cut: from one curve around to the next, for in hollow corners each finds more than the distance
+/// before it; and what straight rows leave for the last one around.
+constexpr double around_share = 0.92, ring_share = 0.7;
 /// Gaps in a row that are gone through (radii).
 constexpr double bridged_radii = 3;
 /// How far edges leave out the corners of a curve (cells).
@@ -90,25 +93,49 @@ LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), sta
   if (any) fields_.push_back(std::make_unique<RowField>(RowField{lattice, distances_to(shut, lattice)}));
   if (!is_around)
     fields_.push_back(std::make_unique<RowField>(straight_field(lattice, layout, last - task_.cleared_m)));
-  lay_all(layout, farthest_of(*fields_.back(), task_.stands, all, box), any);
+  const double farthest = farthest_of(*fields_.back(), task_.stands, all, box);
+  if (is_around)
+    lay_around(farthest);
+  else
+    lay_straight(farthest, any);
 }
 
-/// From the outside inwards: rows, where the tip may not be somewhere (`any`) one around that, and what is left.
-void LevelRows::lay_all(RowLayout layout, double farthest, bool any) {
-  const RowField& field = *fields_.back();
-  const bool is_around = layout == RowLayout::around;
-  const double last = last_row_cells * task_.lattice.step;
-  const double first = last + ((is_around ? last_share : 1) - 1) * task_.width_m, cleared = task_.cleared_m,
-               outside = task_.width_m - cleared;
-  const int count = static_cast<int>(std::ceil((farthest + cleared - first) / task_.width_m));
-  for (int number = count; number > 0; --number)
-    lay(field, 2 * number, first + number * task_.width_m, cleared, outside);
-  if (!is_around) lay(field, 0, last, task_.radius_m, outside);
-  if (any) lay(*fields_.front(), -1, last, task_.radius_m, is_around ? outside : cleared);
+/// From the outside inwards: level curves about where the tip may not be, the last one nearer, and what is left.
+void LevelRows::lay_around(double farthest) {
+  const RowField& field = *fields_.front();
+  const double last = last_row_cells * task_.lattice.step, width = around_share * task_.width_m,
+               first = last + (last_share - 1) * width, cleared = task_.cleared_m, outside = width - cleared;
+  const int count = static_cast<int>(std::ceil((farthest + cleared - first) / width));
+  for (int number = count; number > 0; --number) lay(field, 2 * number, first + number * width, cleared, outside);
+  lay(field, -1, last, task_.radius_m, outside);
   // Along ridges of the field, between two rows of which the outer one does not come there.
   for (const LevelRow& row : rows_) clear_beside(row);
-  for (int number = count; number > 0 && is_around; --number)
-    lay(field, 2 * number - 1, first + (number - 0.5) * task_.width_m, cleared, cleared);
+  for (int number = count; number > 0; --number)
+    lay(field, 2 * number - 1, first + (number - 0.5) * width, cleared, cleared);
+}
+
+/// From two sides to the middle, all as far apart; where the tip may not be somewhere (`any`) one around that, for
+/// which they leave something.
+void LevelRows::lay_straight(double farthest, bool any) {
+  const RowField& field = *fields_.back();
+  const double last = last_row_cells * task_.lattice.step, all = farthest - task_.inside_m - last;
+  const double cleared = task_.cleared_m, outside = task_.width_m - cleared;
+  const int count = std::max(0, static_cast<int>(std::ceil(all / task_.width_m)));
+  if (any) leave_for_ring();
+  for (int number = count; number > 0; --number) lay(field, number, last + number * all / count, cleared, outside);
+  lay(field, 0, last, task_.radius_m, outside);
+  stands_ = task_.stands;
+  if (any) lay(*fields_.front(), -1, last, task_.radius_m, cleared);
+}
+
+/// Rows need not come so near to where the tip may not be: the ring around it would have nothing to take off.
+void LevelRows::leave_for_ring() {
+  const RowField& to_shut = *fields_.front();
+  const Lattice& box = to_shut.lattice;
+  for (int b = 0; b < box.height; ++b)
+    for (int a = 0; a < box.width; ++a)
+      if (static_cast<double>(to_shut.values[box.index(a, b)]) <= ring_share * task_.width_m)
+        stands_[task_.lattice.index(task_.lattice.cell_u(box.u(a)), task_.lattice.cell_v(box.v(b)))] = 0;
 }
 
 void LevelRows::clear_beside(const LevelRow& row) {

@@ -40,6 +40,7 @@ struct LevelArea {
   double radius_m = 0;               ///< of the cutter
   double width_m = 0;                ///< from row to row
   double cleared_m = 0;              ///< beside a row nothing stands any more, so far
+  double inside_m = 0;               ///< of the edge of what is to come off: the outermost straight row
   double step_m = 0;                 ///< edges are no longer
 };
 
@@ -56,7 +57,9 @@ class LevelRows {
     return sculpt::edge_is_free(task_.lattice, task_.is_free, from, to);
   }
   bool is_needed(const RowField& field, const Point2& p, double inside, double outside) const;
-  void lay_all(RowLayout layout, double farthest, bool any);
+  void lay_around(double farthest);
+  void lay_straight(double farthest, bool any);
+  void leave_for_ring();
   void lay(const RowField& field, int rank, double value, double inside, double outside);
   std::size_t end_of_stretch(const Curve& curve, const std::vector<char>& needed, std::size_t begin) const;
   void add_stretches(LevelRow row, const Curve& curve, const std::vector<char>& needed);

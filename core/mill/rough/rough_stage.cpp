@@ -13,8 +13,9 @@ namespace {
 constexpr double cells_a_radius = 12, finest_cell_m = 4e-4;
 /// Of a cutter's radius, left by roughing.
 constexpr double rough_share = 0.03;
-/// A direction is worth its while from this share of the stock's volume on.
-constexpr double min_gain_share = 1e-3;
+/// A direction is worth its while from this share of the stock's volume on; to a ball, which takes off less than that
+/// when it finishes, from so many passes on.
+constexpr double min_gain_share = 1e-3, min_gain_passes = 15;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
 constexpr int max_failures = 12;
@@ -62,6 +63,8 @@ class RoughStage {
       }
     });
     min_gain_ = min_gain_share * std::pow(job_.grid.n / stride, 3);
+    if (tool().cutter.kind == CutterKind::ball)
+      min_gain_ = std::max(min_gain_, min_gain_passes * min_pass_m3(tool()) / std::pow(stride * job_.grid.voxel_m, 3));
   }
 
   std::optional<std::size_t> best_direction(const std::vector<char>& used_up) const {

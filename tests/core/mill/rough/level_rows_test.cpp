@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "core/base/random.hpp"
 #include "core/mill/rough/cell_distances.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double radius = 0.01, width = 0.0092, cleared = 0.0073;
+constexpr double radius = 0.01, width = 0.01, cleared = 0.0073, inside = 0.002;
 
 /// A square that is to come off, the tip kept out of discs in it.
 struct Level {
@@ -29,7 +32,7 @@ struct Level {
     for (std::size_t at = 0; at < stands.size(); ++at)
       if (far[at] > 0.006F) stands[at] = 0;
   }
-  LevelArea task() const { return {lattice, is_free, stands, radius, width, cleared, 0.008}; }
+  LevelArea task() const { return {lattice, is_free, stands, radius, width, cleared, inside, 0.008}; }
 };
 
 double distance_to(const Point2& p, const LevelRow& row) {
@@ -84,6 +87,39 @@ TEST(LevelRows, AroundNothingThereAreNone) {
   const Level level({});
   EXPECT_TRUE(LevelRows(level.task(), RowLayout::around).rows().empty());
   EXPECT_FALSE(LevelRows(level.task(), RowLayout::along_u).rows().empty());
+}
+
+TEST(LevelRows, StraightOnesBeginInsideTheEdgeAndAreEvenlySpread) {
+  const Level level({});
+  const LevelRows laid(level.task(), RowLayout::along_u);
+  std::vector<double> at;
+  for (const LevelRow& row : laid.rows())
+    if (row.points.front().y() > 0) at.push_back(row.points.front().y());
+  std::ranges::sort(at);
+  ASSERT_EQ(at.size(), 6);  // between 2 mm inside of an edge 50 mm from the middle and 7.3 mm beside the middle
+  EXPECT_NEAR(at.back(), 0.05 - inside, level.lattice.step);
+  EXPECT_NEAR(at.front(), cleared, level.lattice.step);
+  for (std::size_t row = 1; row < at.size(); ++row) {
+    EXPECT_LE(at[row] - at[row - 1], width + 1e-6);
+    EXPECT_NEAR(at[row] - at[row - 1], at[1] - at[0], 1e-5);
+  }
+}
+
+TEST(LevelRows, StraightOnesLeaveSomethingForTheRingAroundThePart) {
+  const double disc = 0.02;
+  const Level level({{{0, 0}, disc}});
+  const LevelRows laid(level.task(), RowLayout::along_u);
+  double ring = 0;
+  for (const LevelRow& row : laid.rows())
+    for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+      const Point2& p = row.points[at];
+      if (row.rank < 0) ring += (row.points[at + 1] - p).norm();
+      // Those that come straight towards it.
+      if (row.rank >= 0 && std::abs(p.y()) < disc / 2) {
+        EXPECT_GT(p.norm() - disc, width / 2);
+      }
+    }
+  EXPECT_GT(ring, 2 * std::numbers::pi * disc);
 }
 
 }  // namespace
