@@ -50,9 +50,8 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
   double cleared = 0;
   while (cleared < cutter.radius_m && cutter.height_m(cleared) <= cusp) cleared += lattice_.step / 4;
   const double step = std::max(step_share * cutter.radius_m, 2 * lattice_.step);
-  rows_.emplace(LevelArea{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared,
-                          first_row_inside(task.tool, lattice_.step) - lattice_.step, step},
-                layout);
+  const double inside = std::min(cleared, first_row_inside(task.tool, lattice_.step)) - lattice_.step;
+  rows_.emplace(LevelArea{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared, inside, step}, layout);
   for (const LevelRow& row : rows_->rows()) {
     Turn turn{row};
     for (std::size_t other = 0; other < turns_.size(); ++other)
