@@ -139,6 +139,7 @@ void Carver::draw_back(const Site& site) {
       std::vector<MillStroke> strokes;
       hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);
       if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes() == strokes.size()) {
+        remove(followed);
         go(std::move(followed));
         return;
       }
@@ -148,18 +149,28 @@ void Carver::draw_back(const Site& site) {
     const Vec3 before = trail_.back();
     trail_.pop_back();
     const std::vector<Vec3> rest = trail_;
-    go(arm_.try_strokes({{before, true, job_.wishes.stray_m()}}));
+    FollowedMill back = arm_.try_strokes({{before, true, job_.wishes.stray_m()}});
+    remove(back);
+    go(std::move(back));
     trail_ = rest;
   }
 }
 
 std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
-  return go(arm_.try_strokes(strokes));
+  FollowedMill followed = arm_.try_strokes(strokes);
+  remove(followed);
+  const std::size_t done = followed.strokes();
+  // Nobody needs to go over to where nothing is cut.
+  std::size_t useful = done;
+  while (done < strokes.size() && useful > 0 && !strokes[useful - 1].cut) --useful;
+  followed.cut_to(useful);
+  go(std::move(followed));
+  return done;
 }
 
-std::size_t Carver::go(FollowedMill followed) {
+/// What is removed is known.
+void Carver::go(FollowedMill followed) {
   const QuantaPoint begin = quanta_of(*arm_.tip());
-  remove(followed);
   QuantaPoint from = begin;
   for (const Keyframe& keyframe : followed.keyframes) {
     trail_.push_back(point_of(from));
@@ -179,9 +190,7 @@ std::size_t Carver::go(FollowedMill followed) {
         });
       }};
   run_.helpers.for_each_index(changes.size(), [&](std::size_t which) { changes[which](); });
-  const std::size_t strokes = followed.strokes();
   arm_.commit(std::move(followed));
-  return strokes;
 }
 
 /// Of the stock, by one stroke after the other, up to the first one that would bring a piece loose.

@@ -53,14 +53,15 @@ class Carver {
   /// Of that direction's frame.
   Vec3 tip(const Site& site) const { return site.frame().of(*arm_.tip()); }
 
-  /// Follows strokes as far as that goes, and as long as no piece larger than a chip comes loose; gives how many.
+  /// Follows strokes as far as that goes, and as long as no piece larger than a chip comes loose; gives how many that
+  /// are. If it is not all of them, the tip stays where the last one ended that cuts.
   std::size_t carry_out(const std::vector<MillStroke>& strokes);
   /// Up from where the tip is and over to the hub; where that is not possible, from a place where the tip was before.
   void draw_back(const Site& site);
 
  private:
   void count(const std::vector<Keyframe>& keyframes);
-  std::size_t go(FollowedMill followed);
+  void go(FollowedMill followed);
   void remove(FollowedMill& followed);
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
   std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;

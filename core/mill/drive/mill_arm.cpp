@@ -81,18 +81,35 @@ bool MillArm::is_free(const Configuration& from, const Configuration& to) const 
   return from == to || held_->carrying().certify(from, to) == Contact::none;
 }
 
-void MillArm::move(const std::vector<Configuration>& way) {
+/// Takes the arm to its end.
+std::vector<Keyframe> MillArm::moves(const std::vector<Configuration>& way) {
   std::vector<Keyframe> keyframes;
   for (const Configuration& q : way) {
     if (q == q_) continue;
     keyframes.push_back({q, false, {}, {}, MillStep{}});
     q_ = q;
   }
-  if (!keyframes.empty()) emit_(std::move(keyframes));
+  return keyframes;
+}
+
+void MillArm::move(const std::vector<Configuration>& way) {
+  if (std::vector<Keyframe> keyframes = moves(way); !keyframes.empty()) emit_(std::move(keyframes));
+}
+
+/// The direction that was entered last, if nothing was done there.
+void MillArm::drop_entry() {
+  if (!entry_) return;
+  q_ = entry_->q;
+  way_home_ = std::move(entry_->way_home);
+  entry_.reset();
+  tip_.reset();
+  field_ = nullptr;
+  direction_ = -1;
 }
 
 /// From outside the stock.
 void MillArm::go_home() {
+  drop_entry();
   if (q_ == home_) return;
   ++transits_;
   std::vector<Configuration> way = find_way(home_, -1);
@@ -139,6 +156,7 @@ bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
   const FollowedMill there = follow(*held_, field, direction, tip, {{tip, false, 1e-3}});
   if (there.keyframes.empty()) return false;
   Keyframe last = there.keyframes.back();
+  drop_entry();
   ++transits_;
   std::vector<Configuration> way = find_way(last.q, direction);
   if (way.empty()) return false;
@@ -146,12 +164,12 @@ bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
   back.insert(back.end(), way_home_.begin(), way_home_.end());
   // Not beyond the first time at home.
   if (const auto rest = std::ranges::find(back, home_); rest != back.end()) back.erase(rest + 1, back.end());
-  way_home_ = std::move(back);
+  entry_ = Entry{{}, q_, std::exchange(way_home_, std::move(back))};
   ways_[direction].assign(way_home_.rbegin(), way_home_.rend());
   ways_[direction].push_back(last.q);
   way.pop_back();
-  move(way);
-  emit_({last});
+  entry_->keyframes = moves(way);
+  entry_->keyframes.push_back(last);
   q_ = last.q;
   field_ = &field;
   direction_ = direction;
@@ -165,6 +183,8 @@ FollowedMill MillArm::try_strokes(const std::vector<MillStroke>& strokes) const 
 
 void MillArm::commit(FollowedMill followed) {
   if (followed.keyframes.empty()) return;
+  if (entry_) emit_(std::move(entry_->keyframes));
+  entry_.reset();
   const Keyframe& last = followed.keyframes.back();
   q_ = last.q;
   tip_ = point_of(last.mill->tip);

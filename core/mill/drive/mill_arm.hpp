@@ -26,8 +26,8 @@ class MillArm {
   /// no way leads there.
   void take_tool(int number, const HeldTool& held);
 
-  /// Holds the tool in this direction, its tip at `tip`, which must be in the field, outside the stock. False, and
-  /// nothing done, if there is no way.
+  /// Holds the tool in this direction, its tip at `tip`, which must be in the field, outside the stock. False if there
+  /// is no way. It goes there with the first strokes: where none follow it was never there.
   bool hold(const PostureField& field, int direction, const Vec3& tip);
   /// Follows strokes from where the tip is; gives how many were followed to their end.
   FollowedMill try_strokes(const std::vector<MillStroke>& strokes) const;
@@ -44,7 +44,9 @@ class MillArm {
   std::vector<Configuration> find_way(const Configuration& to, int direction);
   std::vector<Configuration> way_by_home(const std::vector<Configuration>& places, const Configuration& to) const;
   bool is_free(const Configuration& from, const Configuration& to) const;
+  std::vector<Keyframe> moves(const std::vector<Configuration>& way);
   void move(const std::vector<Configuration>& way);
+  void drop_entry();
   void go_over(const Configuration& to);
 
   Configuration home_, change_;
@@ -55,6 +57,13 @@ class MillArm {
   const PostureField* field_ = nullptr;
   int direction_ = -1;
   std::optional<Vec3> tip_;
+  /// The way into the direction, not gone yet, and what was before it.
+  struct Entry {
+    std::vector<Keyframe> keyframes;
+    Configuration q;
+    std::vector<Configuration> way_home;
+  };
+  std::optional<Entry> entry_;
   std::map<int, std::vector<Configuration>> ways_;  ///< from home to where each direction was entered last
   std::set<int> searched_;                          ///< for ways to these
   std::vector<Configuration> way_home_;             ///< from where the direction was entered; empty at home
