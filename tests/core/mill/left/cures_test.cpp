@@ -93,7 +93,8 @@ TEST(Cures, NothingLeftNeedsNone) {
   PartViews views(part, mill_directions().size());
   const Helpers helpers(1);
   const Watch watch;
-  EXPECT_TRUE(find_cures({cell, grid, voxels, part, tools, {}, {}, {}}, VoxelSet(n), views, {0, helpers, watch}).empty());
+  EXPECT_TRUE(
+      find_cures({cell, grid, voxels, part, tools, {}, {}, {}}, VoxelSet(n), views, {0, helpers, watch}).empty());
 }
 
 }  // namespace
