@@ -42,6 +42,16 @@ void for_each_cut(Keyframes&& keyframes, QuantaPoint at, const Visit& visit) {
   }
 }
 
+/// Some of its cells' middles, those nearest to its own first.
+std::vector<Point2> columns_from_middle(const Lattice& lattice) {
+  std::vector<Point2> columns;
+  for (int b = 0; b < lattice.height; b += 4)
+    for (int a = 0; a < lattice.width; a += 4) columns.emplace_back(lattice.u(a), lattice.v(b));
+  const Point2 middle(lattice.u(lattice.width / 2), lattice.v(lattice.height / 2));
+  std::ranges::stable_sort(columns, {}, [&](const Point2& at) { return (at - middle).norm(); });
+  return columns;
+}
+
 Nails make_nails(const MillJob& job, std::uint64_t seed) {
   double finest_m2 = std::numeric_limits<double>::infinity();
   for (const MillTool& tool : job.tools)
@@ -220,12 +230,7 @@ void Carver::remove(FollowedMill& followed) {
 /// where it does not, or one that is above what stands about it: along a tilted axis the tip may have no room above
 /// everything.
 std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field) const {
-  const Lattice& lattice = site.lattice();
-  std::vector<Point2> columns;
-  for (int b = 0; b < lattice.height; b += 4)
-    for (int a = 0; a < lattice.width; a += 4) columns.emplace_back(lattice.u(a), lattice.v(b));
-  const Point2 middle(lattice.u(lattice.width / 2), lattice.v(lattice.height / 2));
-  std::ranges::stable_sort(columns, {}, [&](const Point2& at) { return (at - middle).norm(); });
+  const std::vector<Point2> columns = columns_from_middle(site.lattice());
   const auto is_held = [&](const Vec3& at) {
     return floor_->allows(at) && field.usable(HeldTool::cell_of(field, around_, site.frame().point(at)));
   };
@@ -234,15 +239,19 @@ std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field
     return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m));
   };
   const double top = site.top();
-  for (const bool comes_down : {true, false})
-    for (const double above_m : {room_around_m, room_around_m / 2, 2 * air_clearance_m})
-      for (const Point2& column : columns)
-        if (const Vec3 at(column.x(), column.y(), top + above_m);
-            is_held(at) && low(column).z() <= at.z() && (!comes_down || floor_->allows(low(column))))
-          return at;
-  for (const Point2& column : columns)
-    if (const Vec3 at = low(column); is_held(at)) return at;
-  return std::nullopt;
+  for (const auto& [above_m, comes_down] : {std::pair{room_around_m, true},
+                                            {room_around_m / 2, true},
+                                            {2 * air_clearance_m, true},
+                                            {room_around_m, false},
+                                            {room_around_m / 2, false},
+                                            {2 * air_clearance_m, false}}) {
+    const auto found = std::ranges::find_if(columns, [&, height = top + above_m, down = comes_down](const Point2& p) {
+      return is_held({p.x(), p.y(), height}) && low(p).z() <= height && (!down || floor_->allows(low(p)));
+    });
+    if (found != columns.end()) return Vec3(found->x(), found->y(), top + above_m);
+  }
+  const auto found = std::ranges::find_if(columns, [&](const Point2& column) { return is_held(low(column)); });
+  return found == columns.end() ? std::nullopt : std::optional(low(*found));
 }
 
 }  // namespace sculpt

@@ -33,6 +33,19 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to, int direct
   const Scene& scene = held_->carrying();
   if (is_free(q_, to)) return {q_, to};
   const std::vector<int> turning = stock_coordinates(scene.chain());
+  if (std::vector<Configuration> way = way_by_turning(to, turning); !way.empty()) return way;
+  if (const auto known = ways_.find(direction); known != ways_.end())
+    if (std::vector<Configuration> way = way_by_home(known->second, to); !way.empty()) return way;
+  if (std::vector<Configuration> way = way_as_elsewhere(to, turning); !way.empty()) return way;
+  if (!searched_.insert(direction).second) return {};
+  Transit found =
+      plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
+  if (run_.watch.stop.stop_requested()) throw Cancelled{};
+  return std::move(found.path);
+}
+
+/// Back to a place on the way home, where the stock is turned, and forward from there; nothing if that is not free.
+std::vector<Configuration> MillArm::way_by_turning(const Configuration& to, const std::vector<int>& turning) const {
   for (std::size_t place = 0; place < way_home_.size(); ++place) {
     Configuration before = way_home_[place], after = before;
     for (const int coordinate : turning) {
@@ -48,20 +61,18 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to, int direct
       return way;
     }
   }
-  if (const auto known = ways_.find(direction); known != ways_.end())
-    if (std::vector<Configuration> way = way_by_home(known->second, to); !way.empty()) return way;
-  // As into another direction, with the stock turned.
+  return {};
+}
+
+/// As into another direction, with the stock turned; nothing if that is not free.
+std::vector<Configuration> MillArm::way_as_elsewhere(const Configuration& to, const std::vector<int>& turning) const {
   for (const auto& [other, known] : ways_) {
     std::vector<Configuration> places = known;
     for (Configuration& place : places)
       for (const int coordinate : turning) place[coordinate] = to[coordinate];
     if (std::vector<Configuration> way = way_by_home(places, to); !way.empty()) return way;
   }
-  if (!searched_.insert(direction).second) return {};
-  Transit found =
-      plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
-  if (run_.watch.stop.stop_requested()) throw Cancelled{};
-  return std::move(found.path);
+  return {};
 }
 
 /// Home, whose edges are free the more is cut, and on by these places; nothing if that is not free.

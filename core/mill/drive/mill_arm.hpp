@@ -42,6 +42,9 @@ class MillArm {
  private:
   /// `direction`: that it is for; -1: to rest.
   std::vector<Configuration> find_way(const Configuration& to, int direction);
+  /// `turning`: coordinates that move the stock alone.
+  std::vector<Configuration> way_by_turning(const Configuration& to, const std::vector<int>& turning) const;
+  std::vector<Configuration> way_as_elsewhere(const Configuration& to, const std::vector<int>& turning) const;
   std::vector<Configuration> way_by_home(const std::vector<Configuration>& places, const Configuration& to) const;
   bool is_free(const Configuration& from, const Configuration& to) const;
   std::vector<Keyframe> moves(const std::vector<Configuration>& way);
