@@ -1,8 +1,6 @@
 #include "core/motion/arm.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -13,20 +11,13 @@ namespace sculpt {
 namespace {
 
 constexpr std::size_t max_hubs = 12;
-/// Attempts by effort: hubs and postures of the atlas to start IK from, and iterations of RRTConnect.
-constexpr std::size_t nearest_hubs[] = {3, max_hubs, max_hubs};
-constexpr std::size_t known_postures[] = {2, 6, 16};
+/// Of RRTConnect, by effort.
 constexpr int rrt_iterations[] = {150, 600, 3000};
 /// Work on transits that may be in vain, in tests of configurations: at first, and more for each voxel that is cut.
 constexpr std::uint64_t in_vain_at_first = 10'000'000, in_vain_a_voxel = 20'000;
 constexpr std::uint64_t iterations_a_voxel = 50;  ///< of OMPL's searches in vain, more for each voxel that is cut
 constexpr std::uint64_t tests_a_start = 12;       ///< what looking for an entry from one configuration costs, about
-
-/// A path walked backwards.
-std::vector<Configuration> reversed(std::vector<Configuration> path) {
-  std::reverse(path.begin(), path.end());
-  return path;
-}
+constexpr std::size_t descents_at_once = 8;
 
 }  // namespace
 
@@ -44,32 +35,8 @@ Arm::Arm(Scene& scene, const PostureAtlas& atlas, const VoxelSet& may_fall, cons
   trail_ = {home};
 }
 
-std::size_t Arm::number_of(Voxel voxel, std::size_t axis) const {
-  const auto n = static_cast<std::size_t>(scene_.grid().n);
-  return ((voxel.k * n + voxel.j) * n + voxel.i) * axes().size() + axis;
-}
-
 bool Arm::fits(Voxel voxel, std::size_t axis) const {
   return scene_.tool_fits({centre(voxel), axes()[axis]}, voxel);
-}
-
-Vec3 Arm::outside(const Vec3& ball_m, const Vec3& axis) const {
-  const Grid& grid = scene_.grid();
-  const double clear = scene_.tool().ball_radius_m + 0.3 * grid.voxel_m, side = grid.n * grid.voxel_m;
-  double shortest = std::numeric_limits<double>::max();
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(axis[i]) < 1e-9) continue;
-    const double face = axis[i] > 0 ? side + clear : -clear;
-    shortest = std::min(shortest, (grid.origin_m[i] + face - ball_m[i]) / axis[i]);
-  }
-  return ball_m + std::max(0.0, shortest) * axis;
-}
-
-Vec3 Arm::beside(Voxel voxel, const Vec3& axis) const {
-  // A ball of radius below h/2 is clear of the cube once its centre is h (straight) or 1.4 h (tilted: half a diagonal
-  // and the radius) away.
-  const double distance = axis.cwiseAbs().maxCoeff() > 1 - 1e-9 ? 1.0 : 1.4;
-  return centre(voxel) + distance * scene_.grid().voxel_m * axis;
 }
 
 bool Arm::cut_neighbour(Voxel voxel) {
@@ -124,87 +91,38 @@ const Arm::Path& Arm::way_out() {
     memory_.way_out.insert(memory_.way_out.end(), path->begin(), path->end());
   } else {
     memory_.way_out =
-        shorten(scene_, reversed({trail_.begin() + static_cast<std::ptrdiff_t>(memory_.last_outside), trail_.end()}));
+        shorten(scene_, Path(trail_.rbegin(), trail_.rend() - static_cast<std::ptrdiff_t>(memory_.last_outside)));
   }
   return memory_.way_out;
 }
 
-std::vector<Configuration> Arm::entry_seeds(Voxel voxel, std::size_t axis, int from_effort, int effort) const {
-  const std::vector<Configuration> known = atlas_.around(voxel, axis, known_postures[effort]);
-  if (known.empty()) return {};
-  std::vector<Configuration> seeds;
-  const auto add = [&](const std::vector<Configuration>& from, const std::size_t(&counts)[3]) {
-    const std::size_t first = from_effort > 0 ? std::min(counts[from_effort - 1], from.size()) : 0;
-    const std::size_t end = std::min(counts[effort], from.size());
-    seeds.insert(seeds.end(), from.begin() + static_cast<std::ptrdiff_t>(first),
-                 from.begin() + static_cast<std::ptrdiff_t>(std::max(first, end)));
-  };
-  if (axis == memory_.axis && from_effort == 0) seeds.push_back(q_);
-  if (const auto at = memory_.hubs.find(axis); at != memory_.hubs.end()) {
-    Path hubs = at->second;
-    const Vec3 ball = outside(centre(voxel), axes()[axis]);
-    std::ranges::stable_sort(
-        hubs, {}, [&](const Configuration& q) { return (scene_.chain().tool_pose(q).ball_m - ball).norm(); });
-    add(hubs, nearest_hubs);
+bool Arm::cut_after_transit(std::span<const Descent> descents, int effort) {
+  // Mostly the first one does. Where it does not few others do, so that looking at several at once is no waste.
+  for (std::size_t at_once = 1; !descents.empty(); at_once = descents_at_once) {
+    const auto looked_at = descents.first(std::min(at_once, descents.size()));
+    if (transit_to_one(looked_at, effort)) return true;
+    descents = descents.subspan(looked_at.size());
   }
-  if (from_effort == 0) seeds.push_back(home_);
-  add(known, known_postures);
-  return seeds;
+  return false;
 }
 
-std::optional<Arm::Entry> Arm::find_entry(Voxel voxel, std::size_t axis, const Configuration& seed) const {
-  const Vec3& direction = axes()[axis];
-  const auto q = solve_rounded(scene_.chain(), {centre(voxel), direction}, seed);
-  if (!q || scene_.contact_at(*q, voxel) != Contact::none) return {};
-  const auto first = solve_rounded(scene_.chain(), {beside(voxel, direction), direction}, *q);
-  if (!first || scene_.certify(*first, *q, voxel) != Contact::none) return {};
-  const auto rest = track_line(scene_, *first, outside(centre(voxel), direction), direction);
-  if (!rest) return {};
-  Path path{*first};
-  path.insert(path.end(), rest->begin(), rest->end());
-  return Entry{reversed(std::move(path)), *q};
+bool Arm::is_in_vain() const {
+  return memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut;
 }
 
-void Arm::find_next_entry(Approach& approach) const {
-  approach.entry.reset();
-  while (!approach.entry && approach.tried < approach.seeds.size()) {
-    if (run_.watch.stop.stop_requested()) throw Cancelled{};
-    approach.entry = find_entry(approach.voxel, approach.axis, approach.seeds[approach.tried++]);
-  }
-}
-
-bool Arm::cut_after_transit(std::span<const Voxel> voxels, std::size_t axis, int effort) {
-  if (voxels.empty()) return false;
-  // Mostly the first one does. Where it does not few others do, so that looking at all of them at once is no waste.
-  return transit_to_one(voxels.first(1), axis, effort) || transit_to_one(voxels.subspan(1), axis, effort);
-}
-
-bool Arm::transit_to_one(std::span<const Voxel> voxels, std::size_t axis, int effort) {
-  if (memory_.in_vain > in_vain_at_first + in_vain_a_voxel * memory_.cut) return false;
-  std::vector<Approach> approaches(voxels.size());
-  run_.helpers.for_each_index(voxels.size(), [&](std::size_t i) {
-    if (!fits(voxels[i], axis)) return;
-    const auto before = no_entry_.find(number_of(voxels[i], axis));
-    const bool same = before != no_entry_.end() && before->second.cut == memory_.cut;
-    approaches[i] = {voxels[i],
-                     axis,
-                     entry_seeds(voxels[i], axis, same ? before->second.effort + 1 : 0, effort),
-                     same ? before->second.seeds : 0,
-                     0,
-                     {}};
-    find_next_entry(approaches[i]);
-  });
-  const std::uint64_t tests = scene_.checks();
-  std::size_t starts = 0;
+bool Arm::transit_to_one(std::span<const Descent> descents, int effort) {
+  if (is_in_vain()) return false;
+  std::vector<Approach> approaches(descents.size());
+  run_.helpers.for_each_index(descents.size(), [&](std::size_t i) { approaches[i] = look_at(descents[i], effort); });
   for (Approach& approach : approaches) {
     const bool found = approach.entry.has_value();
+    const std::uint64_t tests = scene_.checks();
     if (transit(approach, effort)) return true;
     // As if none was left out: it shall not matter what was known.
     const std::size_t seeds = approach.left_out + approach.tried;
-    starts += seeds;
-    if (!found && seeds > 0) no_entry_[number_of(approach.voxel, axis)] = {memory_.cut, effort, seeds};
+    if (!found && seeds > 0) no_entry_[number_of(approach.voxel, approach.axis)] = {memory_.cut, effort, seeds};
+    memory_.in_vain += scene_.checks() - tests + tests_a_start * seeds;
   }
-  memory_.in_vain += scene_.checks() - tests + tests_a_start * starts;
   return false;
 }
 
@@ -285,7 +203,7 @@ void Arm::go_home() {
     if (across.empty()) across = cross(path.back(), home_, iterations);
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
   if (across.empty()) {
-    path = reversed(trail_);
+    path.assign(trail_.rbegin(), trail_.rend());
   } else {
     path.insert(path.end(), across.begin() + 1, across.end());
   }

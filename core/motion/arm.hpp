@@ -62,10 +62,17 @@ class Arm {
   bool cut_neighbour(Voxel voxel);
   /// Cuts a voxel after lifting the tool along its axis just far enough, moving across and coming down again.
   bool cut_after_hop(Voxel voxel);
-  /// Cuts the first of `voxels` that it comes to from another direction: leaves the stock, moves freely (OMPL where the
-  /// direct edge is not free), comes in along `axis`. Once far more work was in vain than voxels were cut, it is not
-  /// tried any more.
-  bool cut_after_transit(std::span<const Voxel> voxels, std::size_t axis, int effort);
+  /// A voxel, and the number of the axis along which the tool comes down to it, which fits.
+  struct Descent {
+    Voxel voxel;
+    std::size_t axis;
+  };
+  /// Cuts the first voxel of these that it comes to from another direction: leaves the stock, moves freely (OMPL where
+  /// the direct edge is not free), comes down. Once far more work was in vain than voxels were cut, it is not tried any
+  /// more.
+  bool cut_after_transit(std::span<const Descent> descents, int effort);
+  /// Looks at these side by side before `cut_after_transit` is called for some of them: spares time, changes no result.
+  void look_ahead(std::span<const Descent> descents, int effort);
 
   /// Leaves the stock and goes home.
   void go_home();
@@ -93,7 +100,9 @@ class Arm {
   /// Ball position before the cut: on the same line, just clear of the voxel.
   Vec3 beside(Voxel voxel, const Vec3& axis) const;
   bool hop(Voxel voxel, double lift_m);
-  bool transit_to_one(std::span<const Voxel> voxels, std::size_t axis, int effort);
+  bool is_in_vain() const;
+  Approach look_at(const Descent& descent, int effort) const;
+  bool transit_to_one(std::span<const Descent> descents, int effort);
   bool transit(Approach& approach, int effort);
   /// From where the arm stands to outside the stock, both included; never fails.
   const Path& way_out();
@@ -125,6 +134,12 @@ class Arm {
     int effort;
     std::size_t seeds;
   };
+  struct LookedAhead {
+    std::uint64_t cut = 0;  // voxels, then
+    int effort = 0;
+    std::unordered_map<std::size_t, Approach> approaches;  // by voxel and axis
+  };
+  LookedAhead looked_ahead_;
   std::unordered_map<std::size_t, InVain> no_entry_;  // by voxel and axis; spares work, changes no result
 };
 

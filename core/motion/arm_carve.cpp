@@ -30,14 +30,25 @@ ArmMemory carve_with_arm(Scene& scene, const ArmTask& task, const ArmStart& star
   ArmMemory memory = start.memory;
   if (start.trials.empty()) memory.iterations_left = iterations_for(task.octree);
   arm.resume(start.keyframes, std::move(memory));
-  const auto try_block = [&, tried = std::size_t{0}](int block, int effort) mutable {
-    if (tried < start.trials.size()) return start.trials[tried++];
-    const BlockTrial trial = carve_block(arm, task.octree.leaves[static_cast<std::size_t>(block)], effort);
+  std::size_t known = 0;
+  const auto block_of = [&](int block) -> const Block& { return task.octree.leaves[static_cast<std::size_t>(block)]; };
+  const auto try_block = [&](int block, int effort) {
+    if (known < start.trials.size()) return start.trials[known++];
+    const BlockTrial trial = carve_block(arm, block_of(block), effort);
     if (run.watch.stop.stop_requested()) throw Cancelled{};  // it may have been given up early
     listener.tried(trial, arm.memory());
     return trial;
   };
-  order_blocks(task.octree, graph, first, max_effort, try_block, run.watch);
+  const auto foresee = [&](std::span<const int> blocks, int effort) {
+    if (known < start.trials.size() || run.helpers.threads() == 1) return;
+    std::vector<std::vector<Arm::Descent>> of_each(blocks.size());
+    run.helpers.for_each_index(blocks.size(),
+                               [&](std::size_t i) { of_each[i] = find_descents(arm, block_of(blocks[i]), effort); });
+    std::vector<Arm::Descent> all;
+    for (const auto& descents : of_each) all.insert(all.end(), descents.begin(), descents.end());
+    arm.look_ahead(all, effort);
+  };
+  order_blocks(task.octree, graph, first, max_effort, try_block, run.watch, foresee);
   arm.go_home();
   return arm.memory();
 }

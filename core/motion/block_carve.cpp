@@ -1,7 +1,6 @@
 #include "core/motion/block_carve.hpp"
 
 #include <algorithm>
-#include <span>
 
 namespace sculpt {
 namespace {
@@ -23,37 +22,42 @@ struct Candidate {
   bool operator<(const Candidate& other) const { return cost != other.cost ? cost < other.cost : voxel < other.voxel; }
 };
 
-class BlockCarve {
+/// What stands of a block, as the arm would come to it where it is now.
+class OpenVoxels {
  public:
-  BlockCarve(Arm& arm, const Block& block, int effort) : arm_(arm), block_(block), effort_(effort) {}
+  OpenVoxels(const Arm& arm, const Block& block) : arm_(arm), block_(block) {}
 
-  BlockTrial run() {
-    while (step()) ++removed_;
-    return {removed_, static_cast<int>(standing().size()), arm_.at()};
+  std::vector<Voxel> standing() const {
+    std::vector<Voxel> voxels;
+    for (int k = 0; k < block_.size; ++k)
+      for (int j = 0; j < block_.size; ++j)
+        for (int i = 0; i < block_.size; ++i)
+          if (const Voxel v = block_.corner + Voxel{i, j, k}; material().contains(v)) voxels.push_back(v);
+    return voxels;
   }
 
- private:
-  const Material& material() const { return arm_.scene().material(); }
-
-  bool step() { return step_to_neighbour() || step_within_axis() || step_with_new_axis(); }
-
-  bool step_to_neighbour() {
+  /// Those beside the one that the ball is in, the best first.
+  std::vector<Candidate> neighbours() const {
     std::vector<Candidate> near;
     for (Voxel step : face_steps) {
       const Voxel v = arm_.at() + step;
       if (block_.contains(v) && material().contains(v) && arm_.holds_nothing(v)) near.push_back({cost(v), v});
     }
     std::sort(near.begin(), near.end());
-    return std::any_of(near.begin(), near.end(), [&](const Candidate& c) { return arm_.cut_neighbour(c.voxel); });
+    return near;
   }
 
-  bool step_within_axis() {
-    const std::vector<Candidate> all = candidates();
-    return std::any_of(all.begin(), all.end(), [&](const Candidate& c) { return arm_.cut_after_hop(c.voxel); });
+  /// All, the best first.
+  std::vector<Candidate> candidates() const {
+    std::vector<Candidate> all;
+    for (Voxel v : standing())
+      if (is_open(material(), v) && arm_.holds_nothing(v)) all.push_back({cost(v), v});
+    std::sort(all.begin(), all.end());
+    return all;
   }
 
-  /// Tries the axes by how many of the open voxels they could come down to.
-  bool step_with_new_axis() {
+  /// Axes by how many of the voxels they could come down to.
+  std::vector<Arm::Descent> descents(int effort) const {
     struct Choice {
       std::size_t axis;
       std::vector<Voxel> voxels;
@@ -68,29 +72,15 @@ class BlockCarve {
     }
     std::stable_sort(choices.begin(), choices.end(),
                      [](const Choice& a, const Choice& b) { return a.voxels.size() > b.voxels.size(); });
-    for (const Choice& choice : choices) {
-      const std::size_t most = std::min(choice.voxels.size(), transits_an_axis[effort_]);
-      if (arm_.cut_after_transit(std::span(choice.voxels).first(most), choice.axis, effort_)) return true;
-    }
-    return false;
+    std::vector<Arm::Descent> descents;
+    for (const auto& [axis, voxels] : choices)
+      for (std::size_t i = 0; i < std::min(voxels.size(), transits_an_axis[effort]); ++i)
+        descents.push_back({voxels[i], axis});
+    return descents;
   }
 
-  std::vector<Voxel> standing() const {
-    std::vector<Voxel> voxels;
-    for (int k = 0; k < block_.size; ++k)
-      for (int j = 0; j < block_.size; ++j)
-        for (int i = 0; i < block_.size; ++i)
-          if (const Voxel v = block_.corner + Voxel{i, j, k}; material().contains(v)) voxels.push_back(v);
-    return voxels;
-  }
-
-  std::vector<Candidate> candidates() const {
-    std::vector<Candidate> all;
-    for (Voxel v : standing())
-      if (is_open(material(), v) && arm_.holds_nothing(v)) all.push_back({cost(v), v});
-    std::sort(all.begin(), all.end());
-    return all;
-  }
+ private:
+  const Material& material() const { return arm_.scene().material(); }
 
   double cost(Voxel v) const {
     const Voxel step = v - arm_.at(), last = arm_.last_step();
@@ -111,16 +101,29 @@ class BlockCarve {
     });
   }
 
-  Arm& arm_;
+  const Arm& arm_;
   const Block& block_;
-  int effort_;
-  int removed_ = 0;
 };
 
 }  // namespace
 
 BlockTrial carve_block(Arm& arm, const Block& block, int effort) {
-  return BlockCarve(arm, block, effort).run();
+  const OpenVoxels open(arm, block);
+  const auto step = [&] {
+    const auto cut_one_of = [](const std::vector<Candidate>& all, const auto& cut) {
+      return std::any_of(all.begin(), all.end(), [&](const Candidate& c) { return cut(c.voxel); });
+    };
+    return cut_one_of(open.neighbours(), [&](Voxel v) { return arm.cut_neighbour(v); }) ||
+           cut_one_of(open.candidates(), [&](Voxel v) { return arm.cut_after_hop(v); }) ||
+           arm.cut_after_transit(open.descents(effort), effort);
+  };
+  int removed = 0;
+  while (step()) ++removed;
+  return {removed, static_cast<int>(open.standing().size()), arm.at()};
+}
+
+std::vector<Arm::Descent> find_descents(const Arm& arm, const Block& block, int effort) {
+  return OpenVoxels(arm, block).descents(effort);
 }
 
 }  // namespace sculpt

@@ -113,14 +113,27 @@ Inputs read_inputs(const Job& job, Watch& watch, JobResult& result) {
   return {std::move(checked.cell), std::move(octree)};
 }
 
+/// What the planner and the replay make of the cell, each by itself: for links that are meshes that takes a while.
+struct Surroundings {
+  std::optional<Scene> scene;
+  std::vector<LinkPair> home_contacts;  ///< as the replay sees them
+
+  Surroundings(const Cell& cell, const Grid& grid, const VoxelSet& stock, const Helpers& helpers) {
+    helpers.for_each_index(2, [&](std::size_t part) {
+      if (part == 0) scene.emplace(cell, grid, stock);
+      if (part == 1) home_contacts = find_home_contacts(cell, cell.chain().joints());
+    });
+  }
+};
+
 /// Home must be free for the planner and for the replay, which find out by themselves what may touch.
-void check_home(const Scene& scene, const Cell& cell, const Configuration& home) {
-  if (const std::string contact = scene.describe_contact(home); !contact.empty())
+void check_home(const Surroundings& around, const Cell& cell, const Configuration& home) {
+  if (const std::string contact = around.scene->describe_contact(home); !contact.empty())
     throw InputError("cell_invalid", "cell '" + cell.name + "': at home " + contact +
                                          ": choose a home clear of the full stock, the room and itself");
-  if (const auto contacts = find_home_contacts(cell, scene.chain().joints()); !contacts.empty())
+  if (!around.home_contacts.empty())
     throw InputError("cell_invalid",
-                     "cell '" + cell.name + "': " + describe_home_contact(cell.robot, contacts.front()));
+                     "cell '" + cell.name + "': " + describe_home_contact(cell.robot, around.home_contacts.front()));
 }
 
 /// Fields depend on the material where it is not the whole grid: those are not kept.
@@ -159,12 +172,13 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   const auto [cell, octree] = read_inputs(job, watch, result);
 
   const Stopwatch planning;
-  Scene scene(cell, result.grid, result.voxels.stock);
+  Surroundings around(cell, result.grid, result.voxels.stock, helpers);
+  Scene& scene = *around.scene;
   const Search search = search_for(job, scene.chain());
   report.search = name(search);
   list_unchecked_links(report, scene);
   const TrajectoryHeader header = make_header(job, search, cell, scene.chain(), result.grid);
-  check_home(scene, cell, header.home);
+  check_home(around, cell, header.home);
   const VoxelSet may_fall = find_unheld(result.voxels);
   const PostureAtlas atlas(scene.chain(), result.grid, job.seed);
   Checkpoint now = kept.find_newest().value_or(Checkpoint{});

@@ -143,4 +143,29 @@ TEST(BlockOrder, StopsWhenAsked) {
 }
 
 }  // namespace
+TEST(BlockOrder, ForeseesWhatIsTriedNextWhileNothingIsRemoved) {
+  Random random(11);
+  const VoxelGrid voxels = random_grid(16, 2);
+  const Space space = make_space(voxels);
+  std::vector<int> foreseen;  // the best last
+  std::size_t most_foreseen = 0;
+  const auto robot = [&](int block, int) -> BlockTrial {
+    if (!foreseen.empty()) {
+      EXPECT_EQ(block, foreseen.back());
+      foreseen.pop_back();
+    }
+    const int size = space.octree.leaves[static_cast<std::size_t>(block)].size;
+    if (random.next() % 20 > 0) return {0, size * size * size, {0, 0, 15}};
+    foreseen.clear();
+    return {size * size * size, 0, {0, 0, 15}};
+  };
+  const auto foresee = [&](std::span<const int> blocks, int) {
+    EXPECT_TRUE(foreseen.empty());
+    foreseen.assign(blocks.begin(), blocks.end());
+    most_foreseen = std::max(most_foreseen, blocks.size());
+  };
+  order_blocks(space.octree, space.graph, {0, 0, 15}, 2, robot, {}, foresee);
+  EXPECT_GT(most_foreseen, 8u);
+}
+
 }  // namespace sculpt
