@@ -33,6 +33,7 @@ export class Stage extends EventTarget {
     this.machined = new Machined(view, (sentence) => this.#note(sentence));
     this.#forget();
     time.addEventListener('moved', () => this.#moved());
+    view.addEventListener('drawn', () => this.#on_drawn());
     view.addEventListener('picked', (event) => this.worker.postMessage({kind: 'pick', ticket: this.generation, clip: view.section, ...event.detail}));
   }
 
@@ -67,6 +68,8 @@ export class Stage extends EventTarget {
     this.pending = 0;
     /** @type {Joints | null} */
     this.joints = null;
+    /** @type {number[] | null} where they are at the end of a plan that grows */
+    this.live_joints = null;
     this.whole = true;
     /** @type {number[][] | null} */
     this.chosen = null;
@@ -85,7 +88,7 @@ export class Stage extends EventTarget {
     this.stop.abort();
     this.#forget();
     this.time.set_growing(false);
-    this.view.pages.clear();
+    this.view.shell.clear();
     this.view.draw();
   }
 
@@ -110,7 +113,7 @@ export class Stage extends EventTarget {
     await follow_timeline({connection: this.connection, job: job.job, signal}, {
       take: (bytes) => this.#add(bytes),
       start_over: () => this.#forget(),
-      joints: (values) => this.time.live && this.#pose(values),
+      joints: (values) => { this.live_joints = values; },
       is_over: () => FINAL.has(this.job.state),
     });
     if (!signal.aborted) this.#become_final();
@@ -178,13 +181,16 @@ export class Stage extends EventTarget {
     }
     this.time.add(grown);
     if (this.final && this.pending === 0) this.#show_whole();
-    else this.#ask();
+    else if (this.whole) this.#ask();
   }
 
   #on_faces(message) {
     this.busy = false;
+    this.view.go_on();
     if (message.generation === this.generation) {
       this.view.put_faces(message.chunks);
+      this.view.set_look({share: message.removed / Math.max(1, this.time.remove)});
+      if (this.live_joints && this.time.live) this.#pose(this.live_joints);
       this.shown = message.removed;
       if (message.final) this.tell_pictured();
       if (message.final && !performance.getEntriesByName(FIRST_PICTURE).length) requestAnimationFrame(() => performance.mark(FIRST_PICTURE));  // drawn by then
@@ -218,8 +224,19 @@ export class Stage extends EventTarget {
     this.#move_robot();
   }
 
-  // The newest wish only: while the worker is at one, others wait as one.
+  // The newest wish only: while the worker is at one, or its faces are drawn, others wait as one.
   #ask() {
+    if (this.view.behind) this.wanted = true;
+    else this.#ask_now();
+  }
+
+  #on_drawn() {
+    if (!this.wanted) return;
+    this.#ask_now();
+    if (this.busy) this.view.hold();
+  }
+
+  #ask_now() {
     if (!this.head) return;
     if (this.busy) {
       this.wanted = true;
@@ -228,7 +245,6 @@ export class Stage extends EventTarget {
     this.busy = true;
     this.wanted = false;
     const removed = this.time.cut;
-    this.view.set_look({share: removed / Math.max(1, this.time.remove)});
     this.worker.postMessage({kind: 'show', generation: this.generation, removed, final: this.final, chosen: this.chosen, all: this.whole});
     this.whole = false;
   }

@@ -30,7 +30,7 @@ class Finished(PageTest):
         self.assertIn("bust.stl", page.text("#jobs"))
         keyframes, removed = self.report["path"]["keyframes"], self.report["voxels"]["removed"]
         self.assertEqual(page.app("[app.time.keyframes, app.time.at, app.time.cut]"), [keyframes, keyframes, removed])
-        self.assertGreater(page.app("app.view.pages.faces"), 1000)
+        self.assertGreater(page.app("app.view.shell.faces"), 1000)
         for share in (0.5, 0, 0.93, 1):
             page.app(f"app.time.go({share} * app.time.keyframes)")
             page.settled()
@@ -170,7 +170,7 @@ class Live(PageTest):
         page.until("app.time.keyframes > 0 && app.time.live", "the first keyframes of a plan that is made")
         seen = page.app("app.time.keyframes")
         page.until(f"app.time.keyframes > {seen}")
-        self.assertGreater(page.app("app.view.pages.faces"), 0)
+        self.assertGreater(page.app("app.view.shell.faces"), 0)
         page.until("app.stage.final")
         page.settled()
         with sculpt.Client(self.daemon.address) as client:

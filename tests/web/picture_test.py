@@ -27,7 +27,7 @@ class Picture(PageTest):
             keyframe = int(share * len(after))
             removed = after[keyframe - 1] if keyframe else 0
             for place in (keyframe / 2, keyframe):  # two steps and one picture: all that changed must be in it
-                page.app(f"(app.view.waiting = true, app.time.go({place}))")
+                page.app(f"(app.view.paused = true, app.time.go({place}))")
                 page.settled()
             for axis in range(3):
                 for from_above in (False, True):

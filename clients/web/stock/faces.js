@@ -57,7 +57,7 @@ export class Standing {
    * The chunks around it must be of the same moment.
    * @param {[number, number, number]} corner
    * @param {Moment} moment
-   * @returns {Uint32Array} two words a face
+   * @returns {{faces: Uint32Array, ends: number[]}} two words a face, those of one side together; where those of each side end, in words
    */
   faces(corner, moment) {
     this.#read_rows(corner);
@@ -78,7 +78,23 @@ export class Standing {
         }
       }
     }
-    return this.found.slice(0, words);
+    return this.#by_side(words);
+  }
+
+  #by_side(words) {
+    const {found} = this, ends = [0, 0, 0, 0, 0, 0], faces = new Uint32Array(words);
+    for (let at = 1; at < words; at += 2) ends[found[at] & 7] += 2;
+    const to = [0, 0, 0, 0, 0, 0];
+    for (let side = 1; side < 6; ++side) {
+      to[side] = ends[side - 1];
+      ends[side] += ends[side - 1];
+    }
+    for (let at = 0; at < words; at += 2) {
+      const side = found[at + 1] & 7;
+      faces[to[side]++] = found[at];
+      faces[to[side]++] = found[at + 1];
+    }
+    return {faces, ends};
   }
 
   #read_rows(corner) {

@@ -1,12 +1,15 @@
-// The faces of all chunks in one buffer, drawn in one call: each chunk has pages of it, and only pages that changed go to the graphics card.
+// Faces of all chunks in one buffer, drawn in one call: each chunk has pages of it, and only pages that changed go to the graphics card.
 
 import {BufferAttribute, BufferGeometry, IntType} from '../vendor/libraries.js';
 
-const FACES = 256;           // of a page
+const FACES = 64;            // of a page
 const WORDS = FACES * 4 * 2;  // each of a face's four corners says it again: two words
 const FIRST_PAGES = 256;
 const NOTHING = 0xffffffff;
 const CORNERS = [0, 1, 2, 0, 2, 3];  // of two triangles
+
+/** @type {Map<number, BufferAttribute>} by pages: the same for all buffers */
+const corners_of = new Map();
 
 export class Pages {
   constructor() {
@@ -37,12 +40,6 @@ export class Pages {
     this.geometry.setDrawRange(0, 0);
   }
 
-  /** @param {{chunk: number, faces: Uint32Array}[]} changed */
-  put(changed) {
-    for (const {chunk, faces} of changed) this.#put_chunk(chunk, faces);
-    this.geometry.setDrawRange(0, this.used * FACES * 6);
-  }
-
   /** Before a picture: what changed since the last one, however often. */
   send() {
     if (this.changed.size === 0) return;
@@ -52,13 +49,15 @@ export class Pages {
     this.changed.clear();
   }
 
-  #put_chunk(chunk, faces) {
+  /** @param {number} chunk @param {Uint32Array} faces all that it has now, two words each */
+  put(chunk, faces) {
     const pages = this.of_chunk.get(chunk) ?? [];
     const needed = Math.ceil(faces.length / 2 / FACES);
     while (pages.length > needed) this.#release(/** @type {number} */ (pages.pop()));
     while (pages.length < needed) pages.push(this.#take());
     this.of_chunk.set(chunk, pages);
     pages.forEach((page, at) => this.#write(page, faces.subarray(at * FACES * 2, (at + 1) * FACES * 2)));
+    this.geometry.setDrawRange(0, this.used * FACES * 6);
   }
 
   #write(page, faces) {
@@ -90,14 +89,21 @@ export class Pages {
     this.pages = pages;
     this.words = new Uint32Array(pages * WORDS).fill(NOTHING);
     if (before) this.words.set(before);
-    const corners = new Uint32Array(pages * FACES * 6);
-    for (let face = 0, at = 0; face < pages * FACES; ++face) {
-      for (const corner of CORNERS) corners[at++] = 4 * face + corner;
-    }
     this.geometry.dispose();
     this.attribute = new BufferAttribute(this.words, 2);
     this.attribute.gpuType = IntType;
     this.geometry.setAttribute('face', this.attribute);
-    this.geometry.setIndex(new BufferAttribute(corners, 1));
+    this.geometry.setIndex(corners_for(pages));
   }
+}
+
+function corners_for(pages) {
+  if (!corners_of.has(pages)) {
+    const corners = new Uint32Array(pages * FACES * 6);
+    for (let face = 0, at = 0; face < pages * FACES; ++face) {
+      for (const corner of CORNERS) corners[at++] = 4 * face + corner;
+    }
+    corners_of.set(pages, new BufferAttribute(corners, 1));
+  }
+  return corners_of.get(pages);
 }

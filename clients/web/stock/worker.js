@@ -52,7 +52,7 @@ const on = {
     const begin = performance.now(), wanted = all ? [...Array(chunks.count).keys()] : chunks.between(moment.removed, removed);
     moment = {removed, final, chosen: chosen && new Set(chosen.map(([i, j, k]) => timeline.cell(i, j, k)))};
     for (const chunk of wanted) standing.update(chunks.corner(chunk), removed);
-    const made = wanted.map((chunk) => ({chunk, faces: standing.faces(chunks.corner(chunk), moment)}));
+    const made = wanted.map((chunk) => ({chunk, ...standing.faces(chunks.corner(chunk), moment)}));
     postMessage({kind: 'faces', generation, removed, final, chunks: made, made_ms: performance.now() - begin}, made.map(({faces}) => faces.buffer));
   },
 

@@ -4,12 +4,15 @@ import {
   BoxGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, GridHelper, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, NearestFilter,
   OrbitControls, OrthographicCamera, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderTarget, WebGLRenderer,
 } from '../vendor/libraries.js';
-import {Pages} from '../stock/pages.js';
 import {LOOKS, stock_material} from '../stock/material.js';
+import {Shell} from '../stock/shell.js';
+import {Draft} from './draft.js';
 import {vantage} from './vantage.js';
 
 const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
-/** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was. */
+const FENCE_MS = 4, STILL_MS = 250, SLOW_MS = 60;
+
+/** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was, `drawn` when a picture is there. */
 export class View extends EventTarget {
   /** @param {HTMLCanvasElement} canvas throws an Error where there is no WebGL 2 */
   constructor(canvas) {
@@ -28,10 +31,9 @@ export class View extends EventTarget {
     const sun = new DirectionalLight('#fff8ee', 2.1);
     sun.position.set(-1, -1.6, 2.4);
     this.scene.add(sun);
-    this.pages = new Pages();
     this.material = stock_material();
-    this.stock = new Mesh(this.pages.geometry, this.material);
-    this.stock.frustumCulled = false;
+    this.shell = new Shell(this.material);
+    this.stock = this.shell.body;
     this.grid_frame = new Group();
     this.grid_frame.add(this.stock);
     this.scene.add(this.grid_frame);
@@ -40,7 +42,19 @@ export class View extends EventTarget {
     /** @type {import('../vendor/libraries.js').Mesh | null} in the place of the stock */
     this.machined = null;
     this.edge = 0;
-    this.waiting = false;
+    this.draft = new Draft();
+    this.paused = false;    // no pictures: who measures wants faces alone
+    this.wanted = false;    // another picture
+    this.drawing = false;
+    /** @type {(() => void) | null} ends the wait for a fine picture */
+    this.wake = null;
+    /** @type {Promise<void> | null} */
+    this.held = null;
+    /** @type {(() => void) | null} */
+    this.let_go = null;
+    this.at_work = false;   // the graphics card, on a picture
+    this.is_draft = false;  // the last picture
+    this.slow = true;       // fine ones take long; the first one is a draft for those who do not know
     this.#listen();
     this.set_theme('light');
   }
@@ -102,9 +116,10 @@ export class View extends EventTarget {
     this.grid_frame.add(this.box);
   }
 
-  /** @param {{chunk: number, faces: Uint32Array}[]} changed */
+  /** @param {{chunk: number, faces: Uint32Array, ends: number[]}[]} changed */
   put_faces(changed) {
-    this.pages.put(changed);
+    if (changed.length === 0) return;
+    this.shell.put(changed);
     this.draw();
   }
 
@@ -157,27 +172,82 @@ export class View extends EventTarget {
 
   /** Draws soon; many calls, one picture. In a headset each frame is drawn anyway. */
   draw() {
-    if (this.waiting || this.renderer.xr.isPresenting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.draw_now();
+    if (this.paused || this.renderer.xr.isPresenting) return;
+    this.wanted = true;
+    if (this.drawing) this.wake?.();
+    else this.#draw_pictures();
+  }
+
+  /** No further picture is begun before it is let go: faces that it shall show are on their way. */
+  hold() {
+    this.held ??= new Promise((let_go) => { this.let_go = let_go; });
+  }
+
+  go_on() {
+    this.let_go?.();
+    this.held = this.let_go = null;
+  }
+
+  /** @returns {boolean} a picture is about to be drawn, or is drawn */
+  get behind() {
+    return !this.paused && (this.wanted || this.at_work);
+  }
+
+  // One picture at a time: if the graphics card is slow, those that are begun meanwhile would show what is old by then. It gets drafts then, and a fine
+  // picture when nothing has moved for a while.
+  async #draw_pictures() {
+    this.drawing = true;
+    while (this.wanted || this.is_draft) {
+      if (!this.wanted) await this.#rest();
+      await this.held;
+      await new Promise(requestAnimationFrame);
+      if (this.paused) break;
+      this.is_draft = this.slow && this.wanted;
+      this.wanted = false;
+      const begin = performance.now();
+      this.at_work = true;
+      this.draw_now(this.is_draft);
+      await this.#drawn();
+      this.at_work = false;
+      if (!this.is_draft) this.slow = performance.now() - begin > SLOW_MS;
+      this.#tell('drawn');
+    }
+    this.drawing = false;
+  }
+
+  // Until another picture is wanted, but not for long.
+  #rest() {
+    return new Promise((end) => {
+      this.wake = () => end(undefined);
+      setTimeout(this.wake, STILL_MS);
     });
   }
 
-  draw_now() {
-    if (this.renderer.getContext().isContextLost()) return;
-    this.#aim_section();
-    this.pages.send();
-    this.renderer.render(this.scene, this.camera);
+  // The graphics card is done with the last picture, which other programs may have held up.
+  async #drawn() {
+    const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext());
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (fence && !gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) await new Promise((next) => setTimeout(next, FENCE_MS));
+    gl.deleteSync(fence);
   }
 
-  // What the shader needs to draw the cut itself: the eye, in cells.
-  #aim_section() {
-    const {xr} = this.renderer, camera = xr.isPresenting ? xr.getCamera() : this.camera;
+  /** A picture at once. @param {boolean} is_draft without smoothed edges */
+  draw_now(is_draft = false) {
+    if (this.renderer.getContext().isContextLost()) return;
+    this.#aim();
+    this.shell.send();
+    if (is_draft) this.draft.draw(this.renderer, this.scene, this.camera);
+    else this.renderer.render(this.scene, this.camera);
+  }
+
+  // What is drawn depends on where the eye is, in cells: the cut, and which sides are seen. A headset has two eyes.
+  #aim() {
+    const {xr} = this.renderer, camera = xr.isPresenting ? xr.getCamera() : this.camera, eye = this.material.uniforms.eye.value;
     this.scene.updateMatrixWorld();
     camera.updateMatrixWorld();
-    this.material.uniforms.eye.value.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(this.stock.matrixWorld.clone().invert());
+    eye.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(this.stock.matrixWorld.clone().invert());
+    this.shell.show_to(xr.isPresenting || this.section ? null : eye, this.edge);
   }
 
   /** To the place that the picture has on the page; not while a headset has the picture. */
@@ -188,7 +258,8 @@ export class View extends EventTarget {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.draw_now();
+    this.draw_now(this.slow);
+    this.draw();
   }
 
   /** @returns {any} all that stands in the room: the cell, or without one the stock */
@@ -270,10 +341,11 @@ export class View extends EventTarget {
     camera.up.set(0, axis === 2 ? 1 : 0, axis === 2 ? 0 : 1);
     camera.position.fromArray(place);
     camera.lookAt(edge / 2, edge / 2, edge / 2);
-    const alone = new Scene(), twin = new Mesh(this.pages.geometry, this.material);
-    twin.frustumCulled = false;
+    this.shell.show_to(null, edge);
+    this.shell.send();
+    const alone = new Scene(), twin = this.stock.clone();
+    twin.visible = true;
     alone.add(twin);
-    this.pages.send();
     this.material.uniforms.bare.value = true;
     this.renderer.setRenderTarget(target);
     this.renderer.setClearColor('#000000', 0);
