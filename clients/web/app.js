@@ -38,13 +38,13 @@ class App {
     this.on_stage = '';
     this.residue = null;
     this.wish = {job: link.get('job'), at: link.has('at') ? Number(link.get('at')) : null, place: link.get('view')};
+    this.connection.open();  // it is heard of when all of this is done
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
     this.#offer_layers();
     this.apply_layers();
     this.take_along = new TakeAlong(this);
-    this.connection.open();
   }
 
   #make_view() {

@@ -26,7 +26,9 @@ class Picture(PageTest):
         for share in (0, 0.02, 0.4, 0.8, 1):
             keyframe = int(share * len(after))
             removed = after[keyframe - 1] if keyframe else 0
-            for place in (keyframe / 2, keyframe):  # two steps and one picture: all that changed must be in it
+            # Two steps, and a picture between them in which some sides are hidden: all that changed must be in the next ones.
+            for place in (keyframe / 2, keyframe):
+                page.app("app.view.draw_now()")
                 page.app(f"(app.view.paused = true, app.time.go({place}))")
                 page.settled()
             for axis in range(3):

@@ -40,12 +40,16 @@ export class Pages {
     this.geometry.setDrawRange(0, 0);
   }
 
-  /** Before a picture: what changed since the last one, however often. */
+  /** Before a picture: what changed since the last one that they were in, however often. */
   send() {
     if (this.changed.size === 0) return;
     this.attribute.clearUpdateRanges();
     for (const page of this.changed) this.attribute.addUpdateRange(page * WORDS, WORDS);
     this.attribute.needsUpdate = true;
+  }
+
+  /** They are in a picture, so the graphics card has them. */
+  sent() {
     this.changed.clear();
   }
 

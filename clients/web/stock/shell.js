@@ -12,10 +12,11 @@ export class Shell {
     this.meshes = this.sides.map(({geometry}) => new Mesh(geometry, material));
     /** in cells */
     this.body = new Group();
-    for (const mesh of this.meshes) {
+    this.meshes.forEach((mesh, side) => {
       mesh.frustumCulled = false;
+      mesh.onAfterRender = () => this.sides[side].sent();
       this.body.add(mesh);
-    }
+    });
   }
 
   /** @returns {number} room for faces that is taken */

@@ -10,7 +10,7 @@ import {Draft} from './draft.js';
 import {vantage} from './vantage.js';
 
 const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
-const FENCE_MS = 4, STILL_MS = 250, SLOW_MS = 60;
+const FENCE_MS = 4, STILL_MS = 150, SLOW_MS = 60, FEW_FACES = 50_000;
 
 /** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was, `drawn` when a picture is there. */
 export class View extends EventTarget {
@@ -54,7 +54,7 @@ export class View extends EventTarget {
     this.let_go = null;
     this.at_work = false;   // the graphics card, on a picture
     this.is_draft = false;  // the last picture
-    this.slow = true;       // fine ones take long; the first one is a draft for those who do not know
+    this.swift = FEW_FACES; // so many are drawn finely in no time
     this.#listen();
     this.set_theme('light');
   }
@@ -190,29 +190,41 @@ export class View extends EventTarget {
 
   /** @returns {boolean} a picture is about to be drawn, or is drawn */
   get behind() {
-    return !this.paused && (this.wanted || this.at_work);
+    return !this.paused && !this.renderer.xr.isPresenting && (this.wanted || this.at_work);
   }
 
   // One picture at a time: if the graphics card is slow, those that are begun meanwhile would show what is old by then. It gets drafts then, and a fine
   // picture when nothing has moved for a while.
   async #draw_pictures() {
     this.drawing = true;
-    while (this.wanted || this.is_draft) {
-      if (!this.wanted) await this.#rest();
-      await this.held;
-      await new Promise(requestAnimationFrame);
-      if (this.paused) break;
-      this.is_draft = this.slow && this.wanted;
-      this.wanted = false;
-      const begin = performance.now();
-      this.at_work = true;
-      this.draw_now(this.is_draft);
-      await this.#drawn();
-      this.at_work = false;
-      if (!this.is_draft) this.slow = performance.now() - begin > SLOW_MS;
-      this.#tell('drawn');
+    try {
+      while (this.wanted || this.is_draft) {
+        if (!this.wanted) await this.#rest();
+        await this.held;
+        await new Promise(requestAnimationFrame);
+        if (this.paused) break;
+        await this.#draw_one();
+        this.#tell('drawn');
+      }
+    } finally {
+      this.drawing = this.at_work = false;
     }
-    this.drawing = false;
+  }
+
+  async #draw_one() {
+    const begin = performance.now();
+    this.is_draft = this.wanted && this.shell.faces > this.swift;
+    this.wanted = false;
+    this.at_work = true;
+    this.draw_now(this.is_draft);
+    await this.#drawn();
+    this.at_work = false;
+    if (!this.is_draft) this.#learn(performance.now() - begin);
+  }
+
+  #learn(fine_ms) {
+    const {faces} = this.shell;
+    this.swift = fine_ms > SLOW_MS ? Math.min(this.swift, faces / 2) : Math.max(this.swift, faces);
   }
 
   // Until another picture is wanted, but not for long.
@@ -258,7 +270,7 @@ export class View extends EventTarget {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.draw_now(this.slow);
+    this.draw_now(this.shell.faces > this.swift);
     this.draw();
   }
 
