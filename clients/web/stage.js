@@ -1,4 +1,5 @@
-// The chosen job in the 3D view: its timeline by the worker, its robot, and both at the place of the time bar.
+// The chosen job in the 3D view: its timeline by the worker, its robot, and both at the place of the time bar; above 300 lines, for what is on its way to
+// and from the worker is of one job, and all of it is forgotten with the job.
 
 import {FINAL} from './panels/queue.js';
 import {Joints} from './plan/joints.js';
@@ -186,7 +187,7 @@ export class Stage extends EventTarget {
 
   #on_faces(message) {
     this.busy = false;
-    this.view.go_on();
+    this.view.pictures.go_on();
     if (message.generation === this.generation) {
       this.view.put_faces(message.chunks);
       this.view.set_look({share: message.removed / Math.max(1, this.time.remove)});
@@ -226,14 +227,14 @@ export class Stage extends EventTarget {
 
   // The newest wish only: while the worker is at one, or its faces are drawn, others wait as one.
   #ask() {
-    if (this.view.behind) this.wanted = true;
+    if (this.view.pictures.behind) this.wanted = true;
     else this.#ask_now();
   }
 
   #on_drawn() {
     if (!this.wanted) return;
     this.#ask_now();
-    if (this.busy) this.view.hold();
+    if (this.busy) this.view.pictures.hold();
   }
 
   #ask_now() {

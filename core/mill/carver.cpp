@@ -144,14 +144,16 @@ bool Carver::hold(std::size_t number, const Site& site, const PostureField& fiel
 }
 
 void Carver::draw_back(const Site& site) {
+  bool may_hop = true;
   while ((tip(site) - hub_).norm() > same_tip_m) {
     for (const double min_height : {-std::numeric_limits<double>::infinity(), hub_.z()}) {
       std::vector<MillStroke> strokes;
       hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);
-      if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes() == strokes.size()) {
-        remove(followed);
+      if (FollowedMill followed = arm_.try_strokes(strokes); may_hop && followed.strokes() == strokes.size()) {
+        remove(followed);  // it ends before what would come loose
+        may_hop = followed.strokes() == strokes.size();
         go(std::move(followed));
-        return;
+        if (may_hop) return;
       }
     }
     if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");

@@ -29,7 +29,7 @@ class Picture(PageTest):
             # Two steps, and a picture between them in which some sides are hidden: all that changed must be in the next ones.
             for place in (keyframe / 2, keyframe):
                 page.app("app.view.draw_now()")
-                page.app(f"(app.view.paused = true, app.time.go({place}))")
+                page.app(f"(app.view.pictures.paused = true, app.time.go({place}))")
                 page.settled()
             for axis in range(3):
                 for from_above in (False, True):

@@ -7,10 +7,10 @@ import {
 import {LOOKS, stock_material} from '../stock/material.js';
 import {Shell} from '../stock/shell.js';
 import {Draft} from './draft.js';
+import {Pictures} from './pictures.js';
 import {vantage} from './vantage.js';
 
 const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
-const FENCE_MS = 4, STILL_MS = 150, SLOW_MS = 60, FEW_FACES = 50_000;
 
 /** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was, `drawn` when a picture is there. */
 export class View extends EventTarget {
@@ -43,18 +43,7 @@ export class View extends EventTarget {
     this.machined = null;
     this.edge = 0;
     this.draft = new Draft();
-    this.paused = false;    // no pictures: who measures wants faces alone
-    this.wanted = false;    // another picture
-    this.drawing = false;
-    /** @type {(() => void) | null} ends the wait for a fine picture */
-    this.wake = null;
-    /** @type {Promise<void> | null} */
-    this.held = null;
-    /** @type {(() => void) | null} */
-    this.let_go = null;
-    this.at_work = false;   // the graphics card, on a picture
-    this.is_draft = false;  // the last picture
-    this.swift = FEW_FACES; // so many are drawn finely in no time
+    this.pictures = new Pictures(this);
     this.#listen();
     this.set_theme('light');
   }
@@ -65,10 +54,7 @@ export class View extends EventTarget {
       event.preventDefault();
       this.#tell('lost');
     });
-    this.canvas.addEventListener('webglcontextrestored', () => {
-      this.#tell('restored');
-      this.draw();
-    });
+    this.canvas.addEventListener('webglcontextrestored', () => { this.#tell('restored'); this.draw(); });
     let down = null;
     this.canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
     this.canvas.addEventListener('pointerup', (event) => {
@@ -171,78 +157,7 @@ export class View extends EventTarget {
   }
 
   /** Draws soon; many calls, one picture. In a headset each frame is drawn anyway. */
-  draw() {
-    if (this.paused || this.renderer.xr.isPresenting) return;
-    this.wanted = true;
-    if (this.drawing) this.wake?.();
-    else this.#draw_pictures();
-  }
-
-  /** No further picture is begun before it is let go: faces that it shall show are on their way. */
-  hold() {
-    this.held ??= new Promise((let_go) => { this.let_go = let_go; });
-  }
-
-  go_on() {
-    this.let_go?.();
-    this.held = this.let_go = null;
-  }
-
-  /** @returns {boolean} a picture is about to be drawn, or is drawn */
-  get behind() {
-    return !this.paused && !this.renderer.xr.isPresenting && (this.wanted || this.at_work);
-  }
-
-  // One picture at a time: if the graphics card is slow, those that are begun meanwhile would show what is old by then. It gets drafts then, and a fine
-  // picture when nothing has moved for a while.
-  async #draw_pictures() {
-    this.drawing = true;
-    try {
-      while (this.wanted || this.is_draft) {
-        if (!this.wanted) await this.#rest();
-        await this.held;
-        await new Promise(requestAnimationFrame);
-        if (this.paused) break;
-        await this.#draw_one();
-        this.#tell('drawn');
-      }
-    } finally {
-      this.drawing = this.at_work = false;
-    }
-  }
-
-  async #draw_one() {
-    const begin = performance.now();
-    this.is_draft = this.wanted && this.shell.faces > this.swift;
-    this.wanted = false;
-    this.at_work = true;
-    this.draw_now(this.is_draft);
-    await this.#drawn();
-    this.at_work = false;
-    if (!this.is_draft) this.#learn(performance.now() - begin);
-  }
-
-  #learn(fine_ms) {
-    const {faces} = this.shell;
-    this.swift = fine_ms > SLOW_MS ? Math.min(this.swift, faces / 2) : Math.max(this.swift, faces);
-  }
-
-  // Until another picture is wanted, but not for long.
-  #rest() {
-    return new Promise((end) => {
-      this.wake = () => end(undefined);
-      setTimeout(this.wake, STILL_MS);
-    });
-  }
-
-  // The graphics card is done with the last picture, which other programs may have held up.
-  async #drawn() {
-    const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext());
-    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
-    while (fence && !gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) await new Promise((next) => setTimeout(next, FENCE_MS));
-    gl.deleteSync(fence);
-  }
+  draw() { this.pictures.want(); }
 
   /** A picture at once. @param {boolean} is_draft without smoothed edges */
   draw_now(is_draft = false) {
@@ -270,7 +185,7 @@ export class View extends EventTarget {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.draw_now(this.shell.faces > this.swift);
+    this.draw_now(this.pictures.are_slow);
     this.draw();
   }
 

@@ -201,7 +201,7 @@ LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip)
   if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}))
     return {*tip, begin};
   for (LevelPass& way : ways_into(row))
-    if (is_open(way.front()) && may_cut(way)) return std::move(way);
+    if (is_open(way.front()) && may_cut(way) && task_.comes_down(way.front())) return std::move(way);
   return {};
 }
 

@@ -7,6 +7,7 @@
 // transform toward high speed machining of pockets", 2005).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct ClearingTask {
   /// Of the depth of cut: what stands higher than this above the level is to come off, the rest are cusps.
   double cusp_share = 0;
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
+  /// May the tip come down to the level there, from where it is now?
+  std::function<bool(const Point2&)> comes_down;
 };
 
 /// Edges at the height of the level. The first place is in the open, or where the tip is.

@@ -1,7 +1,9 @@
 #include "core/mill/rough/rough_stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/mill/drive/hop.hpp"
 #include "core/mill/rough/roughing.hpp"
@@ -126,12 +128,18 @@ class RoughStage {
   void rough_level_along(Site& site, StockTop& surface, double height) {
     if (!is_worth_it(site, surface, height)) return;
     site.see(stock().standing(), job_.grid, run_.helpers);
-    std::vector<char> free = free_cells(site, height, [this](const Vec3& at) { return carver_.reach().allows(at); });
-    double min_height = height;
+    const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
+    std::vector<char> free = free_cells(site, height, reachable);
+    std::array min_heights{height, carver_.hub().z()};
+    bool is_drawn_back = false;
     for (int rounds = 0, failures = 0; rounds < max_rounds && failures < max_failures;) {
-      const std::vector<MillStroke> strokes = rough_level(
-          site, {tool(), height, cusp_share, free}, {carver_.tip(site), min_height, stray_m()}, surface, run_.helpers);
-      if (strokes.empty()) return;
+      const auto [strokes, is_cut_off] = rough_level(
+          site, {tool(), height, free}, {carver_.tip(site), min_heights, stray_m(), reachable}, surface, run_.helpers);
+      if (strokes.empty()) {
+        if (!is_cut_off || std::exchange(is_drawn_back, true)) return;
+        carver_.draw_back(site);  // from above everything it may come there
+        continue;
+      }
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) {
         surface.lower_to(tops_to_cut(site));
@@ -140,7 +148,7 @@ class RoughStage {
       }
       ++failures;
       // Not there, then, and what was to come after it is planned anew.
-      if (!strokes[done].cut) min_height = carver_.hub().z();
+      if (!strokes[done].cut) min_heights[0] = carver_.hub().z();
       const Vec3 refused = site.frame().of(strokes[done].tip_m);
       for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
                          [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });

@@ -1,7 +1,9 @@
 #include "core/mill/rough/roughing.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/mill/drive/hop.hpp"
 
@@ -27,21 +29,51 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
 
 namespace {
 
+/// How far apart places are at which the robot is asked whether it holds the tip.
+constexpr double asked_m = 5e-3;
+
+/// The way over, by the first of the heights that the robot can go; nothing if there is none.
+std::vector<MillStroke> way_over(const Site& site, const LevelWays& ways, const Vec3& from, const Vec3& to) {
+  const auto is_reachable = [&](const std::vector<MillStroke>& strokes) {
+    Vec3 at = from;
+    return std::ranges::all_of(strokes, [&](const MillStroke& stroke) {
+      const Vec3 begin = std::exchange(at, site.frame().of(stroke.tip_m));
+      const int steps = std::max(1, static_cast<int>(std::ceil((at - begin).norm() / asked_m)));
+      for (int step = 1; step <= steps; ++step)
+        if (!ways.reachable(begin + (at - begin) * step / steps)) return false;
+      return true;
+    });
+  };
+  for (const double min_height : ways.min_heights) {
+    std::vector<MillStroke> strokes;
+    hop(site, from, to, min_height, ways.stray_m, strokes);
+    if (is_reachable(strokes)) return strokes;
+  }
+  return {};
+}
+
 struct LevelPlan {
   std::vector<MillStroke> strokes;
   double length_m = 0, taken_m3 = 0;
+  bool is_cut_off = false;
 };
 
-LevelPlan plan_level(const Site& site, const ClearingTask& level, RowLayout layout, const LevelWays& ways,
+LevelPlan plan_level(const Site& site, const RoughLevel& level, RowLayout layout, const LevelWays& ways,
                      StockTop& surface) {
   LevelPlan plan;
   const double height = level.height;
-  Clearing clearing(level, layout, surface);
-  if (clearing.volume_to_clear() < min_pass_m3(level.tool)) return plan;
   Vec3 tip = ways.from;
+  std::vector<MillStroke> over;
+  const auto comes_down = [&](const Point2& at) {
+    over = way_over(site, ways, tip, {at.x(), at.y(), height});
+    plan.is_cut_off = plan.is_cut_off || over.empty();
+    return !over.empty();
+  };
+  Clearing clearing({level.tool, height, cusp_share, level.is_free, comes_down}, layout, surface);
+  if (clearing.volume_to_clear() < min_pass_m3(level.tool)) return plan;
   while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
     const Vec3 begin(pass->front().x(), pass->front().y(), height);
-    if (tip != begin) hop(site, tip, begin, ways.min_height, ways.stray_m, plan.strokes);
+    if (tip != begin) std::ranges::move(over, std::back_inserter(plan.strokes));
     for (std::size_t edge = 1; edge < pass->size(); ++edge)
       plan.strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, ways.stray_m});
     tip = {pass->back().x(), pass->back().y(), height};
@@ -57,8 +89,8 @@ LevelPlan plan_level(const Site& site, const ClearingTask& level, RowLayout layo
 
 }  // namespace
 
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, const LevelWays& ways,
-                                    StockTop& surface, const Helpers& helpers) {
+LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
+                         const Helpers& helpers) {
   constexpr std::array layouts{RowLayout::around, RowLayout::along_u, RowLayout::along_v};
   std::vector<StockTop> left(layouts.size(), surface);
   std::vector<LevelPlan> plans(layouts.size());
@@ -68,7 +100,7 @@ std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level,
   const auto best = std::ranges::max_element(
       plans, {}, [](const LevelPlan& plan) { return plan.strokes.empty() ? 0 : plan.taken_m3 / plan.length_m; });
   surface = std::move(left[static_cast<std::size_t>(best - plans.begin())]);
-  return std::move(best->strokes);
+  return {std::move(best->strokes), best->is_cut_off};
 }
 
 }  // namespace sculpt

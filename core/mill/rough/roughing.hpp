@@ -1,6 +1,7 @@
 // Roughing along one direction: level by level from the top, as deep as the tool comes.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -18,6 +19,13 @@ inline double min_pass_m3(const MillTool& tool) {
   return 2 * 2 * tool.cutter.radius_m * tool.max_depth_m * tool.max_width_m;
 }
 
+/// What of a level is cut with what.
+struct RoughLevel {
+  const MillTool& tool;
+  double height = 0;                 ///< of the tip
+  const std::vector<char>& is_free;  ///< by cell: may the tip be there?
+};
+
 /// Where the robot can hold the tip (tool frame).
 using IsReachable = std::function<bool(const Vec3& tip)>;
 
@@ -26,14 +34,20 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
 
 /// How the strokes of a level are joined.
 struct LevelWays {
-  Vec3 from;              ///< where the tip is (tool frame, in the air or anywhere at rest)
-  double min_height = 0;  ///< of ways over from pass to pass
-  double stray_m = 0;     ///< of strokes that cut
+  Vec3 from;                          ///< where the tip is (tool frame, in the air or anywhere at rest)
+  std::array<double, 2> min_heights;  ///< of ways over from pass to pass: the first that the robot can go counts
+  double stray_m = 0;                 ///< of strokes that cut
+  IsReachable reachable;
+};
+
+struct LevelStrokes {
+  std::vector<MillStroke> strokes;
+  bool is_cut_off = false;  ///< there was a pass that the robot cannot come over to from where the tip was
 };
 
 /// The strokes of one level, in the layout of rows that takes off most for its length; nothing if the level has nothing
 /// that the tool can take off. `surface` loses what they cut.
-std::vector<MillStroke> rough_level(const Site& site, const ClearingTask& level, const LevelWays& ways,
-                                    StockTop& surface, const Helpers& helpers);
+LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
+                         const Helpers& helpers);
 
 }  // namespace sculpt

@@ -80,5 +80,16 @@ TEST(FreedPieces, AreFoundByTheReplay) {
   EXPECT_GT(loose_pieces(verdict), 0u);
 }
 
+/// Once the arm left for home from where the way back to its hub was cut short, as it would have freed a piece.
+TEST(FreedPieces, AWayBackThatWouldFreeOneIsGoneAnotherWay) {
+  Job job = milled::make_job("vase", n, {"D20"});
+  job.threads = 2;
+  Report report;
+  plan(job, report);
+  for (const std::string& finding : report.findings) std::cout << finding << "\n";
+  EXPECT_TRUE(report.verify.clean) << "plan " << report.plan_sha256;
+  EXPECT_EQ(report.voxels.freed, 0u);
+}
+
 }  // namespace
 }  // namespace sculpt

@@ -66,7 +66,7 @@ class Engagement {
 Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured, double height,
                     const std::vector<char>& free, RowLayout layout) {
   Cleared cleared;
-  Clearing clearing({tool, height, 0.35, free}, layout, surface);
+  Clearing clearing({tool, height, 0.35, free, [](const Point2&) { return true; }}, layout, surface);
   Point2 at(-0.075, -0.075);
   bool is_down = false;
   Engagement engagement(tool);
