@@ -94,7 +94,7 @@ struct Sweeping {
   Configuration start() const {
     return solve_ik(scene.chain(), {view.ball_m(grid, hub()), view.axis()}, cell.home(scene.chain())).value();
   }
-  PostureField field() const { return {scene, view, start(), 1, {}}; }
+  PostureField field() const { return {scene, view, PostureLattice::Start{start()}, Helpers(1), {}}; }
 
   int n;
   Job job;
