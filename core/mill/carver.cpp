@@ -147,9 +147,10 @@ void Carver::draw_back(const Site& site) {
   bool may_hop = true;
   while ((tip(site) - hub_).norm() > same_tip_m) {
     for (const double min_height : {-std::numeric_limits<double>::infinity(), hub_.z()}) {
+      if (!may_hop) break;
       std::vector<MillStroke> strokes;
       hop(site, tip(site), hub_, min_height, job_.wishes.stray_m(), strokes);
-      if (FollowedMill followed = arm_.try_strokes(strokes); may_hop && followed.strokes() == strokes.size()) {
+      if (FollowedMill followed = arm_.try_strokes(strokes); followed.strokes() == strokes.size()) {
         remove(followed);  // it ends before what would come loose
         may_hop = followed.strokes() == strokes.size();
         go(std::move(followed));
