@@ -4,6 +4,7 @@
     tests/fleet/with_postgres tests/fleet/outage_test.py
 """
 
+import contextlib
 import os
 import pathlib
 import socket
@@ -60,9 +61,12 @@ class Proxy:
             while data := source.recv(65536):
                 if number > self.frozen:
                     target.sendall(data)
-            target.close()
         except OSError:
             pass
+        if number > self.frozen:
+            for end in (source, target):
+                with contextlib.suppress(OSError):  # it is closed
+                    end.shutdown(socket.SHUT_RDWR)  # close() is not seen while another thread reads
 
 
 class Fleet(unittest.TestCase):
