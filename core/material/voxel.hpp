@@ -11,7 +11,7 @@ namespace sculpt {
 
 struct Voxel {
   int i = 0, j = 0, k = 0;
-  auto operator<=>(const Voxel&) const = default;
+  auto operator<=>(const Voxel&) const = default;  // NOLINT(modernize-use-nullptr): what 14 says of it is wrong
   Voxel operator+(Voxel o) const { return {i + o.i, j + o.j, k + o.k}; }
   Voxel operator-(Voxel o) const { return {i - o.i, j - o.j, k - o.k}; }
   Voxel operator*(int s) const { return {i * s, j * s, k * s}; }
