@@ -1,5 +1,6 @@
 // The page: joins connection, queue, 3D view and panels, and keeps the address up to date.
 
+import {connection, link, worker} from './ahead.js';
 import {by_selector, by_id, make} from './dom.js';
 import {ask_token, show_help} from './panels/dialogs.js';
 import {read_residue, show_job_head} from './panels/job_head.js';
@@ -14,58 +15,54 @@ import {SubmitForm, take_drops} from './panels/submit.js';
 import {show_tab, start_tabs} from './panels/tabs.js';
 import {TimeBar} from './panels/time_bar.js';
 import {listen_to_keys} from './keys.js';
+import {read_link, write_link} from './link.js';
 import {Stage, sentence_of} from './stage.js';
 import {TakeAlong} from './take_along.js';
 import {View} from './view/view.js';
-import {Connection} from './wire/connection.js';
-import {take_token_of_address} from './wire/token.js';
 
 const RANK = {read: 0, submit: 1, admin: 2};
+const FIRST_PICTURE_MS = 1500;  // until then nothing is drawn that the job of a link is not in
 
 class App {
   constructor() {
-    take_token_of_address();
-    const link = new URLSearchParams(location.hash.slice(1));
-    this.connection = new Connection();
+    this.wish = link;
+    this.connection = connection;
     this.queue = new Queue(this.connection);
     this.time = new TimeBar();
     this.plots = new Plots();
     this.form = new SubmitForm(this.connection, (job) => this.choose(job, {at: null, place: null}));
-    this.layers = {...FIRST, look: link.get('look') ?? FIRST.look};
+    this.layers = {...FIRST, look: this.wish.look ?? FIRST.look};
     this.scope = 'read';
     this.chosen = '';
     /** the chosen job once the server has said what it is */
     this.on_stage = '';
     this.residue = null;
-    this.wish = {job: link.get('job'), at: link.has('at') ? Number(link.get('at')) : null, place: link.get('view')};
-    this.connection.open();  // it is heard of when all of this is done
+    by_id('time').hidden = !link.job;  // it takes its place before the picture has its own
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
     this.#offer_layers();
     this.apply_layers();
     this.take_along = new TakeAlong(this);
+    connection.tell_again();
   }
 
   #make_view() {
     try {
       this.view = new View(by_id('canvas'));
     } catch (error) {
+      worker.terminate();
       by_id('stage-note').textContent = `This browser gives no WebGL 2, so there is no picture; everything else works. (${error.message})`;
       return;
     }
-    this.stage = new Stage(this.view, this.time, this.connection);
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const set_theme = () => this.view.set_theme(dark.matches ? 'dark' : 'light');
-    dark.addEventListener('change', set_theme);
-    set_theme();
+    if (link.job) this.view.pictures.hold(FIRST_PICTURE_MS);
+    this.stage = new Stage(this.view, worker, this.time, this.connection);
     this.view.addEventListener('lost', () => this.say('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
     this.view.addEventListener('restored', () => this.say(''));
     this.view.addEventListener('moved', () => this.#write_address());
     this.stage.addEventListener('note', (event) => { by_id('stage-note').textContent = event.detail; });
     this.stage.addEventListener('started', () => {
       by_id('time').hidden = false;
-      by_id('stage-note').textContent = '';
       this.#offer_layers();
       this.apply_layers();
     });
@@ -81,7 +78,7 @@ class App {
   }
 
   #listen() {
-    const {connection, queue} = this;
+    const {queue} = this;
     connection.addEventListener('open', (event) => this.#on_open(event.detail));
     connection.addEventListener('lost', (event) => {
       by_id('server').className = '';
@@ -104,9 +101,8 @@ class App {
     by_id('pause-queue').addEventListener('click', () => this.#toggle_queue());
     for (const button of by_selector('[data-view]')) button.addEventListener('click', () => this.view?.look_from(button.dataset.view));
     addEventListener('hashchange', () => {
-      const link = new URLSearchParams(location.hash.slice(1));
-      const job = link.get('job');
-      if (job && job !== this.chosen) this.choose(job, {at: link.has('at') ? Number(link.get('at')) : null, place: link.get('view')});
+      const {job, at, place} = read_link();
+      if (job && job !== this.chosen) this.choose(job, {at, place});
     });
     take_drops((file) => this.#open_form(file), () => this.may('submit'));
     listen_to_keys(this);
@@ -124,17 +120,23 @@ class App {
     by_id('new-job').hidden = !this.may('submit');
     by_id('pause-queue').hidden = !this.may('admin');
     this.say('');
+    const shown = this.on_stage, {job, at, place} = this.wish;
     try {
-      await this.queue.start();
+      const listed = this.queue.start();
+      if (!shown && job) this.choose(job, {at, place});  // the picture does not wait for the list
+      await listed;
       if (this.may('admin')) this.#show_queue_state((await this.connection.call('server.info')).queue_paused);
-      const {job, at, place} = this.wish;
-      if (this.on_stage) await this.queue.look_up(this.on_stage);
-      else if (job) await this.choose(job, {at, place});
-      else if (this.queue.jobs.size) await this.choose([...this.queue.jobs.keys()].sort().at(-1), {at: null, place: null});
-      else by_id('stage-note').textContent = this.may('submit') ? 'Drop a mesh anywhere to make a job of it.' : 'There are no jobs yet.';
+      if (shown) await this.queue.look_up(shown);
+      else if (!job) await this.#choose_newest();
     } catch (error) {
       this.say(error.message);
     }
+  }
+
+  async #choose_newest() {
+    const newest = [...this.queue.jobs.keys()].sort().at(-1);
+    if (newest) await this.choose(newest, {at: null, place: null});
+    else by_id('stage-note').textContent = this.may('submit') ? 'Drop a mesh anywhere to make a job of it.' : 'There are no jobs yet.';
   }
 
   /** @param {string} id @param {{at: number | null, place: string | null}} wish */
@@ -286,11 +288,10 @@ class App {
 
   #write_address() {
     if (!this.chosen) return;
-    const fields = new URLSearchParams({job: this.chosen});
-    if (this.time.keyframes && this.time.at < this.time.keyframes && !this.time.growing) fields.set('at', (this.time.at / this.time.keyframes).toFixed(6));
-    if (this.stage?.viewed) fields.set('view', this.view.place);
-    if (this.layers.look !== FIRST.look) fields.set('look', this.layers.look);
-    history.replaceState(null, '', `#${fields}`);
+    const {time, stage, view, layers} = this, between = time.keyframes && time.at < time.keyframes && !time.growing;
+    write_link({
+      job: this.chosen, at: between ? time.at / time.keyframes : null, place: stage?.viewed ? view.place : null, look: layers.look === FIRST.look ? null : layers.look,
+    });
   }
 }
 

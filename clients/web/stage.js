@@ -9,17 +9,21 @@ import {Path} from './view/path.js';
 import {Robot} from './view/robot.js';
 import {count} from './dom.js';
 
+const LOADING = 'Loading\u2026';
 const FIRST_PICTURE = 'first picture';  // of a finished plan: a mark for who measures
 
 /** Events: `note` with a sentence for the middle of the picture, `started` when the grid is known, `picked` with what the worker found. */
 export class Stage extends EventTarget {
-  /** @param {import('./view/view.js').View} view @param {import('./panels/time_bar.js').TimeBar} time @param {import('./wire/connection.js').Connection} connection */
-  constructor(view, time, connection) {
+  /**
+   * @param {import('./view/view.js').View} view @param {Worker} worker stock/worker.js
+   * @param {import('./panels/time_bar.js').TimeBar} time @param {import('./wire/connection.js').Connection} connection
+   */
+  constructor(view, worker, time, connection) {
     super();
     this.view = view;
     this.time = time;
     this.connection = connection;
-    this.worker = new Worker('/ui/stock/worker.js', {type: 'module'});
+    this.worker = worker;
     this.worker.onmessage = (message) => this.#on_worker(message.data);
     this.worker.onerror = (event) => this.#note(`The picture of the stock cannot be made: ${event.message}`);
     this.busy = false;
@@ -48,7 +52,7 @@ export class Stage extends EventTarget {
       return this.#note(`This job is ${job.state}, so there is nothing to see.`);
     if (['held', 'queued', 'backoff', 'paused'].includes(job.state) && !job.started_at)
       return this.#note(`This job is ${job.state}: it is shown here as soon as it is planned.`);
-    this.#note('Loading\u2026');
+    this.#note(LOADING);
     this.#load_robot(job, signal);
     try {
       if (FINAL.has(job.state)) await this.#load_finished(job, signal);
@@ -66,6 +70,7 @@ export class Stage extends EventTarget {
     this.head = null;
     this.machined.show(null);
     this.final = false;
+    this.ends_in = Infinity;  // the picture in which the end of a finished plan is seen
     this.pending = 0;
     /** @type {Joints | null} */
     this.joints = null;
@@ -177,12 +182,11 @@ export class Stage extends EventTarget {
       this.head = grown.head;
       this.view.set_grid(grown.head.header, grown.head.edge);
       this.time.remove = grown.head.voxels.remove;
-      this.#note('');
       this.dispatchEvent(new CustomEvent('started'));
     }
     this.time.add(grown);
     if (this.final && this.pending === 0) this.#show_whole();
-    else if (this.whole) this.#ask();
+    else if (this.whole && this.time.growing) this.#ask();
   }
 
   #on_faces(message) {
@@ -193,8 +197,8 @@ export class Stage extends EventTarget {
       this.view.set_look({share: message.removed / Math.max(1, this.time.remove)});
       if (this.live_joints && this.time.live) this.#pose(this.live_joints);
       this.shown = message.removed;
-      if (message.final) this.tell_pictured();
-      if (message.final && !performance.getEntriesByName(FIRST_PICTURE).length) requestAnimationFrame(() => performance.mark(FIRST_PICTURE));  // drawn by then
+      this.ends_in = message.final ? this.view.pictures.begun + 1 : Infinity;
+      if (this.said === LOADING) this.#note('');
       this.dispatchEvent(new CustomEvent('shown', {detail: {made_ms: message.made_ms}}));
     }
     if (this.wanted) this.#ask();
@@ -232,9 +236,15 @@ export class Stage extends EventTarget {
   }
 
   #on_drawn() {
+    if (this.view.pictures.begun >= this.ends_in) this.#on_pictured();
     if (!this.wanted) return;
     this.#ask_now();
     if (this.busy) this.view.pictures.hold();
+  }
+
+  #on_pictured() {
+    this.tell_pictured();
+    if (!performance.getEntriesByName(FIRST_PICTURE).length) performance.mark(FIRST_PICTURE);
   }
 
   #ask_now() {
@@ -305,6 +315,7 @@ export class Stage extends EventTarget {
   }
 
   #note(text) {
+    this.said = text;
     this.dispatchEvent(new CustomEvent('note', {detail: text}));
   }
 }

@@ -4,6 +4,30 @@ import {get} from '../wire/token.js';
 
 const PIECE = 1 << 20, PAUSE_MS = 120, LAST_LINES = 4096;
 
+/** @type {{job: string, answer: Promise<Response | null>} | null} */
+let ahead = null;
+
+/**
+ * The timeline of a job that a link names is most likely wanted: it is asked for before the server is greeted. Where that
+ * is in vain (the job is not finished) it is asked for again when it is read.
+ * @param {string} job
+ */
+export function ask_ahead(job) {
+  ahead = {job, answer: ask(job).catch(() => null)};
+}
+
+const ask = (job) => get(`/v1/artifacts/${job}/timeline?format=gzip`);
+
+/** @param {string} job @returns {Promise<Response | null>} */
+async function asked_ahead(job) {
+  const asked = ahead;
+  ahead = null;
+  const answer = await asked?.answer;
+  if (asked?.job === job) return answer ?? null;
+  answer?.body?.cancel();
+  return null;
+}
+
 /**
  * A finished one: packed, in one go.
  * @param {string} job
@@ -11,7 +35,7 @@ const PIECE = 1 << 20, PAUSE_MS = 120, LAST_LINES = 4096;
  * @param {AbortSignal} signal
  */
 export async function read_timeline(job, take, signal) {
-  const response = await get(`/v1/artifacts/${job}/timeline?format=gzip`);
+  const response = await asked_ahead(job) ?? await ask(job);
   const reader = response.body.pipeThrough(new DecompressionStream('gzip')).getReader();
   for (;;) {
     const {done, value} = await reader.read();

@@ -7,7 +7,7 @@ export class Pictures {
   #wanted = false;
   #drawing = false;
   #at_work = false;         // the graphics card
-  #swift_faces = FEW_FACES; // so many are drawn finely in no time
+  #swift_faces = 0;         // so many are drawn finely in no time, as far as is known: the first picture is a draft
   /** @type {(() => void) | null} ends the wait for a fine picture */
   #wake = null;
   /** @type {Promise<void> | null} */
@@ -20,6 +20,7 @@ export class Pictures {
     this.view = view;
     this.paused = false;    // who measures wants faces alone
     this.is_draft = false;  // the last one
+    this.begun = 0;
   }
 
   /** Another one, soon. */
@@ -30,8 +31,9 @@ export class Pictures {
     else this.#draw();
   }
 
-  /** None is begun before it is let go: faces that it shall show are on their way. */
-  hold() {
+  /** None is begun before it is let go: what it shall show is on its way. @param {number} [most_ms] so long and no longer */
+  hold(most_ms) {
+    if (most_ms) setTimeout(() => this.go_on(), most_ms);
     this.#held ??= new Promise((let_go) => { this.#let_go = let_go; });
   }
 
@@ -40,9 +42,12 @@ export class Pictures {
     this.#held = this.#let_go = null;
   }
 
+  /** @returns {boolean} none is begun now */
+  get held() { return this.#held !== null; }
+
   /** @returns {boolean} one is about to be drawn, or is drawn */
   get behind() {
-    return !this.paused && !this.view.renderer.xr.isPresenting && (this.#wanted || this.#at_work);
+    return !this.paused && !this.view.renderer.xr.isPresenting && ((this.#wanted && !this.held) || this.#at_work);
   }
 
   /** @returns {boolean} a fine one of what is there takes long, as far as is known */
@@ -55,8 +60,10 @@ export class Pictures {
     try {
       while (this.#wanted || this.is_draft) {
         if (!this.#wanted) await this.#rest();
-        await this.#held;
-        await new Promise(requestAnimationFrame);
+        do {
+          await this.#held;
+          await new Promise(requestAnimationFrame);
+        } while (this.held);
         if (this.paused) break;
         await this.#draw_one();
         this.view.dispatchEvent(new CustomEvent('drawn'));
@@ -71,6 +78,7 @@ export class Pictures {
     this.is_draft = this.#wanted && this.are_slow;
     this.#wanted = false;
     this.#at_work = true;
+    ++this.begun;
     this.view.draw_now(this.is_draft);
     await this.#done();
     this.#at_work = false;
@@ -79,7 +87,7 @@ export class Pictures {
 
   #learn(fine_ms) {
     const {faces} = this.view.shell;
-    this.#swift_faces = fine_ms > SLOW_MS ? Math.min(this.#swift_faces, faces / 2) : Math.max(this.#swift_faces, faces);
+    this.#swift_faces = fine_ms > SLOW_MS ? Math.min(this.#swift_faces, faces / 2) : Math.max(this.#swift_faces, faces, FEW_FACES);
   }
 
   // Until another one is wanted, but not for long.

@@ -79,9 +79,9 @@ export class Room extends EventTarget {
   #take_body(thing, scale) {
     const {view} = this, {scene} = view;
     const {fov, zoom} = view.camera;  // three moves the camera along with the head
-    this.before = {parent: view.body.parent, background: scene.background, floor: view.floor.visible, place: view.place, fov, zoom};
+    this.before = {parent: view.body.parent, background: scene.background, floor: view.backdrop.floor.visible, place: view.place, fov, zoom};
     scene.background = null;
-    view.floor.visible = false;
+    view.backdrop.floor.visible = false;
     view.robot?.show(thing === 'cell' ? 'collision' : 'none');
     const foot = thing === 'cell' ? new Vector3() : view.stock_foot();
     this.upright.scale.setScalar(scale);
@@ -163,7 +163,7 @@ export class Room extends EventTarget {
       view.body.position.set(0, 0, 0);
       before.parent.add(view.body);
       view.scene.background = before.background;
-      view.floor.visible = before.floor;
+      view.backdrop.floor.visible = before.floor;
       this.spot.removeFromParent();
       this.reticle.removeFromParent();
       Object.assign(view.camera, {fov: before.fov, zoom: before.zoom});

@@ -1,16 +1,17 @@
 // The 3D picture: camera, lights, the robot and the stock. Draws only when something changed.
 
 import {
-  BoxGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, GridHelper, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, NearestFilter,
+  BoxGeometry, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, NearestFilter,
   OrbitControls, OrthographicCamera, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderTarget, WebGLRenderer,
 } from '../vendor/libraries.js';
 import {LOOKS, stock_material} from '../stock/material.js';
 import {Shell} from '../stock/shell.js';
+import {Backdrop} from './backdrop.js';
 import {Draft} from './draft.js';
 import {Pictures} from './pictures.js';
 import {vantage} from './vantage.js';
 
-const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'}, EDGES = '#8b97a3';
+const EDGES = '#8b97a3';
 
 /** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was, `drawn` when a picture is there. */
 export class View extends EventTarget {
@@ -18,8 +19,10 @@ export class View extends EventTarget {
   constructor(canvas) {
     super();
     this.canvas = canvas;
+    const ratio = Math.min(2, devicePixelRatio), {clientWidth: width, clientHeight: height} = canvas.parentElement;
+    Object.assign(canvas, {width, height});  // the first one is the right one: another is made anew, and waited for
     this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: false});
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    if (ratio !== 1) this.renderer.setPixelRatio(ratio);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(38, 1, 0.01, 50);
     this.camera.up.set(0, 0, 1);
@@ -45,7 +48,7 @@ export class View extends EventTarget {
     this.draft = new Draft();
     this.pictures = new Pictures(this);
     this.#listen();
-    this.set_theme('light');
+    this.backdrop = new Backdrop(this.scene, () => this.draw());
   }
 
   #listen() {
@@ -60,19 +63,6 @@ export class View extends EventTarget {
     this.canvas.addEventListener('pointerup', (event) => {
       if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) this.#tell('picked', this.#ray_at(event));
     });
-  }
-
-  /** @param {'light' | 'dark'} theme */
-  set_theme(theme) {
-    this.scene.background = new Color(PAPER[theme]);
-    const shown = this.floor?.visible ?? true;
-    this.floor?.removeFromParent();
-    this.floor = new GridHelper(4, 40, LINES[theme], LINES[theme]);
-    this.floor.rotation.x = Math.PI / 2;
-    this.floor.position.z = -0.051;
-    this.floor.visible = shown;
-    this.scene.add(this.floor);
-    this.draw();
   }
 
   /** @param {import('./robot.js').Robot} robot */
@@ -130,7 +120,7 @@ export class View extends EventTarget {
 
   /** @param {boolean} floor @param {boolean} box */
   set_scenery(floor, box) {
-    this.floor.visible = floor;
+    this.backdrop.floor.visible = floor;
     if (this.box) this.box.visible = box;
     this.draw();
   }
@@ -182,10 +172,11 @@ export class View extends EventTarget {
     if (this.renderer.xr.isPresenting) return;
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
+    const before = this.renderer.getSize(new Vector2());
+    if (width !== before.x || height !== before.y) this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.draw_now(this.pictures.are_slow);
+    if (!this.pictures.held) this.draw_now(this.pictures.are_slow);
     this.draw();
   }
 

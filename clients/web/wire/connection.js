@@ -30,6 +30,8 @@ export class Connection extends EventTarget {
     this.waiting = new Map();
     this.next_id = 1;
     this.tries = 0;
+    /** @type {CustomEvent | null} the last one of `open`, `lost` and `refused` */
+    this.news = null;
     /** @type {{settle: (chunk: Uint8Array) => void} | null} the answer whose chunk is still to come */
     this.unfinished = null;
   }
@@ -101,6 +103,13 @@ export class Connection extends EventTarget {
 
   /** @param {string} name @param {any} detail */
   #tell(name, detail) {
-    this.dispatchEvent(new CustomEvent(name, {detail}));
+    const event = new CustomEvent(name, {detail});
+    if (name !== 'event') this.news = event;
+    this.dispatchEvent(event);
+  }
+
+  /** For whoever listens only now: how it stands. */
+  tell_again() {
+    if (this.news) this.dispatchEvent(this.news);
   }
 }
