@@ -1,6 +1,6 @@
 // The page: joins connection, queue, 3D view and panels, and keeps the address up to date.
 
-import {connection, link, worker} from './ahead.js';
+import {connection, worker} from './ahead.js';
 import {by_selector, by_id, make} from './dom.js';
 import {ask_token, show_help} from './panels/dialogs.js';
 import {read_residue, show_job_head} from './panels/job_head.js';
@@ -25,7 +25,7 @@ const FIRST_PICTURE_MS = 1500;  // until then nothing is drawn that the job of a
 
 class App {
   constructor() {
-    this.wish = link;
+    this.wish = read_link();
     this.connection = connection;
     this.queue = new Queue(this.connection);
     this.time = new TimeBar();
@@ -37,7 +37,7 @@ class App {
     /** the chosen job once the server has said what it is */
     this.on_stage = '';
     this.residue = null;
-    by_id('time').hidden = !link.job;  // it takes its place before the picture has its own
+    by_id('time').hidden = !this.wish.job;  // it takes its place before the picture has its own
     this.#make_view();
     this.#listen();
     start_tabs((tab) => tab === 'plots' && this.#draw_plots());
@@ -55,7 +55,7 @@ class App {
       by_id('stage-note').textContent = `This browser gives no WebGL 2, so there is no picture; everything else works. (${error.message})`;
       return;
     }
-    if (link.job) this.view.pictures.hold(FIRST_PICTURE_MS);
+    if (this.wish.job) this.view.pictures.hold(FIRST_PICTURE_MS);
     this.stage = new Stage(this.view, worker, this.time, this.connection);
     this.view.addEventListener('lost', () => this.say('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
     this.view.addEventListener('restored', () => this.say(''));

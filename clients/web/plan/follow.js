@@ -4,30 +4,6 @@ import {get} from '../wire/token.js';
 
 const PIECE = 1 << 20, PAUSE_MS = 120, LAST_LINES = 4096;
 
-/** @type {{job: string, answer: Promise<Response | null>} | null} */
-let ahead = null;
-
-/**
- * The timeline of a job that a link names is most likely wanted: it is asked for before the server is greeted. Where that
- * is in vain (the job is not finished) it is asked for again when it is read.
- * @param {string} job
- */
-export function ask_ahead(job) {
-  ahead = {job, answer: ask(job).catch(() => null)};
-}
-
-const ask = (job) => get(`/v1/artifacts/${job}/timeline?format=gzip`);
-
-/** @param {string} job @returns {Promise<Response | null>} */
-async function asked_ahead(job) {
-  const asked = ahead;
-  ahead = null;
-  const answer = await asked?.answer;
-  if (asked?.job === job) return answer ?? null;
-  answer?.body?.cancel();
-  return null;
-}
-
 /**
  * A finished one: packed, in one go.
  * @param {string} job
@@ -35,7 +11,7 @@ async function asked_ahead(job) {
  * @param {AbortSignal} signal
  */
 export async function read_timeline(job, take, signal) {
-  const response = await asked_ahead(job) ?? await ask(job);
+  const response = await get(`/v1/artifacts/${job}/timeline?format=gzip`);
   const reader = response.body.pipeThrough(new DecompressionStream('gzip')).getReader();
   for (;;) {
     const {done, value} = await reader.read();
@@ -74,7 +50,10 @@ export async function follow_timeline({connection, job, signal}, to) {
     offset += length;
     if (length) to.take(piece.chunk);
     if (piece.eof) return;
-    if (length < PIECE) await Promise.all([pause(PAUSE_MS), length ? read_last_joints(connection, job, to.joints) : null]);
+    if (length < PIECE) {
+      if (length) await read_last_joints(connection, job, to.joints);
+      await pause(PAUSE_MS);
+    }
   }
 }
 
