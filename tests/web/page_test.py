@@ -100,7 +100,7 @@ class Finished(PageTest):
         at, place, look = page.app("[app.time.at, app.view.place, app.layers.look]")
         self.assertEqual(look, "time")
         self.assertAlmostEqual(at, first + 0.01 * self.report["path"]["keyframes"])
-        page.until("location.hash.includes('at=')")
+        page.until("new URLSearchParams(location.hash.slice(1)).get('view') === app.view.place")
         other = self.open(page.run("location.hash"))
         other.settled()
         shown = other.app("[app.time.at, app.view.place, app.layers.look]")
