@@ -50,10 +50,7 @@ export async function follow_timeline({connection, job, signal}, to) {
     offset += length;
     if (length) to.take(piece.chunk);
     if (piece.eof) return;
-    if (length < PIECE) {
-      if (length) await read_last_joints(connection, job, to.joints);
-      await pause(PAUSE_MS);
-    }
+    if (length < PIECE) await Promise.all([pause(PAUSE_MS), length ? read_last_joints(connection, job, to.joints) : null]);
   }
 }
 
