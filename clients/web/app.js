@@ -153,6 +153,7 @@ class App {
     } catch (error) {
       by_id('job-head').replaceChildren(make('p', {class: 'error'}, error.message));
       this.stage?.close();
+      by_id('time').hidden = true;
       by_id('stage-note').textContent = error.message;
       return;
     }

@@ -9,11 +9,9 @@ export class Backdrop {
   constructor(scene, changed) {
     this.scene = scene;
     const dark = matchMedia('(prefers-color-scheme: dark)');
-    dark.addEventListener('change', () => {
-      this.#paint(dark.matches ? 'dark' : 'light');
-      changed();
-    });
-    this.#paint(dark.matches ? 'dark' : 'light');
+    const paint = () => this.#paint(dark.matches ? 'dark' : 'light');
+    dark.addEventListener('change', () => { paint(); changed(); });
+    paint();
   }
 
   /** @param {'light' | 'dark'} theme */
