@@ -170,7 +170,7 @@ class Live(PageTest):
         page.until("app.time.keyframes > 0 && app.time.live", "the first keyframes of a plan that is made")
         seen = page.app("app.time.keyframes")
         page.until(f"app.time.keyframes > {seen}")
-        self.assertGreater(page.app("app.view.shell.faces"), 0)
+        page.until("app.view.shell.faces > 0", "faces of what stands")
         page.until("app.stage.final")
         page.settled()
         with sculpt.Client(self.daemon.address) as client:
