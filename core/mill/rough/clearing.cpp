@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "core/mill/rough/cell_distances.hpp"
 
 namespace sculpt {
 namespace {
@@ -42,45 +39,20 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
       surface_(surface),
       lattice_(surface.lattice()),
       cap_m2_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
-      width_m_(task.tool.max_width_m),
-      stands_above_(static_cast<float>(task.height + task.cusp_share * task.tool.max_depth_m)),
-      stands_(find_reachable()) {
+      width_m_(task.tool.max_width_m) {
   const Cutter& cutter = task.tool.cutter;
-  const double cusp = task.cusp_share * task.tool.max_depth_m;
   double cleared = 0;
-  while (cleared < cutter.radius_m && cutter.height_m(cleared) <= cusp) cleared += lattice_.step / 4;
+  while (cleared < cutter.radius_m && cutter.height_m(cleared) <= task.cusp_m) cleared += lattice_.step / 4;
   const double step = std::max(step_share * cutter.radius_m, 2 * lattice_.step);
   const double inside = std::min(cleared, first_row_inside(task.tool, lattice_.step)) - lattice_.step;
-  rows_.emplace(LevelArea{lattice_, task.is_free, stands_, cutter.radius_m, width_m_, cleared, inside, step}, layout);
+  rows_.emplace(LevelArea{lattice_, task.is_free, task.stands, cutter.radius_m, width_m_, cleared, inside, step},
+                layout);
   for (const LevelRow& row : rows_->rows()) {
     Turn turn{row};
     for (std::size_t other = 0; other < turns_.size(); ++other)
       if (turns_[other].row.rank > row.rank && are_near(row, turns_[other].row)) turn.after.push_back(other);
     turns_.push_back(std::move(turn));
   }
-}
-
-/// What is higher than the cutter would leave it if it came to all places where it may be, by more than a cusp.
-std::vector<char> Clearing::find_reachable() const {
-  std::vector<char> stands(lattice_.size());
-  const std::vector<float> to_free = distances_to(task_.is_free, lattice_);
-  const Cutter& cutter = task_.tool.cutter;
-  const double to_corner = std::numbers::sqrt2 * lattice_.step;
-  for (std::size_t at = 0; at < stands.size(); ++at) {
-    if (surface_.map().heights[at] <= stands_above_) continue;
-    const double r = static_cast<double>(to_free[at]) + to_corner;
-    stands[at] =
-        r<cutter.radius_m&& static_cast<double>(surface_.map().heights[at]) - cutter.height_m(r)> static_cast<double>(
-            stands_above_);
-  }
-  return stands;
-}
-
-double Clearing::volume_to_clear() const {
-  double heights = 0;
-  for (std::size_t at = 0; at < stands_.size(); ++at)
-    if (stands_[at]) heights += static_cast<double>(surface_.map().heights[at]) - task_.height;
-  return heights * lattice_.step * lattice_.step;
 }
 
 void Clearing::cut(const Point2& from, const Point2& to) {

@@ -21,10 +21,10 @@ namespace sculpt {
 /// What one level is cleared with.
 struct ClearingTask {
   const MillTool& tool;
-  double height = 0;  ///< of the tip
-  /// Of the depth of cut: what stands higher than this above the level is to come off, the rest are cusps.
-  double cusp_share = 0;
+  double height = 0;                 ///< of the tip
+  double cusp_m = 0;                 ///< may be left
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
+  const std::vector<char>& stands;   ///< by cell: what is to come off
   /// May the tip come down to the level there, from where it is now?
   std::function<bool(const Point2&)> comes_down;
 };
@@ -38,8 +38,6 @@ class Clearing {
   /// `surface` and what `task` refers to must outlive the object.
   Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface);
 
-  /// About what is to come off here (m^3).
-  double volume_to_clear() const;
   /// The next pass, one that begins near `at`; nothing once there is none. `is_down`: the tip is there at this height,
   /// and the pass may begin there.
   std::optional<LevelPass> next_from(const Point2& at, bool is_down);
@@ -63,7 +61,6 @@ class Clearing {
   bool may_cut(const LevelPass& way) const;
   bool is_open(const Point2& p) const;
   void cut(const Point2& from, const Point2& to);
-  std::vector<char> find_reachable() const;
   bool are_near(const LevelRow& one, const LevelRow& other) const;
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
@@ -76,10 +73,8 @@ class Clearing {
   ClearingTask task_;
   StockTop& surface_;
   const Lattice& lattice_;
-  double cap_m2_;       ///< volume by length
-  double width_m_;      ///< from row to row
-  float stands_above_;  ///< cells higher than this are to come off
-  std::vector<char> stands_;
+  double cap_m2_;   ///< volume by length
+  double width_m_;  ///< from row to row
   std::optional<LevelRows> rows_;
   std::vector<Turn> turns_;
   double taken_m3_ = 0;

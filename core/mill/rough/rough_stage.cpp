@@ -116,7 +116,7 @@ class RoughStage {
   /// Would the tool, if it came everywhere down to this height, take off enough for a pass?
   bool is_worth_it(const Site& site, const StockTop& surface, double height) const {
     double volume = 0;
-    const double cusp = cusp_share * tool().max_depth_m, cell = std::pow(site.lattice().step, 2);
+    const double cusp = cusp_m(tool()), cell = std::pow(site.lattice().step, 2);
     const std::vector<float>&tops = surface.map().heights, &lowest = site.lowest_cut().heights;
     for (std::size_t at = 0; at < tops.size(); ++at) {
       const double left = std::max(height, static_cast<double>(lowest[at]));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/mill/drive/hop.hpp"
+#include "core/mill/rough/cells_to_clear.hpp"
 
 namespace sculpt {
 namespace {
@@ -58,8 +59,8 @@ struct LevelPlan {
   bool is_cut_off = false;
 };
 
-LevelPlan plan_level(const Site& site, const RoughLevel& level, RowLayout layout, const LevelWays& ways,
-                     StockTop& surface) {
+LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vector<char>& stands, RowLayout layout,
+                     const LevelWays& ways, StockTop& surface) {
   LevelPlan plan;
   const double height = level.height;
   Vec3 tip = ways.from;
@@ -69,8 +70,7 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, RowLayout layout
     plan.is_cut_off = plan.is_cut_off || over.empty();
     return !over.empty();
   };
-  Clearing clearing({level.tool, height, cusp_share, level.is_free, comes_down}, layout, surface);
-  if (clearing.volume_to_clear() < min_pass_m3(level.tool)) return plan;
+  Clearing clearing({level.tool, height, cusp_m(level.tool), level.is_free, stands, comes_down}, layout, surface);
   while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
     const Vec3 begin(pass->front().x(), pass->front().y(), height);
     if (tip != begin) std::ranges::move(over, std::back_inserter(plan.strokes));
@@ -91,11 +91,14 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, RowLayout layout
 
 LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
                          const Helpers& helpers) {
+  const CellsToClear cells =
+      find_cells_to_clear(level.tool.cutter, level.height, cusp_m(level.tool), level.is_free, surface.map());
+  if (cells.volume_m3 < min_pass_m3(level.tool)) return {};
   constexpr std::array layouts{RowLayout::around, RowLayout::along_u, RowLayout::along_v};
   std::vector<StockTop> left(layouts.size(), surface);
   std::vector<LevelPlan> plans(layouts.size());
   helpers.for_each_index(layouts.size(), [&](std::size_t number) {
-    plans[number] = plan_level(site, level, layouts[number], ways, left[number]);
+    plans[number] = plan_level(site, level, cells.marked, layouts[number], ways, left[number]);
   });
   const auto best = std::ranges::max_element(
       plans, {}, [](const LevelPlan& plan) { return plan.strokes.empty() ? 0 : plan.taken_m3 / plan.length_m; });

@@ -12,8 +12,10 @@
 
 namespace sculpt {
 
-/// Of the depth of cut: what stands higher than this above a level is to come off, the rest are cusps.
-inline constexpr double cusp_share = 0.35;
+/// What stands higher than this above a level is to come off, the rest are cusps.
+inline double cusp_m(const MillTool& tool) {
+  return 0.35 * tool.max_depth_m;
+}
 /// A way to a pass and back is worth its while for that of two diameters at full engagement (m^3).
 inline double min_pass_m3(const MillTool& tool) {
   return 2 * 2 * tool.cutter.radius_m * tool.max_depth_m * tool.max_width_m;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/mill/rough/cells_to_clear.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -66,7 +68,9 @@ class Engagement {
 Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured, double height,
                     const std::vector<char>& free, RowLayout layout) {
   Cleared cleared;
-  Clearing clearing({tool, height, 0.35, free, [](const Point2&) { return true; }}, layout, surface);
+  const double cusp_m = 0.35 * tool.max_depth_m;
+  const CellsToClear cells = find_cells_to_clear(tool.cutter, height, cusp_m, free, surface.map());
+  Clearing clearing({tool, height, cusp_m, free, cells.marked, [](const Point2&) { return true; }}, layout, surface);
   Point2 at(-0.075, -0.075);
   bool is_down = false;
   Engagement engagement(tool);
