@@ -218,7 +218,7 @@ class ProgramMaker {
     const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates.stickout_m).norm()) + second;
     report_.rounding_m = std::max(report_.rounding_m, tool_m);
     const double tool = tool_m / certain_m(place.tool, place.point), links = stray.links().dot(size),
-                 both = place.on_path ? stray.tool_and_links(place.point, false, size, tool_m)
+                 both = place.on_path ? stray.tool_and_links_at(path_, place.point, size, tool_m)
                                       : stray.tool_and_links(size, tool_m),
                  most = std::max({tool, links, both});
     if (most <= alone) return;
@@ -228,7 +228,7 @@ class ProgramMaker {
          << (most == tool    ? "ball or shank"
              : most == links ? "a link"
                              : "the tool, to a link,")
-         << ' ' << most / alone << " times as far beside the plan as its certificates leave, at keyframe "
+         << ' ' << 100 * (most / alone - 1) << " % farther beside the plan than its certificates leave, at keyframe "
          << path_.edge_to(place.point).keyframe
          << ": plan with a coarser resolution, or take a dialect with more digits";
     throw InputError("rounding_too_coarse", text.str());

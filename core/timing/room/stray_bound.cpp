@@ -1,6 +1,7 @@
 #include "core/timing/room/stray_bound.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -144,6 +145,18 @@ void StrayBound::look_at(const PlanPath& path, Others& others, std::size_t first
   look_at(path, others, middle, end);
 }
 
+// Anywhere in the hull of three: in its box, or in those of its quarters.
+bool StrayBound::is_far(const Others& others, const std::array<Configuration, 3>& corners, int quarterings) const {
+  const auto& [a, b, c] = corners;
+  if (is_far(others, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c))) return true;
+  if (quarterings == 0) return false;
+  const Configuration ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+  const auto is_far_in = [&](const std::array<Configuration, 3>& quarter) {
+    return is_far(others, quarter, quarterings - 1);
+  };
+  return is_far_in({a, ab, ca}) && is_far_in({ab, b, bc}) && is_far_in({ca, bc, c}) && is_far_in({ab, bc, ca});
+}
+
 bool StrayBound::is_far(const Others& others, const Configuration& low, const Configuration& high) const {
   const Configuration middle = (low + high) / 2, half = (high - low) / 2;
   std::vector<Frame> poses;
@@ -173,6 +186,21 @@ double StrayBound::share(const Others& others, const Configuration& size, double
 double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size, double tool_m) const {
   const double beside = share(beside_, point, size, tool_m);
   return above ? beside : std::max(beside, share(below_, point, size, tool_m));
+}
+
+double StrayBound::tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size,
+                                     double tool_m) const {
+  double most = 0;
+  for (const Others* others : {&beside_, &below_}) {
+    double share_of_others = share(*others, point, size, tool_m);
+    if (share_of_others > 1) {
+      const std::array corners{path.configuration(point - std::min<std::size_t>(point, 1)), path.configuration(point),
+                               path.configuration(std::min(point + 1, path.size() - 1))};
+      if (is_far(*others, corners, max_quarterings)) share_of_others = others->most.dot(size) / far_m;
+    }
+    most = std::max(most, share_of_others);
+  }
+  return most;
 }
 
 double StrayBound::tool_and_links(const Configuration& size, double tool_m) const {

@@ -1,6 +1,7 @@
 // How far from the certified path a motion may stray: what the planners' margins leave, and what joints make of it.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -37,6 +38,8 @@ class StrayBound {
   /// how far ball and shank are displaced in the stock's frame, where that is known.
   double tool_and_links(std::size_t point, bool above, const Configuration& size,
                         double tool_m = std::numeric_limits<double>::infinity()) const;
+  /// The same on the two edges of a point, which are looked at closely where it takes more than all.
+  double tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size, double tool_m) const;
   /// The same anywhere.
   double tool_and_links(const Configuration& size, double tool_m) const;
   /// Finds out where on the path the tool is far from all links that can move against the stock. To be called once.
@@ -47,6 +50,7 @@ class StrayBound {
   void add_others();
   static constexpr double far_m = 1e-3;
   static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
+  static constexpr int max_quarterings = 2;
   void add_link_pairs(const Cell& cell);
   /// Bodies that the tool must stay off.
   struct Others {
@@ -60,6 +64,7 @@ class StrayBound {
   };
   bool stays_below(const Body& body, const Configuration& q) const;
   void look_at(const PlanPath& path, Others& others, std::size_t first, std::size_t end) const;
+  bool is_far(const Others& others, const std::array<Configuration, 3>& corners, int quarterings) const;
   bool is_far(const Others& others, const Configuration& low, const Configuration& high) const;
   double share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const;
   double share(const Others& others, const Configuration& size, double tool_m) const;

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import SOURCE, ClientTest
+from harness import SOURCE, ClientTest, shared_data
 
 
 class Program(ClientTest):
@@ -52,6 +52,11 @@ class Program(ClientTest):
                 self.assertLessEqual(sum(path.stat().st_size for path in folder.glob(f"{dialect}_{part:04}.*")), limit)
             self.assertIn("--part-bytes", self.refused(4, "part_invalid", "program", "bust.sct", "--dialect", dialect, "--feed", 0.05,
                                                        "--part-bytes", 1000, "-o", "small"))
+
+    def test_digits_that_are_enough_where_the_tool_is_looked_at_closely(self):
+        self.fine("plan", shared_data(self, "meshes/david.stl"), "--resolution", 16, "--robot", "six-axis-turntable", "-o", "bust.sct")
+        report, _ = self.program("fanuc")
+        self.assertEqual(report["moves"], 2047)
 
     def test_a_universal_robot_and_ros(self):
         self.plan("ur10e-plinth")
