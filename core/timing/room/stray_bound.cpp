@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -183,9 +184,10 @@ double StrayBound::share(const Others& others, const Configuration& size, double
   return most / tool_m_;
 }
 
-double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size, double tool_m) const {
-  const double beside = share(beside_, point, size, tool_m);
-  return above ? beside : std::max(beside, share(below_, point, size, tool_m));
+double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size) const {
+  constexpr double unknown_m = std::numeric_limits<double>::infinity();
+  const double beside = share(beside_, point, size, unknown_m);
+  return above ? beside : std::max(beside, share(below_, point, size, unknown_m));
 }
 
 double StrayBound::tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -34,11 +33,10 @@ class StrayBound {
   /// Links stay where they may be if the sum of links()[j] * |d_j| is at most 1.
   const Configuration& links() const { return links_; }
   /// The same at a point of the path of the tool and the links that can move against the stock: share of what these two
-  /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom. `tool_m`:
-  /// how far ball and shank are displaced in the stock's frame, where that is known.
-  double tool_and_links(std::size_t point, bool above, const Configuration& size,
-                        double tool_m = std::numeric_limits<double>::infinity()) const;
-  /// The same on the two edges of a point, which are looked at closely where it takes more than all.
+  /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom.
+  double tool_and_links(std::size_t point, bool above, const Configuration& size) const;
+  /// The same on the two edges of a point, which are looked at closely where it takes more than all. `tool_m`: how far
+  /// ball and shank are displaced in the stock's frame.
   double tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size, double tool_m) const;
   /// The same anywhere.
   double tool_and_links(const Configuration& size, double tool_m) const;
