@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<DialectFacts, 6> all{{{"krl", ".src", 5000, true, 6, true},
                                            {"rapid", ".mod", 10000, true, 6, true},
                                            {"urscript", ".script", 1000, true, 0, false},
-                                           {"fanuc", ".ls", 5000, true, 3, true},
+                                           {"fanuc", ".ls", 5000, true, 3, true, 3},
                                            {"gcode", ".ngc", 0, false, 0, true},
                                            {"ros2", ".yaml", 0, false, 0, false}}};
 

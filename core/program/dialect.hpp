@@ -15,6 +15,7 @@ struct DialectFacts {
   bool needs_six = false;         ///< robot axes 1 to 6, all of them
   std::size_t external_axes = 0;  ///< E1..., besides
   bool has_main = false;          ///< a program that calls the parts and remembers the next one
+  int decimals = 0;               ///< of degrees and millimetres, where these are few; 0: finer than plans are
 };
 
 const DialectFacts& facts_of(Dialect dialect);

@@ -10,6 +10,7 @@
 #include "core/program/part_stock.hpp"
 #include "core/program/read/main_reader.hpp"
 #include "core/program/read/part_reader.hpp"
+#include "core/program/rounding.hpp"
 #include "core/program/seams.hpp"
 #include "core/program/write/ros2.hpp"
 #include "core/timing/demand/motion_limits.hpp"
@@ -51,7 +52,7 @@ class ProgramMaker {
         begin_part(seam);
         come_back(seam);
       }
-      add({path_.configuration(point), point, tools_.on_edge_to(path_, point), true}, time);
+      add({path_.configuration(point), point, tools_.on_edge_to(path_, point)}, time);
     });
     end_part();
     if (facts_of(demands_.dialect).has_main) write_main_program();
@@ -60,12 +61,13 @@ class ProgramMaker {
   }
 
  private:
-  PartSize part_size(const Feeds& feeds) const {
+  PartSize part_size(const Feeds& feeds) {
     PartSize size{demands_.part_keyframes.value_or(facts_of(demands_.dialect).part_keyframes), demands_.seams_in_stock};
     if (!demands_.part_bytes) return size;
     TextMeter meter(demands_.dialect, layout_, {demands_.name, 0, 0, longest_mount()}, path_.configuration(0));
     for_each_stop(path_, tools_, limits_, feeds, [&](std::size_t point, const StopTime& time) {
-      meter.add({layout_.to_axes(path_.configuration(point)), time.seconds, time.share});
+      meter.add(
+          {axes_at({path_.configuration(point), point, tools_.on_edge_to(path_, point)}), time.seconds, time.share});
     });
     size.text = meter.take(*demands_.part_bytes);
     return size;
@@ -84,7 +86,6 @@ class ProgramMaker {
     Configuration q;
     std::size_t point;  ///< of the path: there, or where its retreat begins
     const PathTool& tool;
-    bool on_path;
   };
 
   bool is_changed_at(std::size_t point) const {
@@ -107,33 +108,33 @@ class ProgramMaker {
       names_.voxels.after += path_.edge_to(point).removed;
     if (stock_) hand_out({names_.part_name() + ".binvox", stock_->at(seam.point)});
     const Configuration q = seam.retreat.empty() ? path_.configuration(seam.point) : seam.retreat.back();
-    writer_ = write_part(demands_.dialect, layout_, names_, layout_.to_axes(q));
     places_.clear();
     times_.clear();
-    places_.push_back({q, seam.point, tools_.on_edge_to(path_, seam.point + 1), seam.retreat.empty()});
+    places_.push_back({q, seam.point, tools_.on_edge_to(path_, seam.point + 1)});
+    writer_ = write_part(demands_.dialect, layout_, names_, axes_at(places_.back()));
   }
 
   void add(Place place, const StopTime& time) {
-    writer_->add({layout_.to_axes(place.q), time.seconds, time.share});
+    writer_->add({axes_at(place), time.seconds, time.share});
     times_.push_back(time);
     places_.push_back(std::move(place));
   }
 
   void retreat(const Seam& seam) {
-    for (const Configuration& q : seam.retreat) add_rapid({q, seam.point, tools_.on_edge_to(path_, seam.point), false});
+    for (const Configuration& q : seam.retreat) add_rapid({q, seam.point, tools_.on_edge_to(path_, seam.point)});
   }
 
   void come_back(const Seam& seam) {
     const PathTool& tool = tools_.on_edge_to(path_, seam.point + 1);
     for (std::size_t at = seam.retreat.size(); at-- > 0;)
-      add_rapid(at > 0 ? Place{seam.retreat[at - 1], seam.point, tool, false}
-                       : Place{path_.configuration(seam.point), seam.point, tool, true});
+      add_rapid(at > 0 ? Place{seam.retreat[at - 1], seam.point, tool}
+                       : Place{path_.configuration(seam.point), seam.point, tool});
   }
 
   void add_rapid(Place place) {
     EdgePlaces places;
     const Configuration from = places_.back().q;
-    places[0].put(place.tool.rates, from);
+    places.begin.put(place.tool.rates, from);
     const StopTime time = stop_time(place.tool, limits_, demands_.motion.rapid_m_s, from, place.q, places);
     ++report_.retreat_moves;
     add(std::move(place), time);
@@ -191,10 +192,12 @@ class ProgramMaker {
       throw InputError("program_damaged",
                        "a part that was written tells of other voxels than the plan has: this is a fault of this "
                        "program, please report it");
-    check_place(places_.front(), joints_of(part.start, part.radians));
+    Stray before = check_place(places_.front(), joints_of(part.start, part.radians));
     for (std::size_t at = 0; at < part.moves.size(); ++at) {
       const ReadMove& move = part.moves[at];
-      check_place(places_[at + 1], joints_of(move.values, part.radians));
+      const Stray stray = check_place(places_[at + 1], joints_of(move.values, part.radians));
+      check_move(places_[at], before, places_[at + 1], stray);
+      before = stray;
       const StopTime& time = times_[at];
       const bool slow_enough = move.seconds > 0 ? move.seconds >= time.seconds * (1 - 1e-6) - 1e-9
                                                 : move.share > 0 && move.share <= time.share * (1 + 1e-9);
@@ -208,27 +211,51 @@ class ProgramMaker {
     }
   }
 
-  /// What the digits leave of the plan's joints at a place: free if both ends of every edge are.
-  void check_place(const Place& place, const Configuration& read) {
+  /// Where the nearest numbers of the dialect would have the tool too far off, others.
+  Configuration axes_at(const Place& place) {
+    const Configuration axes = layout_.to_axes(place.q);
+    const int decimals = facts_of(demands_.dialect).decimals;
+    if (decimals == 0) return axes;
+    const Stray nearest = stray_at(place, layout_.to_joints(nearest_axes(layout_, axes, decimals)));
+    const double tool_and_links = place.tool.stray.tool_and_links(nearest.size, nearest.tool_m);
+    if (std::max({nearest.tool, nearest.links, tool_and_links}) <= alone) return axes;
+    return round_axes(layout_, place.tool.rates, place.q, decimals);
+  }
+
+  /// What other joints than the plan's take of what its certificates leave at a place.
+  struct Stray {
+    Configuration size;
+    double tool_m, tool, links;
+  };
+  Stray stray_at(const Place& place, const Configuration& q) {
     const ToolRates& rates = place.tool.rates;
-    const StrayBound& stray = place.tool.stray;
-    const Configuration off = read - place.q, size = off.cwiseAbs();
+    const Configuration off = q - place.q, size = off.cwiseAbs();
     tool_.put(rates, place.q);
     const double turned = rates.turn.dot(size), second = rates.orders(2) * turned * rates.travel.dot(size) / 2;
     const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates.stickout_m).norm()) + second;
-    report_.rounding_m = std::max(report_.rounding_m, tool_m);
-    const double tool = tool_m / certain_m(place.tool, place.point), links = stray.links().dot(size),
-                 both = place.on_path ? stray.tool_and_links_at(path_, place.point, size, tool_m)
-                                      : stray.tool_and_links(size, tool_m),
-                 most = std::max({tool, links, both});
-    if (most <= alone) return;
+    return {size, tool_m, tool_m / certain_m(place.tool, place.point), place.tool.stray.links(size)};
+  }
+
+  /// What the digits leave of the plan's joints is free if both ends of every edge are.
+  Stray check_place(const Place& place, const Configuration& read) {
+    Stray stray = stray_at(place, read);
+    report_.rounding_m = std::max(report_.rounding_m, stray.tool_m);
+    check_share(std::max(stray.tool, stray.links), stray.tool > stray.links ? "ball or shank" : "a link", place);
+    return stray;
+  }
+
+  void check_move(const Place& from, const Stray& before, const Place& to, const Stray& after) const {
+    check_share(to.tool.stray.tool_and_links({from.q, to.q}, before.size.cwiseMax(after.size),
+                                             std::max(before.tool_m, after.tool_m)),
+                "the tool, to a link,", to);
+  }
+
+  void check_share(double share, const char* what, const Place& place) const {
+    if (share <= alone) return;
     std::ostringstream text;
     text.precision(3);
-    text << "the digits that " << facts_of(demands_.dialect).name << " has put "
-         << (most == tool    ? "ball or shank"
-             : most == links ? "a link"
-                             : "the tool, to a link,")
-         << ' ' << 100 * (most / alone - 1) << " % farther beside the plan than its certificates leave, at keyframe "
+    text << "the digits that " << facts_of(demands_.dialect).name << " has put " << what << ' '
+         << 100 * (share / alone - 1) << " % farther beside the plan than its certificates leave, at keyframe "
          << path_.edge_to(place.point).keyframe
          << ": plan with a coarser resolution, or take a dialect with more digits";
     throw InputError("rounding_too_coarse", text.str());

@@ -144,7 +144,7 @@ class Climb {
 
   double strays_m(const Configuration& start, const Configuration& end) const {
     EdgePlaces places;
-    places[0].put(tool_.rates, start);
+    places.begin.put(tool_.rates, start);
     const Configuration one = Configuration::Ones(start.size());
     const EdgeBow bow = bow_of(tool_.rates, make_edge(tool_.rates, {one, one}, start, end, places), places);
     return std::max(bow.ball, bow.top) + bow.more;

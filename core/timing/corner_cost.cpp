@@ -20,20 +20,22 @@ Rooms rooms_of(const std::pair<CornerEdge, CornerEdge>& edges, double reach) {
 
 }  // namespace
 
-CornerCost find_cost(const ToolRates& rates, const StrayBound& stray, std::size_t point, const ToolPlace& here,
-                     const std::pair<CornerEdge, CornerEdge>& edges, double window_s) {
+CornerCost find_cost(const CornerPlace& place, const std::pair<CornerEdge, CornerEdge>& edges, double window_s) {
+  const ToolRates& rates = place.rates;
+  const StrayBound& stray = place.stray;
   const PathEdge &first = edges.first.edge, &second = edges.second.edge;
   const Configuration turn = second.way - first.way, size = turn.cwiseAbs();
   CornerCost cost;
   cost.straight = size.maxCoeff() == 0;
   if (cost.straight) return cost;
   cost.turn = rates.turn.dot(size);
-  const double ball = here.ball(turn).norm(), top = here.top(turn, rates.stickout_m).norm(),
-               travel = rates.travel.dot(size), orders = rates.orders(2),
-               longest = std::max(first.length, second.length);
+  cost.travel = rates.travel.dot(size);
+  const double ball = place.tool.ball(turn).norm(), top = place.tool.top(turn, rates.stickout_m).norm(),
+               travel = cost.travel, orders = rates.orders(2), longest = std::max(first.length, second.length);
   const double certain = stray.tool_m();
   Rooms rooms{certain, certain};
-  double links = std::max(stray.links().dot(size), stray.tool_and_links(point, false, size));
+  const double all_links = stray.links(size);
+  double links = std::max(all_links, stray.tool_and_links(place.point, place.above, size));
   const auto share_beside = [&](double turning) {
     return std::max({links, (ball + turning * travel) / rooms.ball, (top + turning * travel) / rooms.top});
   };
@@ -41,7 +43,7 @@ CornerCost find_cost(const ToolRates& rates, const StrayBound& stray, std::size_
   const double window = std::max(first.cap, second.cap) * window_s;
   if (const Rooms most = rooms_of(edges, window); most.ball > certain && most.top > certain) {
     rooms = most;
-    links = std::max(stray.links().dot(size), stray.tool_and_links(point, true, size));
+    links = std::max(all_links, stray.tool_and_links(place.point, true, size));
     const double half = std::min(wanted(share_beside(0)), std::min(first.length, second.length) / 2);
     const Rooms there = rooms_of(edges, window + half);
     cost.confined = there.ball > certain && there.top > certain;
@@ -49,7 +51,7 @@ CornerCost find_cost(const ToolRates& rates, const StrayBound& stray, std::size_
       rooms = there;
     } else {
       rooms = {certain, certain};
-      links = std::max(links, stray.tool_and_links(point, false, size));
+      links = std::max(links, stray.tool_and_links(place.point, place.above, size));
     }
   }
   const double guess = wanted(share_beside(0));

@@ -16,6 +16,7 @@ struct CornerCost {
   double tool_m = 0;         ///< how far ball or shank's end go
   double room_m = 0;         ///< how far they may
   double turn = 0;           ///< bound of the tool's turning
+  double travel = 0;         ///< and of how far any point of it goes (m)
   double parabola = max_parabola_share;  ///< share of what may be strayed that is the parabola's
   double wanted = 0;                     ///< largest half of the parabola
   bool confined = false;                 ///< at most to the middles of both edges
@@ -28,8 +29,15 @@ struct CornerEdge {
   const EdgeRoom& room;
 };
 
-/// `here`: the tool at the point. `window_s`: of the moving average.
-CornerCost find_cost(const ToolRates& rates, const StrayBound& stray, std::size_t point, const ToolPlace& here,
-                     const std::pair<CornerEdge, CornerEdge>& edges, double window_s);
+struct CornerPlace {
+  const ToolRates& rates;
+  const StrayBound& stray;
+  std::size_t point;
+  const ToolPlace& tool;
+  bool above;  ///< the tool stays above the stock's bottom all around
+};
+
+/// `window_s`: of the moving average.
+CornerCost find_cost(const CornerPlace& place, const std::pair<CornerEdge, CornerEdge>& edges, double window_s);
 
 }  // namespace sculpt

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/square.hpp"
 #include "core/law/coarse.hpp"
 #include "core/timing/corner_cost.hpp"
 #include "core/timing/edge.hpp"
@@ -24,6 +25,7 @@ struct Place {
   PathEdge edge;
   EdgeRoom room;
   CornerCost cost;
+  double speed = std::numeric_limits<double>::infinity();  ///< r' is no more at the corner
   bool rest = false;
 };
 
@@ -34,25 +36,27 @@ class CornerFinder {
         tools_(tools),
         demands_(demands),
         orders_(tools.first().rates.orders(2)),
+        third_orders_(tools.first().rates.orders(3)),
         rooms_(make_rooms(path, tools.first())),
         window_(demands.window_s),
-        places_(ring) {}
+        places_(ring),
+        tools_at_(ring) {}
 
   Corners run() {
     corners_.law.resize(path_.size());
     corners_.caps.resize(path_.size());
     if (path_.size() == 1) return std::move(corners_);
-    places_at_[2].put(tools_.first().rates, path_.configuration(0));
-    std::size_t done = 0;
+    places_at_.end.put(tools_.first().rates, path_.configuration(0));
     place(0).rest = true;
     for (std::size_t point = 1; point < path_.size(); ++point) {
       demands_.go_on_from(point);
       go_to(point);
-      if (point > 1) look_at_corner(point - 1);
-      while (done + max_near + 1 < point) finish(done++, point);
+      if (point > max_near) look_and_finish(point - max_near);
     }
     place(path_.size() - 1).rest = true;
-    while (done < path_.size()) finish(done++, path_.size());
+    for (std::size_t point = path_.size() - std::min(path_.size() - 1, max_near); point + 1 < path_.size(); ++point)
+      look_and_finish(point);
+    while (done_ < path_.size()) finish(done_++, path_.size());
     return std::move(corners_);
   }
 
@@ -71,9 +75,9 @@ class CornerFinder {
     const PlanPath::Edge& edge = path_.edge_to(point);
     const PathTool& tool = tools_.on_edge_to(path_, point);
     if (point > 1 && edge.tool != path_.edge_to(point - 1).tool)
-      places_at_[0].put(tool.rates, path_.configuration(point - 1));
+      places_at_.begin.put(tool.rates, path_.configuration(point - 1));
     else
-      places_at_[0] = places_at_[2];
+      places_at_.begin = places_at_.end;
     to.edge = make_edge(tool.rates, {demands_.acceleration, demands_.limits.velocity}, path_.configuration(point - 1),
                         path_.configuration(point), places_at_);
     to.edge.cut = edge.cut;
@@ -81,7 +85,19 @@ class CornerFinder {
     to.edge.cap = 1 / std::max(to.edge.joint_rate, to.edge.ball / to.edge.feed_m_s);
     const EdgeBow bow = bow_of(tool.rates, to.edge, places_at_);
     to.room = rooms_ ? rooms_->go_to(point, bow, places_at_) : room_of(edge, tool.room, bow);
+    tools_at_[point % ring] = places_at_.end;
     to.rest = edge.rest;
+    if (lowest_on_edge(bow) < path_.header().grid.origin_m.z()) last_low_ = point;
+  }
+
+  /// Of ball and shank, in the stock's frame.
+  double lowest_on_edge(const EdgeBow& bow) const {
+    const Tool& tool = path_.header().tool;
+    const auto lowest = [&](const ToolPlace& place) {
+      return place.pose.ball_m.z() + std::min(0.0, tool.stickout_m * place.pose.axis.z());
+    };
+    return std::min(lowest(places_at_.begin), lowest(places_at_.end)) - std::max(bow.ball, bow.top) - bow.more -
+           std::max(tool.ball_radius_m, tool.shank_radius_m);
   }
 
   /// Of a milling tool: what its strokes are certified with, less what they use of it themselves.
@@ -90,19 +106,24 @@ class CornerFinder {
     return {true, {room.beside(edge), 0, 0}, {room.beside(edge), 0, 0}};
   }
 
-  /// The tool is at the point at the beginning of the last edge.
+  /// As many points as a window may reach are known behind it.
+  void look_and_finish(std::size_t point) {
+    look_at_corner(point);
+    while (done_ + max_near < point) finish(done_++, point + 1);
+  }
+
   void look_at_corner(std::size_t point) {
     Place& here = place(point);
     if (here.rest) return;
     const Place& next = place(point + 1);
     const PathTool& tool = tools_.on_edge_to(path_, point);
-    here.cost = find_cost(tool.rates, tool.stray, point, places_at_[0],
+    const bool above = last_low_ == 0 || last_low_ + max_near < point;
+    here.cost = find_cost({tool.rates, tool.stray, point, tools_at_[point % ring], above},
                           {{here.edge, here.room}, {next.edge, next.room}}, window_);
     if (here.cost.straight) return;
     const double rise = std::max(here.edge.line_acceleration, next.edge.line_acceleration);
-    if (is_worth(here.cost.wanted, divide(here.cost, here.edge, next.edge, rise),
-                 std::min(here.edge.cap, next.edge.cap), rise))
-      return;
+    here.speed = divide(here.cost, here.edge, next.edge, rise);
+    if (is_worth(here.cost.wanted, here.speed, std::min(here.edge.cap, next.edge.cap), rise)) return;
     here.rest = true;
     here.cost = {};
   }
@@ -111,12 +132,13 @@ class CornerFinder {
   double divide(CornerCost& cost, const PathEdge& first, const PathEdge& second, double rise) const {
     const double bend = (second.way - first.way).cwiseQuotient(demands_.acceleration).cwiseAbs().maxCoeff();
     const CornerCost most = cost;
+    // The parabola's own acceleration is |w - u| v^2 / 2 half.
+    const double cap = std::min(first.cap, second.cap), enough = bend * cap * cap / 2;
     double best = -1;
-    for (const double parabola : {0.1, 0.2, 0.35, 0.5, max_parabola_share}) {
+    for (const double parabola : {std::min(0.1, enough * cost.share / 4), 0.1, 0.2, 0.35, 0.5, max_parabola_share}) {
       const double half = std::min(most.wanted, 4 * parabola / cost.share),
                    speed = max_speed((1 - parabola) / cost.share, half, rise);
-      // The parabola's own acceleration is |w - u| v^2 / 2 half.
-      const double least = std::min(speed, std::sqrt(2 * half / bend));
+      const double least = std::min({speed, std::sqrt(2 * half / bend), cap});
       if (least <= best) continue;
       best = least;
       cost.parabola = parabola;
@@ -142,23 +164,53 @@ class CornerFinder {
     double room_m = std::numeric_limits<double>::infinity();  // the least that the tool may stray at any of them
     double left = 1;                                          // of what may be strayed, less the parabolas' shares
     double acceleration = 0, turn_speed = 0, travel_speed = 0;
+    double turn_rise = 0, travel_rise = 0;      // the most that these rise by in a second
+    double turn_change = 0, travel_change = 0;  // and that they change by at all corners
     bool crowded = false;
-    std::array<const CornerCost*, 2 * max_near + 1> corners;
+    double fastest = 0;  // r' is nowhere more
+    struct Corner {
+      const CornerCost* cost;
+      double at;  // by r, from the first one
+    };
+    std::array<Corner, 2 * max_near + 1> corners;
     std::size_t count = 0;
 
-    void add(const CornerCost& cost) {
-      corners[count++] = &cost;
+    void add(const CornerCost& cost, double at, double speed) {
+      corners[count++] = {&cost, at};
+      turn_change += cost.turn * speed;
+      travel_change += cost.travel * speed;
       room_m = std::min(room_m, cost.room_m);
       left = std::min(left, 1 - cost.parabola);
+    }
+    /// On the parabola between two edges.
+    void add_rise(const PathEdge& first, const PathEdge& second) {
+      const double rise = std::max(first.line_acceleration, second.line_acceleration);
+      turn_rise = std::max(turn_rise, rise * std::max(first.turn, second.turn));
+      travel_rise = std::max(travel_rise, rise * std::max(first.travel, second.travel));
     }
     /// Of a displacement at one of them, where the tool turns by up to `turned` meanwhile.
     double share(const CornerCost& cost, double turned) const {
       return std::max(cost.share, cost.tool_m / room_m) + turned * cost.share_by_turn * cost.room_m / room_m;
     }
-    double share_of_all(double turned) const {
-      double sum = 0;
-      for (std::size_t at = 0; at < count; ++at) sum += share(*corners[at], turned);
-      return sum;
+    /// The most that the shares of all come to, each weighed by how far from it the window's mean is, while the first
+    /// one counts. Between ends of parabolas and of the first one's reach the sum is convex.
+    double max_share(double turned, double window_s) const {
+      const double reach = fastest * window_s / 2, first_reach = corners[0].cost->wanted + reach;
+      const auto sum_at = [&](double mean) {
+        double sum = 0;
+        for (std::size_t at = 0; at < count; ++at) {
+          const auto& [cost, place] = corners[at];
+          const double beyond = std::abs(mean - place) - cost->wanted;
+          const double weight = beyond <= 0 ? 1 : beyond < reach ? square(1 - beyond / reach) : 0;
+          sum += weight * share(*cost, turned);
+        }
+        return sum;
+      };
+      double most = std::max(sum_at(first_reach), sum_at(-first_reach));
+      for (std::size_t at = 0; at < count; ++at)
+        for (const double end : {-corners[at].cost->wanted, corners[at].cost->wanted})
+          if (std::abs(corners[at].at + end) < first_reach) most = std::max(most, sum_at(corners[at].at + end));
+      return most;
     }
   };
 
@@ -168,13 +220,14 @@ class CornerFinder {
     const PathEdge &first = place(point).edge, &second = place(point + 1).edge;
     const double feed = std::min(first.feed_m_s, second.feed_m_s);
     const auto speed = [&](const PathEdge& edge) { return 1 / std::max(edge.joint_rate, edge.ball / feed); };
-    return std::max(speed(first), speed(second));
+    return std::min(place(point).speed, std::max(speed(first), speed(second)));
   }
 
   /// Corners one behind the other from `point`, in steps of `step`, until a window is over in any case.
   void look_around(Neighbourhood& around, std::size_t point, int step, std::size_t known) {
     const double half = place(point).cost.wanted;
     double gone = 0;                                   // time since the end of the corner's parabola, at least
+    double at = 0;                                     // by r
     double fastest_here = corner_speed(point, known);  // r' rises by no more than the lines' accelerations
     for (std::size_t count = 1;; ++count) {
       const std::size_t edge_at = step > 0 ? point + 1 : point;
@@ -185,11 +238,16 @@ class CornerFinder {
       around.acceleration = std::max(around.acceleration, edge.line_acceleration);
       around.turn_speed = std::max(around.turn_speed, edge.turn * fastest_here);
       around.travel_speed = std::max(around.travel_speed, edge.travel * fastest_here);
+      around.fastest = std::max(around.fastest, fastest_here);
+      around.add_rise(edge, edge);
+      if (const std::size_t beside = step > 0 ? edge_at - 1 : edge_at + 1; beside > 0 && beside < known)
+        around.add_rise(edge, place(beside).edge);
+      at += step * edge.length;
       point = step > 0 ? point + 1 : point - 1;
       const Place& there = place(point);
       const double own = count == 1 ? std::min(half, edge.length) : 0, far = std::min(there.cost.wanted, edge.length);
       const bool reached = gone + (edge.length - own - far) / speed < window_;
-      if (reached && !there.rest && !there.cost.straight) around.add(there.cost);
+      if (reached && !there.rest && !there.cost.straight) around.add(there.cost, at, corner_speed(point, known));
       gone += (edge.length - own) / speed;
       if (gone > window_) return;
       if (count == max_near) {
@@ -213,10 +271,10 @@ class CornerFinder {
     CornerCaps& caps = corners_.caps[point];
     const bool inside = point > 0 && point + 1 < path_.size();
     Neighbourhood around;
-    if (inside && !here.rest && !here.cost.straight) around.add(here.cost);
+    if (inside && !here.rest && !here.cost.straight) around.add(here.cost, 0, corner_speed(point, known));
     if (point > 0) look_around(around, point, -1, known);
     if (point + 1 < path_.size()) look_around(around, point, 1, known);
-    const double slower = window_ * around.turn_speed * around.travel_speed / 4;  // m/s: J changes within a window
+    const double slower = feed_change(around);
     if (point > 0) set_cruise(corner, here.edge, std::max(slower, slower_before_));
     slower_before_ = slower;
     if (!inside || here.rest) return;
@@ -226,6 +284,19 @@ class CornerFinder {
       return;
     }
     cut_off(point, around, slower);
+  }
+
+  /// How much faster (m/s) the ball may be where the mean of the joints is than it is at any time of the window: J
+  /// changes within. With e the way from that mean and H the derivative of J, the mean of H(e, e') is the difference of
+  /// H(e, e) at the window's ends, by 2 T: H(sum of both e, their difference) / 2 T. That sum is at most T / 2 times as
+  /// much as q' differs from a constant one, half of what it changes by. The rest is of second order, |e| being at most
+  /// T / 2 (1 - 2 x + 2 x^2) times the speed at a share x of the window.
+  double feed_change(const Neighbourhood& around) const {
+    constexpr double mean_square = 7.0 / 60;  // of (1 - 2 x + 2 x^2) / 2
+    const double t = window_, turn = std::min(around.turn_change + t * around.turn_rise, 2 * around.turn_speed),
+                 travel = std::min(around.travel_change + t * around.travel_rise, 2 * around.travel_speed);
+    const double first = turn * around.travel_speed + (orders_ > 1 ? travel * around.turn_speed : 0);
+    return t / 8 * first + third_orders_ * mean_square / 2 * square(t * around.turn_speed) * around.travel_speed;
   }
 
   static void set_cruise(LawCorner& corner, const PathEdge& edge, double slower) {
@@ -245,8 +316,8 @@ class CornerFinder {
     const double half =
         rounded_down(std::min({most, share(first, others_before), share(second, others_after), here.cost.wanted}));
     if (around.crowded || !(half > 0)) return;
-    const double left = around.left / around.share_of_all(turned);
-    double speed = std::min(std::max(first.cap, second.cap), max_speed(left, half, around.acceleration));
+    const double left = around.left / around.max_share(turned, window_);
+    double speed = std::min({std::max(first.cap, second.cap), here.speed, max_speed(left, half, around.acceleration)});
     speed = std::min(speed, std::sqrt(max_x_by_length * std::min(first.length, second.length)));
     if (!is_worth(half, speed, std::min(first.cap, second.cap), around.acceleration)) return;
     corners_.law[point].half = static_cast<float>(half);
@@ -276,12 +347,15 @@ class CornerFinder {
   const PlanPath& path_;
   const PathTools& tools_;
   const CornerDemands& demands_;
-  const double orders_;
+  const double orders_, third_orders_;
   std::optional<EdgeRoomFinder> rooms_;  // of a thin tool
   const double window_;
   std::vector<Place> places_;
+  std::vector<ToolPlace> tools_at_;
   Corners corners_;
   EdgePlaces places_at_;  // of the tool on the last edge
+  std::size_t done_ = 0;
+  std::size_t last_low_ = 0;  // the last edge on which the tool may be below the stock's bottom; 0: none
   double slower_before_ = 0;
 };
 

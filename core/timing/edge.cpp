@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/square.hpp"
 #include "core/collision/shape/motion_bound.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double finest_turn = 0.05;  // rad: longer edges are looked at in parts
-constexpr int max_parts = 256;
+constexpr double slower_by = 1e-3;     // of the ball's speed that what is not known of it may take
+constexpr double finest_turn = 0.025;  // rad: shorter edges are not looked at in parts
+constexpr int max_parts = 512;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ void ToolPlace::put(const ToolRates& rates, const Configuration& q) {
 }
 
 /// The ball's velocity by r leaves the line between its values at the ends of a part of length p by no more than p^2 /
-/// 8 times the third derivative of the ball's place.
+/// 8 times the third derivative of the ball's place. There are as many parts as that needs to be next to nothing.
 PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Configuration& start,
                    const Configuration& end, EdgePlaces& places) {
   PathEdge edge;
@@ -36,25 +38,23 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
   edge.travel = rates.travel.dot(size);
   edge.joint_rate = size.cwiseQuotient(joints.velocity).maxCoeff();
   edge.line_acceleration = 1 / size.cwiseQuotient(joints.acceleration).maxCoeff();
-  places[1].put(rates, start + step / 2);
-  places[2].put(rates, end);
-  for (const ToolPlace& place : places) edge.ball = std::max(edge.ball, place.ball(edge.way).norm());
-  const int halves =
-      static_cast<int>(std::min<double>(max_parts, std::ceil(edge.turn * edge.length / (2 * finest_turn) + 1e-9)));
+  places.end.put(rates, end);
+  edge.ball = std::max(places.begin.ball(edge.way).norm(), places.end.ball(edge.way).norm());
+  const double whole = rates.orders(3) * edge.turn * edge.turn * edge.travel * edge.length * edge.length / 8,
+               turned = edge.turn * edge.length;
+  const int parts = static_cast<int>(std::min(
+      {double{max_parts}, std::ceil(turned / finest_turn), std::ceil(std::sqrt(whole / (slower_by * edge.ball)))}));
   ToolPlace between;
-  for (int part = 1; halves > 1 && part < 2 * halves; ++part) {
-    if (part == halves) continue;
-    between.put(rates, start + step * part / (2 * halves));
+  for (int part = 1; part < parts; ++part) {
+    between.put(rates, start + step * part / parts);
     edge.ball = std::max(edge.ball, between.ball(edge.way).norm());
   }
-  const double third = rates.orders(3) * edge.turn * edge.turn * edge.travel,
-               part_length = edge.length / (2 * std::max(1, halves));
-  edge.ball += third * part_length * part_length / 8;
+  edge.ball += whole / square(std::max(1, parts));
   return edge;
 }
 
 EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places) {
-  const ToolPlace &begin = places[0], &end = places[2];
+  const ToolPlace &begin = places.begin, &end = places.end;
   const Configuration step = edge.way * edge.length;
   const Vec3 line = end.pose.ball_m - begin.pose.ball_m,
              top_line = line + rates.stickout_m * (end.pose.axis - begin.pose.axis);

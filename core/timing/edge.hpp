@@ -1,8 +1,6 @@
 // The way from one point of a plan to the next, by r. Internal to core/timing.
 #pragma once
 
-#include <array>
-
 #include "core/cell/chain.hpp"
 
 namespace sculpt {
@@ -45,8 +43,10 @@ struct PathEdge {
   bool cut = false;
 };
 
-/// Where the tool is at the beginning, in the middle and at the end of an edge.
-using EdgePlaces = std::array<ToolPlace, 3>;
+/// Where the tool is at both ends of an edge.
+struct EdgePlaces {
+  ToolPlace begin, end;
+};
 
 /// How far ball and shank's end leave the straight line between where an edge begins and ends (m): at a share t of it
 /// by no more than 4 bow t (1 - t) + 16 more t^2 (1 - t)^2. By the cubic through the ends with the derivatives there,
@@ -61,7 +61,7 @@ struct JointRates {
   const Configuration &acceleration, &velocity;
 };
 
-/// From `start` to `end`, which differ; places[0] is at `start`, the others are set.
+/// From `start` to `end`, which differ; the tool is at `start` already, places.end is set.
 PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Configuration& start,
                    const Configuration& end, EdgePlaces& places);
 

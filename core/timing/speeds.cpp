@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/square.hpp"
 #include "core/timing/blend_interval.hpp"
 
 namespace sculpt {
@@ -16,10 +17,6 @@ float down(double value) {
   auto rounded = static_cast<float>(value);
   if (static_cast<double>(rounded) > value) rounded = std::nextafter(rounded, 0.0f);
   return rounded;
-}
-
-double square(double value) {
-  return value * value;
 }
 
 /// x at both ends of a part of a parabola so that, linear in between, it stays below 1 / (linear)^2, which is convex:

@@ -22,9 +22,9 @@ void for_each_stop(const PlanPath& path, const PathTools& tools, const MotionLim
     const PathTool& tool = tools.on_edge_to(path, point);
     const bool is_same = point > 1 && path.edge_to(point).tool == path.edge_to(point - 1).tool;
     if (is_same)
-      places[0] = places[2];
+      places.begin = places.end;
     else
-      places[0].put(tool.rates, path.configuration(point - 1));
+      places.begin.put(tool.rates, path.configuration(point - 1));
     take(point, stop_time(tool, limits, feeds.of(path.edge_to(point), tool), path.configuration(point - 1),
                           path.configuration(point), places));
   }

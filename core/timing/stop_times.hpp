@@ -12,7 +12,8 @@ struct StopTime {
   double share = 0;  ///< of the velocity of the joint that is nearest to its own, at the largest speed
 };
 
-/// Of one edge, `tool` in the spindle, the ball no faster than `feed_m_s`. places[0] is at `from`, the others are set.
+/// Of one edge, `tool` in the spindle, the ball no faster than `feed_m_s`. the tool is at `from` already, places.end is
+/// set.
 StopTime stop_time(const PathTool& tool, const MotionLimits& limits, double feed_m_s, const Configuration& from,
                    const Configuration& to, EdgePlaces& places);
 

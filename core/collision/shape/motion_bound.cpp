@@ -83,6 +83,21 @@ Configuration motion_bound(const Chain& chain, int fixed, int moving, double ext
   return bound;
 }
 
+Configuration approach_bound(const Chain& chain, const LinkExtent& first, const LinkExtent& second) {
+  const auto seen_from = [&](int between) -> Configuration {
+    return motion_bound(chain, between, first.link, first.extent_m) +
+           motion_bound(chain, between, second.link, second.extent_m);
+  };
+  Configuration least = seen_from(first.link);
+  for (const Passage& passage : find_way(chain.robot(), first.link, second.link)) {
+    const Joint& joint = chain.robot().joints[static_cast<std::size_t>(passage.joint)];
+    if (const Configuration bound = seen_from(passage.up ? joint.parent_link : joint.child_link);
+        bound.sum() < least.sum())
+      least = bound;
+  }
+  return least;
+}
+
 Configuration turn_bound(const Chain& chain, int fixed, int moving) {
   Configuration bound = Configuration::Zero(chain.dof());
   for (const Passage& passage : find_way(chain.robot(), fixed, moving)) {

@@ -11,6 +11,16 @@ namespace sculpt {
 /// Holds at every configuration within the limits.
 Configuration motion_bound(const Chain& chain, int fixed, int moving, double extent_m);
 
+/// A link and what is fixed to it: no point is farther from its origin.
+struct LinkExtent {
+  int link;
+  double extent_m;
+};
+/// Upper bounds, per coordinate of `chain`, on how fast points of two links come nearer to each other (m per rad, or m
+/// per m), at every configuration within the limits. Seen from a link between the two each joint moves one of them
+/// only: of those links, both ends included, the one whose bounds add up to least.
+Configuration approach_bound(const Chain& chain, const LinkExtent& first, const LinkExtent& second);
+
 /// Upper bounds, per coordinate, on how fast link `moving` turns seen from link `fixed` (rad per unit).
 Configuration turn_bound(const Chain& chain, int fixed, int moving);
 

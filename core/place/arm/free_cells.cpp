@@ -17,10 +17,7 @@ constexpr double max_cells = 200000;
 
 FreeCells::FreeCells(const Chain& chain, const Body& first, const Body& second, double margin_m)
     : first_(first), second_(second), reach_m_(margin_m) {
-  // Either may be looked at from the other: the one that moves less.
-  const Configuration one = motion_bound(chain, second.link, first.link, first.extent_m),
-                      other = motion_bound(chain, first.link, second.link, second.extent_m);
-  const Configuration& speed = one.sum() < other.sum() ? one : other;
+  const Configuration speed = approach_bound(chain, {first.link, first.extent_m}, {second.link, second.extent_m});
   double cells = 1;
   for (Eigen::Index c = 0; c < speed.size(); ++c) {
     if (speed[c] == 0) continue;

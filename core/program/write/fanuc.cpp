@@ -7,7 +7,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int fanuc_decimals = 3;
+const int fanuc_decimals = facts_of(Dialect::fanuc).decimals;
 
 class FanucPart : public PartWriter {
  public:

@@ -49,9 +49,9 @@ double highest_beside(const Cell& cell, const Chain& chain, const Configuration&
 
 }  // namespace
 
-/// In voxel edges: ball and shank's end at the beginning, in the middle and at the end.
+/// In voxel edges: ball and shank's end at the beginning and at the end.
 struct EdgeRoomFinder::Ends {
-  std::array<Vec3, 3> ball, top;
+  std::array<Vec3, 2> ball, top;
   std::size_t direction;
   EdgeBow bow;  ///< m
 };
@@ -70,12 +70,12 @@ EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Cha
 EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeBow& bow, const EdgePlaces& places) {
   if (!all_below_) return {};
   Ends ends;
-  for (std::size_t at = 0; at < 3; ++at) {
-    const ToolPose& pose = places[at].pose;
+  for (std::size_t at = 0; at < 2; ++at) {
+    const ToolPose& pose = (at == 0 ? places.begin : places.end).pose;
     ends.ball[at] = (pose.ball_m - grid_.origin_m) / grid_.voxel_m;
     ends.top[at] = ends.ball[at] + stickout_m_ / grid_.voxel_m * pose.axis;
   }
-  ends.direction = nearest_direction(places[1].pose.axis);
+  ends.direction = nearest_direction(places.begin.pose.axis + places.end.pose.axis);
   ends.bow = bow;
   const int voxels = path_.edge_to(point).voxels;
   EdgeRoom room;
@@ -91,13 +91,13 @@ EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeBow& bow, const Edge
   return room;
 }
 
-EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) const {
-  const Voxel from = cell_of(ends.ball[0]), to = cell_of(ends.ball[2]), gap = to - from;
+EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) {
+  const Voxel from = cell_of(ends.ball[0]), to = cell_of(ends.ball[1]), gap = to - from;
   if ((gap.i != 0) + (gap.j != 0) + (gap.k != 0) > 1 || from.k < 0 || to.k < 0) return {};
   const Voxel axis = face_steps[ends.direction];
   const Vec3 along(axis.i, axis.j, axis.k);
   double ball_off = 0, top_off = 0;
-  for (const std::size_t end : {0u, 2u}) {
+  for (std::size_t end = 0; end < 2; ++end) {
     const Vec3 middle = middle_of(end == 0 ? from : to), beside = ends.top[end] - middle;
     ball_off = std::max(ball_off, (ends.ball[end] - middle).norm());
     top_off = std::max(top_off, (beside - along * along.dot(beside)).norm());
@@ -115,7 +115,7 @@ EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) const {
           room(shank_radius_, std::max(ball_off, top_off), 0.5, ends.bow.top)};
 }
 
-EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) const {
+EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) {
   Vec3 low = ends.ball[0], high = low;
   for (const auto* points : {&ends.ball, &ends.top})
     for (const Vec3& point : *points) {

@@ -46,8 +46,8 @@ class EdgeRoomFinder {
 
  private:
   struct Ends;
-  EdgeRoom in_columns(int voxels, const Ends& ends) const;
-  EdgeRoom above_all(const Ends& ends) const;
+  EdgeRoom in_columns(int voxels, const Ends& ends);
+  EdgeRoom above_all(const Ends& ends);
 
   const PlanPath& path_;
   Grid grid_;

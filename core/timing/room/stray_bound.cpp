@@ -1,7 +1,6 @@
 #include "core/timing/room/stray_bound.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -19,11 +18,8 @@ namespace {
 
 constexpr double share_of_tool_margin = 0.6;
 
-// The one that moves less of the two, seen from the other.
-Configuration approach_speed(const Chain& chain, const Body& first, const Body& second) {
-  const Configuration one = motion_bound(chain, second.link, first.link, first.extent_m),
-                      other = motion_bound(chain, first.link, second.link, second.extent_m);
-  return one.sum() <= other.sum() ? one : other;
+Configuration approach_of(const Chain& chain, const Body& first, const Body& second) {
+  return approach_bound(chain, {first.link, first.extent_m}, {second.link, second.extent_m});
 }
 
 }  // namespace
@@ -46,20 +42,38 @@ StrayBound StrayBound::of_links(const Cell& cell, const Chain& chain, double res
 }
 
 StrayBound::StrayBound(const Cell& cell, const Chain& chain, std::vector<Body> bodies, double reserve_m)
-    : cell_(cell),
-      chain_(chain),
-      bodies_(std::move(bodies)),
-      reserve_m_(reserve_m),
-      links_(Configuration::Zero(chain.dof())) {
+    : cell_(cell), chain_(chain), bodies_(std::move(bodies)), reserve_m_(reserve_m) {
   beside_.most = below_.most = Configuration::Zero(chain.dof());
-  const std::vector<int> group = rigid_groups(cell.robot);
-  const double room_m = share_of_link_margin * link_margin_m - reserve_m;
-  for (std::size_t at = 0; at + 1 < bodies_.size(); ++at) {
-    const Body& body = bodies_[at];
-    if (group[static_cast<std::size_t>(body.link)] == group[static_cast<std::size_t>(cell.stock_link)]) continue;
-    links_ = links_.cwiseMax(motion_bound(chain, cell.stock_link, body.link, body.extent_m) / room_m);
-  }
+  add_links_and_stock(cell);
   add_link_pairs(cell);
+}
+
+void StrayBound::add_links_and_stock(const Cell& cell) {
+  const std::vector<int> group = rigid_groups(cell.robot);
+  const auto group_of = [&](int link) { return group[static_cast<std::size_t>(link)]; };
+  const double room_m = share_of_link_margin * link_margin_m - reserve_m_;
+  const Vec3 first = cell.stock_origin_m, last = first + Vec3::Constant(cell.stock_size_m);
+  LinkExtent stock{cell.stock_link, first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm()};
+  for (std::size_t at = 0; at + 1 < bodies_.size() && cell.has_post; ++at)
+    if (bodies_[at].link == stock.link) stock.extent_m = std::max(stock.extent_m, bodies_[at].extent_m);
+  for (std::size_t at = 0; at + 1 < bodies_.size(); ++at)
+    if (const Body& body = bodies_[at]; group_of(body.link) != group_of(stock.link))
+      add_speed(approach_bound(chain_, {body.link, body.extent_m}, stock) / room_m);
+}
+
+void StrayBound::add_speed(const Configuration& share) {
+  const auto is_below = [](const Configuration& one, const Configuration& other) {
+    return (one.array() <= other.array()).all();
+  };
+  if (std::ranges::any_of(links_, [&](const Configuration& known) { return is_below(share, known); })) return;
+  std::erase_if(links_, [&](const Configuration& known) { return is_below(known, share); });
+  links_.push_back(share);
+}
+
+double StrayBound::links(const Configuration& size) const {
+  double most = 0;
+  for (const Configuration& share : links_) most = std::max(most, share.dot(size));
+  return most;
 }
 
 void StrayBound::add_others() {
@@ -73,7 +87,7 @@ void StrayBound::add_others() {
     if (group_of(body.link) == group_of(cell_.stock_link) || group_of(body.link) == group_of(cell_.tool_link)) continue;
     Others& others = stays_below(body, home) ? below_ : beside_;
     others.all.push_back(
-        {at, approach_speed(chain_, tool, body), motion_bound(chain_, cell_.stock_link, body.link, body.extent_m)});
+        {at, approach_of(chain_, tool, body), motion_bound(chain_, cell_.stock_link, body.link, body.extent_m)});
     others.most = others.most.cwiseMax(others.all.back().speed);
   }
 }
@@ -91,7 +105,7 @@ void StrayBound::add_link_pairs(const Cell& cell) {
       if (!(room_m > 0))
         throw InputError("reserve_invalid",
                          "two links are so near each other at home that nothing is left to reserve: reserve less");
-      links_ = links_.cwiseMax(approach_speed(chain_, parts[pair.first], parts[pair.second]) / room_m);
+      add_speed(approach_of(chain_, parts[pair.first], parts[pair.second]) / room_m);
     }
   }
 }
@@ -109,20 +123,18 @@ bool StrayBound::stays_below(const Body& body, const Configuration& q) const {
 }
 
 void StrayBound::look_along(const PlanPath& path) {
-  for (Others* others : {&beside_, &below_}) {
-    others->near.assign(path.size() / points_a_stretch + 1, !others->all.empty());
-    if (others->all.empty()) continue;
-    for (std::size_t at = 0; at < others->near.size(); at += stretches_a_look)
-      look_at(path, *others, at, std::min(at + stretches_a_look, others->near.size()));
-    // A corner counts where its neighbours are, too.
-    std::vector<bool>& near = others->near;
-    const std::vector<bool> found = near;
-    for (std::size_t at = 0; at < found.size(); ++at)
-      if (found[at])
-        for (std::size_t beside = at - std::min(at, stretches_beside);
-             beside < std::min(at + stretches_beside + 1, found.size()); ++beside)
-          near[beside] = true;
-  }
+  std::vector<bool>& near = beside_.near;
+  near.assign(path.size() / points_a_stretch + 1, !beside_.all.empty());
+  if (beside_.all.empty()) return;
+  for (std::size_t at = 0; at < near.size(); at += stretches_a_look)
+    look_at(path, beside_, at, std::min(at + stretches_a_look, near.size()));
+  // A corner counts where its neighbours are, too.
+  const std::vector<bool> found = near;
+  for (std::size_t at = 0; at < found.size(); ++at)
+    if (found[at])
+      for (std::size_t beside = at - std::min(at, stretches_beside);
+           beside < std::min(at + stretches_beside + 1, found.size()); ++beside)
+        near[beside] = true;
 }
 
 // Of all edges to the points of the stretches, and two beyond: what a parabola at a point is in is the hull of three.
@@ -146,16 +158,13 @@ void StrayBound::look_at(const PlanPath& path, Others& others, std::size_t first
   look_at(path, others, middle, end);
 }
 
-// Anywhere in the hull of three: in its box, or in those of its quarters.
-bool StrayBound::is_far(const Others& others, const std::array<Configuration, 3>& corners, int quarterings) const {
-  const auto& [a, b, c] = corners;
-  if (is_far(others, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c))) return true;
-  if (quarterings == 0) return false;
-  const Configuration ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
-  const auto is_far_in = [&](const std::array<Configuration, 3>& quarter) {
-    return is_far(others, quarter, quarterings - 1);
-  };
-  return is_far_in({a, ab, ca}) && is_far_in({ab, b, bc}) && is_far_in({ca, bc, c}) && is_far_in({ab, bc, ca});
+// On the straight way from one to the other: in its box, or in those of its halves.
+bool StrayBound::is_far_along(const Others& others, const Configuration& from, const Configuration& to,
+                              int halvings) const {
+  if (is_far(others, from.cwiseMin(to), from.cwiseMax(to))) return true;
+  if (halvings == 0) return false;
+  const Configuration middle = (from + to) / 2;
+  return is_far_along(others, from, middle, halvings - 1) && is_far_along(others, middle, to, halvings - 1);
 }
 
 bool StrayBound::is_far(const Others& others, const Configuration& low, const Configuration& high) const {
@@ -186,27 +195,24 @@ double StrayBound::share(const Others& others, const Configuration& size, double
 
 double StrayBound::tool_and_links(std::size_t point, bool above, const Configuration& size) const {
   constexpr double unknown_m = std::numeric_limits<double>::infinity();
-  const double beside = share(beside_, point, size, unknown_m);
-  return above ? beside : std::max(beside, share(below_, point, size, unknown_m));
-}
-
-double StrayBound::tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size,
-                                     double tool_m) const {
-  double most = 0;
-  for (const Others* others : {&beside_, &below_}) {
-    double share_of_others = share(*others, point, size, tool_m);
-    if (share_of_others > 1) {
-      const std::array corners{path.configuration(point - std::min<std::size_t>(point, 1)), path.configuration(point),
-                               path.configuration(std::min(point + 1, path.size() - 1))};
-      if (is_far(*others, corners, max_quarterings)) share_of_others = others->most.dot(size) / far_m;
-    }
-    most = std::max(most, share_of_others);
-  }
-  return most;
+  return std::max(share(beside_, point, size, unknown_m),
+                  above ? below_.most.dot(size) / far_m : share(below_, size, unknown_m));
 }
 
 double StrayBound::tool_and_links(const Configuration& size, double tool_m) const {
   return std::max(share(beside_, size, tool_m), share(below_, size, tool_m));
+}
+
+double StrayBound::tool_and_links(const std::pair<Configuration, Configuration>& way, const Configuration& size,
+                                  double tool_m) const {
+  double most = 0;
+  for (const Others* others : {&beside_, &below_}) {
+    const double anywhere = share(*others, size, tool_m);
+    most = std::max(most, anywhere > 1 && is_far_along(*others, way.first, way.second, max_halvings)
+                              ? others->most.dot(size) / far_m
+                              : anywhere);
+  }
+  return most;
 }
 
 }  // namespace sculpt

@@ -1,7 +1,7 @@
 // How far from the certified path a motion may stray: what the planners' margins leave, and what joints make of it.
 #pragma once
 
-#include <array>
+#include <utility>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -30,17 +30,17 @@ class StrayBound {
   double reserve_m() const { return reserve_m_; }
   /// Ball and shank's end may stray that far from where the path has them (m), on every certified edge.
   double tool_m() const { return tool_m_; }
-  /// Links stay where they may be if the sum of links()[j] * |d_j| is at most 1.
-  const Configuration& links() const { return links_; }
+  /// Share of what links may come nearer to each other or to the stock that they do by |d_j|.
+  double links(const Configuration& size) const;
   /// The same at a point of the path of the tool and the links that can move against the stock: share of what these two
   /// may come nearer to each other by |d_j|. `above`: ball and shank surely stay above the stock's bottom.
   double tool_and_links(std::size_t point, bool above, const Configuration& size) const;
-  /// The same on the two edges of a point, which are looked at closely where it takes more than all. `tool_m`: how far
-  /// ball and shank are displaced in the stock's frame.
-  double tool_and_links_at(const PlanPath& path, std::size_t point, const Configuration& size, double tool_m) const;
-  /// The same anywhere.
+  /// The same anywhere. `tool_m`: how far ball and shank are displaced in the stock's frame.
   double tool_and_links(const Configuration& size, double tool_m) const;
-  /// Finds out where on the path the tool is far from all links that can move against the stock. To be called once.
+  /// The same on a straight way, which is looked at closely where that takes more than all.
+  double tool_and_links(const std::pair<Configuration, Configuration>& way, const Configuration& size,
+                        double tool_m) const;
+  /// Finds out where on the path the tool is far from the links that may come beside the stock. To be called once.
   void look_along(const PlanPath& path);
 
  private:
@@ -48,8 +48,10 @@ class StrayBound {
   void add_others();
   static constexpr double far_m = 1e-3;
   static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
-  static constexpr int max_quarterings = 2;
+  static constexpr int max_halvings = 8;
+  void add_links_and_stock(const Cell& cell);
   void add_link_pairs(const Cell& cell);
+  void add_speed(const Configuration& share);
   /// Bodies that the tool must stay off.
   struct Others {
     struct One {
@@ -62,7 +64,7 @@ class StrayBound {
   };
   bool stays_below(const Body& body, const Configuration& q) const;
   void look_at(const PlanPath& path, Others& others, std::size_t first, std::size_t end) const;
-  bool is_far(const Others& others, const std::array<Configuration, 3>& corners, int quarterings) const;
+  bool is_far_along(const Others& others, const Configuration& from, const Configuration& to, int halvings) const;
   bool is_far(const Others& others, const Configuration& low, const Configuration& high) const;
   double share(const Others& others, std::size_t point, const Configuration& size, double tool_m) const;
   double share(const Others& others, const Configuration& size, double tool_m) const;
@@ -71,8 +73,8 @@ class StrayBound {
   const Chain& chain_;
   std::vector<Body> bodies_;
   double bottom_m_ = 0, reserve_m_, tool_m_ = 1e-9;
-  Configuration links_;
-  Others beside_, below_;  ///< the latter are always below the stock's bottom
+  std::vector<Configuration> links_;  ///< speeds by the room there is, of pairs; none is below another in all joints
+  Others beside_, below_;             ///< the latter are always below the stock's bottom
 };
 
 }  // namespace sculpt

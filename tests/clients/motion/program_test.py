@@ -58,6 +58,11 @@ class Program(ClientTest):
         report, _ = self.program("fanuc")
         self.assertEqual(report["moves"], 2047)
 
+    def test_other_digits_where_the_nearest_ones_are_too_coarse(self):
+        self.fine("plan", SOURCE / "config/samples/bust.stl", "--resolution", 32, "--robot", "six-axis-turntable", "-o", "bust.sct")
+        report, _ = self.program("fanuc", "--part-keyframes", 1000)  # seams too
+        self.assertGreater(report["parts"], 2)
+
     def test_a_universal_robot_and_ros(self):
         self.plan("ur10e-plinth")
         report, folder = self.program("urscript")

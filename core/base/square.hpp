@@ -1,0 +1,9 @@
+#pragma once
+
+namespace sculpt {
+
+constexpr double square(double value) {
+  return value * value;
+}
+
+}  // namespace sculpt
