@@ -1,16 +1,14 @@
 #include "core/program/make_program.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/program/digits.hpp"
 #include "core/program/part_stock.hpp"
 #include "core/program/read/main_reader.hpp"
 #include "core/program/read/part_reader.hpp"
-#include "core/program/rounding.hpp"
 #include "core/program/seams.hpp"
 #include "core/program/write/ros2.hpp"
 #include "core/timing/demand/motion_limits.hpp"
@@ -19,10 +17,6 @@
 
 namespace sculpt {
 namespace {
-
-// Nothing but digits strays in a program that stops at every keyframe: three quarters of the tool's margin may be used,
-// and 0.94 of the links', where a time law uses 0.6 and 0.75.
-constexpr double alone = 1.25;
 
 class ProgramMaker {
  public:
@@ -34,7 +28,8 @@ class ProgramMaker {
         take_(take),
         limits_(limits_of(cell, chain)),
         layout_(lay_out_axes(cell, chain, demands.dialect)),
-        tools_(path, cell, demands.motion.reserve_m) {
+        tools_(path, cell, demands.motion.reserve_m),
+        digits_(demands.dialect, layout_, path) {
     for (const AxisLayout::Axis& axis : layout_.axes) letters_.push_back(axis.name);
     if (demands.stock_files) stock_.emplace(path);
   }
@@ -66,8 +61,8 @@ class ProgramMaker {
     if (!demands_.part_bytes) return size;
     TextMeter meter(demands_.dialect, layout_, {demands_.name, 0, 0, longest_mount()}, path_.configuration(0));
     for_each_stop(path_, tools_, limits_, feeds, [&](std::size_t point, const StopTime& time) {
-      meter.add(
-          {axes_at({path_.configuration(point), point, tools_.on_edge_to(path_, point)}), time.seconds, time.share});
+      meter.add({digits_.axes_at({path_.configuration(point), point, tools_.on_edge_to(path_, point)}), time.seconds,
+                 time.share});
     });
     size.text = meter.take(*demands_.part_bytes);
     return size;
@@ -80,13 +75,6 @@ class ProgramMaker {
       if (!longest || tool.name.size() > longest->name.size()) longest = {std::numeric_limits<int>::max(), tool.name};
     return longest;
   }
-
-  /// Of the program, as it is planned.
-  struct Place {
-    Configuration q;
-    std::size_t point;  ///< of the path: there, or where its retreat begins
-    const PathTool& tool;
-  };
 
   bool is_changed_at(std::size_t point) const {
     return point > 0 && path_.edge_to(point + 1).tool != path_.edge_to(point).tool;
@@ -111,11 +99,11 @@ class ProgramMaker {
     places_.clear();
     times_.clear();
     places_.push_back({q, seam.point, tools_.on_edge_to(path_, seam.point + 1)});
-    writer_ = write_part(demands_.dialect, layout_, names_, axes_at(places_.back()));
+    writer_ = write_part(demands_.dialect, layout_, names_, digits_.axes_at(places_.back()));
   }
 
-  void add(Place place, const StopTime& time) {
-    writer_->add({axes_at(place), time.seconds, time.share});
+  void add(ProgramPlace place, const StopTime& time) {
+    writer_->add({digits_.axes_at(place), time.seconds, time.share});
     times_.push_back(time);
     places_.push_back(std::move(place));
   }
@@ -127,11 +115,11 @@ class ProgramMaker {
   void come_back(const Seam& seam) {
     const PathTool& tool = tools_.on_edge_to(path_, seam.point + 1);
     for (std::size_t at = seam.retreat.size(); at-- > 0;)
-      add_rapid(at > 0 ? Place{seam.retreat[at - 1], seam.point, tool}
-                       : Place{path_.configuration(seam.point), seam.point, tool});
+      add_rapid(at > 0 ? ProgramPlace{seam.retreat[at - 1], seam.point, tool}
+                       : ProgramPlace{path_.configuration(seam.point), seam.point, tool});
   }
 
-  void add_rapid(Place place) {
+  void add_rapid(ProgramPlace place) {
     EdgePlaces places;
     const Configuration from = places_.back().q;
     places.begin.put(place.tool.rates, from);
@@ -192,11 +180,12 @@ class ProgramMaker {
       throw InputError("program_damaged",
                        "a part that was written tells of other voxels than the plan has: this is a fault of this "
                        "program, please report it");
-    Stray before = check_place(places_.front(), joints_of(part.start, part.radians));
+    DigitStray before = digits_.check_place(places_.front(), joints_of(part.start, part.radians));
     for (std::size_t at = 0; at < part.moves.size(); ++at) {
       const ReadMove& move = part.moves[at];
-      const Stray stray = check_place(places_[at + 1], joints_of(move.values, part.radians));
-      check_move(places_[at], before, places_[at + 1], stray);
+      const DigitStray stray = digits_.check_place(places_[at + 1], joints_of(move.values, part.radians));
+      digits_.check_move({places_[at], before}, {places_[at + 1], stray});
+      report_.rounding_m = std::max({report_.rounding_m, before.tool_m, stray.tool_m});
       before = stray;
       const StopTime& time = times_[at];
       const bool slow_enough = move.seconds > 0 ? move.seconds >= time.seconds * (1 - 1e-6) - 1e-9
@@ -211,63 +200,6 @@ class ProgramMaker {
     }
   }
 
-  /// Where the nearest numbers of the dialect would have the tool too far off, others.
-  Configuration axes_at(const Place& place) {
-    const Configuration axes = layout_.to_axes(place.q);
-    const int decimals = facts_of(demands_.dialect).decimals;
-    if (decimals == 0) return axes;
-    const Stray nearest = stray_at(place, layout_.to_joints(nearest_axes(layout_, axes, decimals)));
-    const double tool_and_links = place.tool.stray.tool_and_links(nearest.size, nearest.tool_m);
-    if (std::max({nearest.tool, nearest.links, tool_and_links}) <= alone) return axes;
-    return round_axes(layout_, place.tool.rates, place.q, decimals);
-  }
-
-  /// What other joints than the plan's take of what its certificates leave at a place.
-  struct Stray {
-    Configuration size;
-    double tool_m, tool, links;
-  };
-  Stray stray_at(const Place& place, const Configuration& q) {
-    const ToolRates& rates = place.tool.rates;
-    const Configuration off = q - place.q, size = off.cwiseAbs();
-    tool_.put(rates, place.q);
-    const double turned = rates.turn.dot(size), second = rates.orders(2) * turned * rates.travel.dot(size) / 2;
-    const double tool_m = std::max(tool_.ball(off).norm(), tool_.top(off, rates.stickout_m).norm()) + second;
-    return {size, tool_m, tool_m / certain_m(place.tool, place.point), place.tool.stray.links(size)};
-  }
-
-  /// What the digits leave of the plan's joints is free if both ends of every edge are.
-  Stray check_place(const Place& place, const Configuration& read) {
-    Stray stray = stray_at(place, read);
-    report_.rounding_m = std::max(report_.rounding_m, stray.tool_m);
-    check_share(std::max(stray.tool, stray.links), stray.tool > stray.links ? "ball or shank" : "a link", place);
-    return stray;
-  }
-
-  void check_move(const Place& from, const Stray& before, const Place& to, const Stray& after) const {
-    check_share(to.tool.stray.tool_and_links({from.q, to.q}, before.size.cwiseMax(after.size),
-                                             std::max(before.tool_m, after.tool_m)),
-                "the tool, to a link,", to);
-  }
-
-  void check_share(double share, const char* what, const Place& place) const {
-    if (share <= alone) return;
-    std::ostringstream text;
-    text.precision(3);
-    text << "the digits that " << facts_of(demands_.dialect).name << " has put " << what << ' '
-         << 100 * (share / alone - 1) << " % farther beside the plan than its certificates leave, at keyframe "
-         << path_.edge_to(place.point).keyframe
-         << ": plan with a coarser resolution, or take a dialect with more digits";
-    throw InputError("rounding_too_coarse", text.str());
-  }
-
-  /// How far the tool may be off an edge that it goes exactly.
-  double certain_m(const PathTool& held, std::size_t point) const {
-    if (!path_.header().mill) return held.stray.tool_m();
-    return std::min(held.room.beside(path_.edge_to(std::max<std::size_t>(point, 1))),
-                    held.room.beside(path_.edge_to(std::min(point + 1, path_.size() - 1))));
-  }
-
   const PlanPath& path_;
   const Cell& cell_;
   const ProgramDemands& demands_;
@@ -275,13 +207,13 @@ class ProgramMaker {
   const MotionLimits limits_;
   const AxisLayout layout_;
   const PathTools tools_;
+  const Digits digits_;
   std::vector<std::string> letters_;
   std::vector<Seam> seams_;
   ProgramNames names_;
   std::unique_ptr<PartWriter> writer_;
-  std::vector<Place> places_;    // of the part, its start first
-  std::vector<StopTime> times_;  // of the moves to the others
-  ToolPlace tool_;
+  std::vector<ProgramPlace> places_;  // of the part, its start first
+  std::vector<StopTime> times_;       // of the moves to the others
   std::optional<PartStock> stock_;
   ProgramReport report_;
 };

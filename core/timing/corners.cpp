@@ -1,23 +1,21 @@
 #include "core/timing/corners.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "core/base/square.hpp"
 #include "core/law/coarse.hpp"
 #include "core/timing/corner_cost.hpp"
 #include "core/timing/edge.hpp"
 #include "core/timing/room/edge_room.hpp"
+#include "core/timing/window_corners.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr double min_line = 0.02;        // of an edge: what parabolas leave of it
 constexpr double max_x_by_length = 100;  // so that numbers of 32 bits tell accelerations well enough
-constexpr std::size_t max_near = 64;     // corners that a window may reach, on one side
 constexpr double min_speed = 1e-9;
 
 /// A point, the edge that leads to it, and what is known of its corner before its neighbours are.
@@ -36,7 +34,6 @@ class CornerFinder {
         tools_(tools),
         demands_(demands),
         orders_(tools.first().rates.orders(2)),
-        third_orders_(tools.first().rates.orders(3)),
         rooms_(make_rooms(path, tools.first())),
         window_(demands.window_s),
         places_(ring),
@@ -51,10 +48,11 @@ class CornerFinder {
     for (std::size_t point = 1; point < path_.size(); ++point) {
       demands_.go_on_from(point);
       go_to(point);
-      if (point > max_near) look_and_finish(point - max_near);
+      if (point > WindowCorners::max_near) look_and_finish(point - WindowCorners::max_near);
     }
     place(path_.size() - 1).rest = true;
-    for (std::size_t point = path_.size() - std::min(path_.size() - 1, max_near); point + 1 < path_.size(); ++point)
+    for (std::size_t point = path_.size() - std::min(path_.size() - 1, WindowCorners::max_near);
+         point + 1 < path_.size(); ++point)
       look_and_finish(point);
     while (done_ < path_.size()) finish(done_++, path_.size());
     return std::move(corners_);
@@ -109,7 +107,7 @@ class CornerFinder {
   /// As many points as a window may reach are known behind it.
   void look_and_finish(std::size_t point) {
     look_at_corner(point);
-    while (done_ + max_near < point) finish(done_++, point + 1);
+    while (done_ + WindowCorners::max_near < point) finish(done_++, point + 1);
   }
 
   void look_at_corner(std::size_t point) {
@@ -117,7 +115,7 @@ class CornerFinder {
     if (here.rest) return;
     const Place& next = place(point + 1);
     const PathTool& tool = tools_.on_edge_to(path_, point);
-    const bool above = last_low_ == 0 || last_low_ + max_near < point;
+    const bool above = last_low_ == 0 || last_low_ + WindowCorners::max_near < point;
     here.cost = find_cost({tool.rates, tool.stray, point, tools_at_[point % ring], above},
                           {{here.edge, here.room}, {next.edge, next.room}}, window_);
     if (here.cost.straight) return;
@@ -159,61 +157,6 @@ class CornerFinder {
     return speed > min_speed && 2 * half / speed < 2 * half / usual + window_ + usual / acceleration;
   }
 
-  /// What a window that holds a corner may hold besides.
-  struct Neighbourhood {
-    double room_m = std::numeric_limits<double>::infinity();  // the least that the tool may stray at any of them
-    double left = 1;                                          // of what may be strayed, less the parabolas' shares
-    double acceleration = 0, turn_speed = 0, travel_speed = 0;
-    double turn_rise = 0, travel_rise = 0;      // the most that these rise by in a second
-    double turn_change = 0, travel_change = 0;  // and that they change by at all corners
-    bool crowded = false;
-    double fastest = 0;  // r' is nowhere more
-    struct Corner {
-      const CornerCost* cost;
-      double at;  // by r, from the first one
-    };
-    std::array<Corner, 2 * max_near + 1> corners;
-    std::size_t count = 0;
-
-    void add(const CornerCost& cost, double at, double speed) {
-      corners[count++] = {&cost, at};
-      turn_change += cost.turn * speed;
-      travel_change += cost.travel * speed;
-      room_m = std::min(room_m, cost.room_m);
-      left = std::min(left, 1 - cost.parabola);
-    }
-    /// On the parabola between two edges.
-    void add_rise(const PathEdge& first, const PathEdge& second) {
-      const double rise = std::max(first.line_acceleration, second.line_acceleration);
-      turn_rise = std::max(turn_rise, rise * std::max(first.turn, second.turn));
-      travel_rise = std::max(travel_rise, rise * std::max(first.travel, second.travel));
-    }
-    /// Of a displacement at one of them, where the tool turns by up to `turned` meanwhile.
-    double share(const CornerCost& cost, double turned) const {
-      return std::max(cost.share, cost.tool_m / room_m) + turned * cost.share_by_turn * cost.room_m / room_m;
-    }
-    /// The most that the shares of all come to, each weighed by how far from it the window's mean is, while the first
-    /// one counts. Between ends of parabolas and of the first one's reach the sum is convex.
-    double max_share(double turned, double window_s) const {
-      const double reach = fastest * window_s / 2, first_reach = corners[0].cost->wanted + reach;
-      const auto sum_at = [&](double mean) {
-        double sum = 0;
-        for (std::size_t at = 0; at < count; ++at) {
-          const auto& [cost, place] = corners[at];
-          const double beyond = std::abs(mean - place) - cost->wanted;
-          const double weight = beyond <= 0 ? 1 : beyond < reach ? square(1 - beyond / reach) : 0;
-          sum += weight * share(*cost, turned);
-        }
-        return sum;
-      };
-      double most = std::max(sum_at(first_reach), sum_at(-first_reach));
-      for (std::size_t at = 0; at < count; ++at)
-        for (const double end : {-corners[at].cost->wanted, corners[at].cost->wanted})
-          if (std::abs(corners[at].at + end) < first_reach) most = std::max(most, sum_at(corners[at].at + end));
-      return most;
-    }
-  };
-
   /// r' at the corner: its parabola keeps to the feed of both edges.
   double corner_speed(std::size_t point, std::size_t known) {
     if (point == 0 || point + 1 >= known || place(point).rest) return 0;
@@ -224,7 +167,7 @@ class CornerFinder {
   }
 
   /// Corners one behind the other from `point`, in steps of `step`, until a window is over in any case.
-  void look_around(Neighbourhood& around, std::size_t point, int step, std::size_t known) {
+  void look_around(WindowCorners& around, std::size_t point, int step, std::size_t known) {
     const double half = place(point).cost.wanted;
     double gone = 0;                                   // time since the end of the corner's parabola, at least
     double at = 0;                                     // by r
@@ -235,11 +178,7 @@ class CornerFinder {
       const PathEdge& edge = place(edge_at).edge;
       const double speed = fastest(edge_at, known);
       fastest_here = std::min(std::max(edge.cap, fastest_here), fastest_here + edge.line_acceleration * window_);
-      around.acceleration = std::max(around.acceleration, edge.line_acceleration);
-      around.turn_speed = std::max(around.turn_speed, edge.turn * fastest_here);
-      around.travel_speed = std::max(around.travel_speed, edge.travel * fastest_here);
-      around.fastest = std::max(around.fastest, fastest_here);
-      around.add_rise(edge, edge);
+      around.add_edge(edge, fastest_here);
       if (const std::size_t beside = step > 0 ? edge_at - 1 : edge_at + 1; beside > 0 && beside < known)
         around.add_rise(edge, place(beside).edge);
       at += step * edge.length;
@@ -250,7 +189,7 @@ class CornerFinder {
       if (reached && !there.rest && !there.cost.straight) around.add(there.cost, at, corner_speed(point, known));
       gone += (edge.length - own) / speed;
       if (gone > window_) return;
-      if (count == max_near) {
+      if (count == WindowCorners::max_near) {
         around.crowded = true;
         return;
       }
@@ -270,11 +209,11 @@ class CornerFinder {
     LawCorner& corner = corners_.law[point];
     CornerCaps& caps = corners_.caps[point];
     const bool inside = point > 0 && point + 1 < path_.size();
-    Neighbourhood around;
+    WindowCorners around;
     if (inside && !here.rest && !here.cost.straight) around.add(here.cost, 0, corner_speed(point, known));
     if (point > 0) look_around(around, point, -1, known);
     if (point + 1 < path_.size()) look_around(around, point, 1, known);
-    const double slower = feed_change(around);
+    const double slower = around.feed_change(window_, tools_.first().rates);
     if (point > 0) set_cruise(corner, here.edge, std::max(slower, slower_before_));
     slower_before_ = slower;
     if (!inside || here.rest) return;
@@ -286,25 +225,12 @@ class CornerFinder {
     cut_off(point, around, slower);
   }
 
-  /// How much faster (m/s) the ball may be where the mean of the joints is than it is at any time of the window: J
-  /// changes within. With e the way from that mean and H the derivative of J, the mean of H(e, e') is the difference of
-  /// H(e, e) at the window's ends, by 2 T: H(sum of both e, their difference) / 2 T. That sum is at most T / 2 times as
-  /// much as q' differs from a constant one, half of what it changes by. The rest is of second order, |e| being at most
-  /// T / 2 (1 - 2 x + 2 x^2) times the speed at a share x of the window.
-  double feed_change(const Neighbourhood& around) const {
-    constexpr double mean_square = 7.0 / 60;  // of (1 - 2 x + 2 x^2) / 2
-    const double t = window_, turn = std::min(around.turn_change + t * around.turn_rise, 2 * around.turn_speed),
-                 travel = std::min(around.travel_change + t * around.travel_rise, 2 * around.travel_speed);
-    const double first = turn * around.travel_speed + (orders_ > 1 ? travel * around.turn_speed : 0);
-    return t / 8 * first + third_orders_ * mean_square / 2 * square(t * around.turn_speed) * around.travel_speed;
-  }
-
   static void set_cruise(LawCorner& corner, const PathEdge& edge, double slower) {
     const double feed = std::max(edge.feed_m_s - (edge.cut ? slower : 0), edge.feed_m_s / 2);
     corner.cruise = static_cast<float>(rounded_down(1 / std::max(edge.joint_rate, edge.ball / feed)));
   }
 
-  void cut_off(std::size_t point, const Neighbourhood& around, double slower) {
+  void cut_off(std::size_t point, const WindowCorners& around, double slower) {
     const Place& here = place(point);
     const PathEdge &first = here.edge, &second = place(point + 1).edge;
     const double turned = window_ * around.turn_speed;
@@ -347,7 +273,7 @@ class CornerFinder {
   const PlanPath& path_;
   const PathTools& tools_;
   const CornerDemands& demands_;
-  const double orders_, third_orders_;
+  const double orders_;
   std::optional<EdgeRoomFinder> rooms_;  // of a thin tool
   const double window_;
   std::vector<Place> places_;
