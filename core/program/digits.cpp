@@ -30,7 +30,8 @@ DigitStray Digits::stray_at(const ProgramPlace& place, const Configuration& q) c
   ToolPlace tool;
   tool.put(rates, place.q);
   const double turned = rates.turn.dot(size), second = rates.orders(2) * turned * rates.travel.dot(size) / 2;
-  const double tool_m = std::max(tool.ball(off).norm(), tool.top(off, rates.stickout_m).norm()) + second;
+  const ToolMotion motion = tool.motion(off, rates.stickout_m);
+  const double tool_m = std::max(motion.ball.norm(), motion.top.norm()) + second;
   return {size, tool_m, tool_m / certain_m(place), place.tool.stray.links(size)};
 }
 

@@ -85,8 +85,9 @@ Configuration round_axes(const AxisLayout& layout, const ToolRates& rates, const
   tool.put(rates, q);
   const auto beside = [&](const Configuration& axes) {
     const Configuration off = layout.to_joints(axes) - q;
+    const ToolMotion motion = tool.motion(off, rates.stickout_m);
     Beside both;
-    both << tool.ball(off), tool.top(off, rates.stickout_m);
+    both << motion.ball, motion.top;
     return both;
   };
   Configuration axes = nearest_axes(layout, layout.to_axes(q), decimals);

@@ -5,8 +5,6 @@
 // delta both ends ask of (s, x_0) to lie in bands |alpha s + beta x_0| <= 1: a convex polygon.
 #pragma once
 
-#include <array>
-
 #include "core/base/frame.hpp"
 
 namespace sculpt {
@@ -24,18 +22,14 @@ class BlendInterval {
   int binding(double start) const;
 
  private:
-  struct Line {
-    double value, slope;
-    int joint;
-  };
-  /// Of s at x_0: bands alone.
-  Line upper(double start) const;
-  Line lower(double start) const;
-  void add(double alpha, double beta, int joint);
+  using Bands = Eigen::Array<double, Eigen::Dynamic, 1, 0, 2 * max_joints + 1, 1>;
+  /// Of s at x_0, by bands alone.
+  double upper(double start) const { return (reach_ - slope_ * start).minCoeff(); }
+  double lower(double start) const { return (-reach_ - slope_ * start).maxCoeff(); }
+  Eigen::Index binding_upper(double start) const;
+  Eigen::Index binding_lower(double start) const;
 
-  std::array<double, 2 * max_joints + 1> reach_, slope_;
-  std::array<int, 2 * max_joints + 1> joint_;
-  int bands_ = 0;
+  Bands reach_, slope_;  ///< first those of the joints at its beginning, then at its end, then that of s itself
   double delta_, max_start_;
 };
 

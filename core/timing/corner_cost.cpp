@@ -30,7 +30,7 @@ CornerCost find_cost(const CornerPlace& place, const std::pair<CornerEdge, Corne
   if (cost.straight) return cost;
   cost.turn = rates.turn.dot(size);
   cost.travel = rates.travel.dot(size);
-  const double ball = place.tool.ball(turn).norm(), top = place.tool.top(turn, rates.stickout_m).norm(),
+  const double ball = (second.begin.ball - first.end.ball).norm(), top = (second.begin.top - first.end.top).norm(),
                travel = cost.travel, orders = rates.orders(2), longest = std::max(first.length, second.length);
   const double certain = stray.tool_m();
   Rooms rooms{certain, certain};

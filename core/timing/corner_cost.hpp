@@ -33,7 +33,6 @@ struct CornerPlace {
   const ToolRates& rates;
   const StrayBound& stray;
   std::size_t point;
-  const ToolPlace& tool;
   bool above;  ///< the tool stays above the stock's bottom all around
 };
 

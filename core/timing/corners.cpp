@@ -36,8 +36,7 @@ class CornerFinder {
         orders_(tools.first().rates.orders(2)),
         rooms_(make_rooms(path, tools.first())),
         window_(demands.window_s),
-        places_(ring),
-        tools_at_(ring) {}
+        places_(ring) {}
 
   Corners run() {
     corners_.law.resize(path_.size());
@@ -83,7 +82,6 @@ class CornerFinder {
     to.edge.cap = 1 / std::max(to.edge.joint_rate, to.edge.ball / to.edge.feed_m_s);
     const EdgeBow bow = bow_of(tool.rates, to.edge, places_at_);
     to.room = rooms_ ? rooms_->go_to(point, bow, places_at_) : room_of(edge, tool.room, bow);
-    tools_at_[point % ring] = places_at_.end;
     to.rest = edge.rest;
     if (lowest_on_edge(bow) < path_.header().grid.origin_m.z()) last_low_ = point;
   }
@@ -116,8 +114,8 @@ class CornerFinder {
     const Place& next = place(point + 1);
     const PathTool& tool = tools_.on_edge_to(path_, point);
     const bool above = last_low_ == 0 || last_low_ + WindowCorners::max_near < point;
-    here.cost = find_cost({tool.rates, tool.stray, point, tools_at_[point % ring], above},
-                          {{here.edge, here.room}, {next.edge, next.room}}, window_);
+    here.cost =
+        find_cost({tool.rates, tool.stray, point, above}, {{here.edge, here.room}, {next.edge, next.room}}, window_);
     if (here.cost.straight) return;
     const double rise = std::max(here.edge.line_acceleration, next.edge.line_acceleration);
     here.speed = divide(here.cost, here.edge, next.edge, rise);
@@ -277,7 +275,6 @@ class CornerFinder {
   std::optional<EdgeRoomFinder> rooms_;  // of a thin tool
   const double window_;
   std::vector<Place> places_;
-  std::vector<ToolPlace> tools_at_;
   Corners corners_;
   EdgePlaces places_at_;  // of the tool on the last edge
   std::size_t done_ = 0;

@@ -9,7 +9,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double slower_by = 1e-3;     // of the ball's speed that what is not known of it may take
+constexpr double slower_by = 2e-3;     // of the ball's speed that what is not known of it may take
 constexpr double finest_turn = 0.025;  // rad: shorter edges are not looked at in parts
 constexpr int max_parts = 512;
 
@@ -39,7 +39,9 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
   edge.joint_rate = size.cwiseQuotient(joints.velocity).maxCoeff();
   edge.line_acceleration = 1 / size.cwiseQuotient(joints.acceleration).maxCoeff();
   places.end.put(rates, end);
-  edge.ball = std::max(places.begin.ball(edge.way).norm(), places.end.ball(edge.way).norm());
+  edge.begin = places.begin.motion(edge.way, rates.stickout_m);
+  edge.end = places.end.motion(edge.way, rates.stickout_m);
+  edge.ball = std::max(edge.begin.ball.norm(), edge.end.ball.norm());
   const double whole = rates.orders(3) * edge.turn * edge.turn * edge.travel * edge.length * edge.length / 8,
                turned = edge.turn * edge.length;
   const int parts = static_cast<int>(std::min(
@@ -54,15 +56,14 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
 }
 
 EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places) {
-  const ToolPlace &begin = places.begin, &end = places.end;
-  const Configuration step = edge.way * edge.length;
-  const Vec3 line = end.pose.ball_m - begin.pose.ball_m,
-             top_line = line + rates.stickout_m * (end.pose.axis - begin.pose.axis);
-  const auto top = [&](const ToolPlace& place) { return place.top(step, rates.stickout_m); };
+  const ToolPose &begin = places.begin.pose, &end = places.end.pose;
+  const Vec3 line = end.ball_m - begin.ball_m, top_line = line + rates.stickout_m * (end.axis - begin.axis);
   // With the derivatives a and b of the deviation at its ends the cubic is a t (1 - t)^2 - b t^2 (1 - t).
+  const auto bow = [&](const Vec3& at_begin, const Vec3& at_end, const Vec3& straight) {
+    return std::max((edge.length * at_begin - straight).norm(), (edge.length * at_end - straight).norm()) / 4;
+  };
   const double turned = edge.turn * edge.length;
-  return {std::max((begin.ball(step) - line).norm(), (end.ball(step) - line).norm()) / 4,
-          std::max((top(begin) - top_line).norm(), (top(end) - top_line).norm()) / 4,
+  return {bow(edge.begin.ball, edge.end.ball, line), bow(edge.begin.top, edge.end.top, top_line),
           rates.orders(4) * turned * turned * turned * edge.travel * edge.length / 384};
 }
 

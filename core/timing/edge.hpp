@@ -18,6 +18,11 @@ struct ToolRates {
   double orders(int order) const { return chain.shifts() ? order : 1; }
 };
 
+/// How ball and shank's upper end move.
+struct ToolMotion {
+  Vec3 ball = Vec3::Zero(), top = Vec3::Zero();
+};
+
 /// The tool where it is and how it moves by each joint.
 struct ToolPlace {
   void put(const ToolRates& rates, const Configuration& q);
@@ -25,14 +30,15 @@ struct ToolPlace {
   ToolPose pose;
   JointColumns<6> jacobian;
   Vec3 ball(const Configuration& step) const { return jacobian.topRows<3>() * step; }
-  /// The shank's upper end.
-  Vec3 top(const Configuration& step, double stickout_m) const {
-    return ball(step) + Vec3(jacobian.bottomRows<3>() * step).cross(stickout_m * pose.axis);
+  ToolMotion motion(const Configuration& step, double stickout_m) const {
+    const Eigen::Matrix<double, 6, 1> twist = jacobian * step;
+    return {twist.head<3>(), twist.head<3>() + twist.tail<3>().cross(stickout_m * pose.axis)};
   }
 };
 
 struct PathEdge {
   Configuration way;            ///< q' by r
+  ToolMotion begin, end;        ///< at its ends (m by r)
   double length = 0;            ///< e
   double ball = 0;              ///< the ball's largest speed (m by r)
   double turn = 0, travel = 0;  ///< bounds, of the tool, by r
