@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <stop_token>
 
 #include "clients/cli/commands/commands.hpp"
@@ -49,11 +50,15 @@ Json check(const LawFile& law, const Cell& cell, const TimeOptions& options) {
 }
 
 void print_check(const Json& check) {
-  std::cout << "check: " << (check.at("clean").get<bool>() ? "clean" : "NOT CLEAN") << ", " << check.at("pieces")
-            << " pieces, " << check.at("samples") << " samples; at most " << check.at("velocity") << " of a velocity, "
-            << check.at("acceleration") << " of an acceleration, " << check.at("jerk") << " of a jerk, "
-            << check.at("feed_m_s") << " m/s on cuts; ball " << check.at("ball_voxels") << " voxels, cutter "
-            << check.at("cutter_m") << " m and links " << check.at("links_m") << " m off the path\n";
+  const auto value = [&](const char* name) { return check.at(name).get<double>(); };
+  std::ostringstream line;
+  line.precision(5);
+  line << "check: " << (check.at("clean").get<bool>() ? "clean" : "NOT CLEAN") << ", " << check.at("pieces")
+       << " pieces, " << check.at("samples") << " samples; at most " << value("velocity") << " of a velocity, "
+       << value("acceleration") << " of an acceleration, " << value("jerk") << " of a jerk, " << value("feed_m_s")
+       << " m/s on cuts; ball " << value("ball_voxels") << " voxels and cutter " << 1e6 * value("cutter_m")
+       << " um off the path, links " << 1e6 * value("links_m") << " um nearer than on it";
+  std::cout << line.str() << "\n";
   for (const Json& finding : check.at("findings"))
     std::cout << "  keyframe " << finding.at("keyframe") << ": " << finding.at("sentence").get<std::string>() << "\n";
 }

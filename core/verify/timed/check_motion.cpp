@@ -191,7 +191,7 @@ class Checker {
   }
 
   void look_beside(const Window::State& now) {
-    const PathBeside::Off off = beside_.off(now.q, now.gone);
+    const PathBeside::Off off = beside_.off(now.q, now.gone, mm * std::min(verdict_.links_m, check_.max_links_m));
     const double voxels = off.ball / (mm * reader_.header().grid.voxel_m),
                  speed = before_ ? (beside_.ball(now.q) - beside_.ball(*before_)).norm() / mm * check_.samples_hz : 0;
     const bool cuts = now.cuts && cut_before_;
@@ -207,7 +207,8 @@ class Checker {
     cut_before_ = now.cuts;
     verdict_.links_m = std::max(verdict_.links_m, off.links / mm);
     if (off.links / mm > check_.max_links_m)
-      find(beside_.keyframe(), "links are " + text(1e3 * off.links) + " um off the path");
+      find(beside_.keyframe(), "two links, or one and the stock, may be " + text(1e3 * off.links) +
+                                   " um nearer to each other than on the path");
     if (milling) {
       look_at_cutter(now, off);
       return;

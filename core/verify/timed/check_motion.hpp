@@ -25,8 +25,8 @@ struct MotionVerdict {
   double total_s = 0;
   /// Largest shares of the limits that the motion comes to.
   double velocity = 0, acceleration = 0, jerk = 0, feed_m_s = 0, rapid_m_s = 0;
-  /// How far from the plan's edges it comes at the samples: on cuts ball and shank's end (voxel edges), links always
-  /// (m).
+  /// How far from the plan's edges it comes at the samples: on cuts ball and shank's end (voxel edges); always how much
+  /// nearer two links, or one and the stock, may be to each other than there (m).
   double ball_voxels = 0, shank_voxels = 0, links_m = 0;
   /// Of milling tools instead: points of the cutter from where the straight ways of the tip would have them.
   double cutter_m = 0;

@@ -68,7 +68,7 @@ std::string said(const MotionVerdict& verdict) {
 }
 
 TEST(CheckMotion, WhatTheLawMakesIsClean) {
-  for (const char* cell : {"panda-turntable", "gantry"})
+  for (const char* cell : {"panda-turntable", "gantry", "six-axis-turntable"})
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       SCOPED_TRACE(std::string(cell) + " seed " + std::to_string(seed));
       const Timed one = sample(seed, cell);
