@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/timing/corners.hpp"
@@ -106,6 +107,12 @@ TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands&
   const PathTools tools(path, cell, demands.reserve_m);
   const TimerInputs asked{path, tools, limits, demands, stop};
   Attempt attempt = Timer(asked).best();
+  if (!std::isfinite(attempt.time.total)) {
+    std::ostringstream text;
+    text << "at a feed of " << demands.feed_m_s << " m/s and a rapid rate of " << demands.rapid_m_s
+         << " m/s some edge never ends, as far as the law's file can tell: give 1e-6 m/s or more of both";
+    throw InputError("feed_invalid", text.str());
+  }
   TimedPlan plan{{}, std::move(attempt.time), {}};
   plan.law = law_of(path, std::move(attempt), demands);
   plan.worst = find_slow_places(path, tools, limits.velocity, plan.law, demands);

@@ -26,9 +26,9 @@ void check_cell(const PlanPath& path, const Chain& chain, const Cell& cell);
 /// The shortest law for these demands that keeps velocity, acceleration and jerk of all joints, and stays as near to
 /// the plan's edges as their certificates allow (StrayBound, corners.hpp). Of cuts one after the other along one line
 /// of the grid the first and the last voxel do not count for `keep_feed`: there the motion comes to rest or turns.
-/// Throws InputError: `feed_invalid` for a demand that is no positive number, `limits_missing`, `reserve_invalid`,
-/// `feed_not_kept`, `cell_mismatch` for a plan of another cell; Cancelled soon after a stop was requested. Depends on
-/// its arguments only.
+/// Throws InputError: `feed_invalid` for a demand that is no positive number, or too small, `limits_missing`,
+/// `reserve_invalid`, `feed_not_kept`, `cell_mismatch` for a plan of another cell; Cancelled soon after a stop was
+/// requested. Depends on its arguments only.
 TimedPlan time_plan(const PlanPath& path, const Cell& cell, const MotionDemands& demands,
                     const std::stop_token& stop = {});
 

@@ -181,6 +181,7 @@ TEST(TimedPlan, WhatCannotBeDoneIsRefusedWithTheCure) {
   const PlanPath path = path_of(cell, {move_to(q)});
   EXPECT_NE(refusal(path, cell, {0, 0.2, {}, 0}).find("feed_invalid"), std::string::npos);
   EXPECT_NE(refusal(path, cell, {0.1, -1, {}, 0}).find("give one above 0"), std::string::npos);
+  EXPECT_NE(refusal(path, cell, {0.1, 1e-12, {}, 0}).find("give 1e-6 m/s or more"), std::string::npos);
   EXPECT_NE(refusal(path, cell, {0.1, 1, {}, 1}).find("reserve less"), std::string::npos);
   EXPECT_NE(refusal(path, shipped_cell("panda-turntable"), {0.1, 1, {}, 0}).find("--robot"), std::string::npos);
   cell.limits[static_cast<std::size_t>(cell.robot.find_joint("x"))].jerk = 0;
