@@ -8,7 +8,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t max_foreseen = 16;
+constexpr std::size_t max_foreseen = 256;
 
 bool touches_outside(const Block& block, int n) {
   const auto at_side = [&](int low) { return low == 0 || low + block.size == n; };
