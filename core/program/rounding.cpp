@@ -90,18 +90,19 @@ Configuration round_axes(const AxisLayout& layout, const ToolRates& rates, const
     both << motion.ball, motion.top;
     return both;
   };
-  Configuration axes = nearest_axes(layout, layout.to_axes(q), decimals);
-  const Beside nearest = beside(axes);
+  const Configuration first = nearest_axes(layout, layout.to_axes(q), decimals);
+  const Beside nearest = beside(first);
   std::vector<Beside> by_step;
-  for (Eigen::Index axis = 0; axis < axes.size(); ++axis) {
-    Configuration more = axes;
+  for (Eigen::Index axis = 0; axis < first.size(); ++axis) {
+    Configuration more = first;
     more[axis] += step_of(layout, axis, decimals);
     by_step.push_back(beside(more) - nearest);
   }
   const std::vector<int> steps = Descent(std::move(by_step), nearest).run();
+  Configuration axes = first;
   for (Eigen::Index axis = 0; axis < axes.size(); ++axis)
     axes[axis] += steps[static_cast<std::size_t>(axis)] * step_of(layout, axis, decimals);
-  return axes;
+  return rates.chain.within_limits(layout.to_joints(axes)) ? axes : first;
 }
 
 }  // namespace sculpt

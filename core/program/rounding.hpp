@@ -11,7 +11,8 @@ Configuration nearest_axes(const AxisLayout& layout, Configuration axes, int dec
 
 /// Axes (rad or m, as the controller counts them) that have no more than so many decimals in degrees or millimetres,
 /// none more than one and a half steps from where it is at `q`: of those, about the ones with which ball and shank's
-/// end are least beside where they are at `q`. What one axis rounds away another one makes up for.
+/// end are least beside where they are at `q`. What one axis rounds away another one makes up for. The nearest ones
+/// where a joint would be past its limit.
 Configuration round_axes(const AxisLayout& layout, const ToolRates& rates, const Configuration& q, int decimals);
 
 }  // namespace sculpt
