@@ -65,7 +65,7 @@ function states_of(timeline, {removed, final, what}, edge) {
         const cell = row + (i >> shift), is_target = label[at] === KEEP_LABEL;
         if (is_target) targets[cell] = 1;
         const stands = what === 'sculpture' ? is_target : order[at] > removed;
-        const state = !stands ? GONE : final && order[at] === NEVER && !is_target ? LEFT : STANDS;
+        const state = !stands ? GONE : final && order[at] >= NEVER && !is_target ? LEFT : STANDS;
         if (state > states[cell]) states[cell] = state;
       }
     }

@@ -6,7 +6,7 @@ const AIR = 0, KEEP = 1, REMOVE = 2;
 const SEGMENT = 4096;
 const LINE_END = 10;
 const MOVE = 0, MILLED = 7;
-export const NEVER = 0xffffffff;
+export const NEVER = 0xffffff00;
 const FINEST = 256;
 
 /** A list of numbers that grows. */
@@ -18,13 +18,16 @@ class Growing {
     this.length = 0;
   }
 
-  /** @param {number} value */
+  /** Room for so many more. @param {number} more */
+  reserve(more) {
+    if (this.length + more <= this.values.length) return;
+    const larger = new this.Kind(Math.max(2 * this.length, this.length + more));
+    larger.set(this.values.subarray(0, this.length));
+    this.values = larger;
+  }
+
+  /** There is room for it. @param {number} value */
   push(value) {
-    if (this.length === this.values.length) {
-      const larger = new this.Kind(2 * this.length);
-      larger.set(this.values);
-      this.values = larger;
-    }
     this.values[this.length++] = value;
   }
 }
@@ -33,7 +36,8 @@ class Growing {
 
 /**
  * The decoded part. Cells are voxels, or where there are more than FINEST along an edge, blocks of them: a block goes with its last voxel.
- * `order[cell]`: 0 = nothing was there, else it stands until so many voxels are cut, NEVER = as long as is known.
+ * `order[cell]`: 0 = nothing was there, else it stands until so many voxels are cut, from NEVER on = as long as is known: of a block
+ * that is NEVER and how many of its voxels are still to be cut.
  */
 export class Timeline {
   /** @param {number} [finest] cells along an edge, at most */
@@ -84,20 +88,22 @@ export class Timeline {
     this.n = this.header.resolution;
     this.edge = Math.min(this.n, this.finest);
     this.block = this.n / this.edge;
+    this.block_bits = Math.log2(this.block);
     this.order = new Uint32Array(this.edge ** 3);
     this.label = new Uint8Array(this.edge ** 3);
-    this.left = this.block > 1 ? new Uint16Array(this.edge ** 3) : null;
     return true;
   }
 
   /** @param {Varints} numbers */
   #read_runs(numbers) {
     const total = this.n ** 3;
+    if (this.filled === total) return true;
     while (this.filled < total) {
       const run = numbers.next();
       if (run < 0) return false;
       this.#fill(run % 3, (run - (run % 3)) / 3 + 1);
     }
+    if (this.block > 1) this.#stand_blocks();
     return true;
   }
 
@@ -114,40 +120,51 @@ export class Timeline {
     this.filled = end;
   }
 
-  /** From what is filled to there, a block's part of a row at a time. @param {number} label @param {number} end */
+  /** From what is filled to there, a row at a time: blocks count their voxels, and are kept if any of these is. @param {number} label @param {number} end */
   #fill_blocks(label, end) {
-    const {n, block, order, label: labels} = this, left = /** @type {Uint16Array} */ (this.left);
-    for (let at = this.filled; at < end;) {
-      const x = at % n, row = (at - x) / n, stop = Math.min(end, at - x + n);
-      let cell = this.cell(x, row % n, Math.floor(row / n)), taken = Math.min(stop - at, block - (x % block));
-      for (; at < stop; at += taken, taken = Math.min(stop - at, block), ++cell) {
-        order[cell] = NEVER;
-        left[cell] += taken;
-        if (labels[cell] !== KEEP) labels[cell] = label;
-      }
+    const {n, block, block_bits, order, label: labels} = this, row_bits = Math.log2(n);
+    for (let at = this.filled, next = at; at < end; at = next) {
+      const x = at & (n - 1), row = (at - x) / n, last = Math.min(n, x + end - at) - 1, cells = this.cell(0, row & (n - 1), row >> row_bits);
+      const from = cells + (x >> block_bits), to = cells + (last >> block_bits);
+      for (let cell = from; cell <= to; ++cell) order[cell] += block;
+      order[from] -= x & (block - 1);
+      order[to] -= block - 1 - (last & (block - 1));
+      if (label === KEEP) labels.fill(KEEP, from, to + 1);
+      next = at + last + 1 - x;
+    }
+  }
+
+  #stand_blocks() {
+    const {order, label} = this;
+    for (let cell = 0; cell < order.length; ++cell) {
+      if (order[cell] === 0) continue;
+      order[cell] += NEVER;
+      if (label[cell] !== KEEP) label[cell] = REMOVE;
     }
   }
 
   /** @param {number} i @param {number} j @param {number} k of a voxel @returns {number} */
   cell(i, j, k) {
     if (this.block === 1) return i + this.n * (j + this.n * k);
-    const {block, edge} = this;
-    return Math.floor(i / block) + edge * (Math.floor(j / block) + edge * Math.floor(k / block));
+    const {block_bits, edge} = this;
+    return (i >> block_bits) + edge * ((j >> block_bits) + edge * (k >> block_bits));
   }
 
   /** @param {Varints} numbers @param {OnCut} on_cut */
   #read_tokens(numbers, on_cut) {
-    const read = this.header.tools ? this.#read_milled : this.#read_token;
+    const {kinds, removed} = this, milled = Boolean(this.header.tools), bytes = numbers.bytes.length - numbers.at;
+    kinds.reserve(bytes);
+    removed.reserve(bytes);
     for (;;) {
       const begin = numbers.at;
-      if (this.kinds.length % SEGMENT === 0) Object.assign(this.last, {x: 0, y: 0, z: 0, direction: 0, length: 1});
-      const kind = read.call(this, numbers, on_cut);
+      if (kinds.length % SEGMENT === 0) Object.assign(this.last, {x: 0, y: 0, z: 0, direction: 0, length: 1});
+      const kind = milled ? this.#read_milled(numbers, on_cut) : this.#read_token(numbers, on_cut);
       if (kind < 0) {  // it does not end yet
         numbers.at = begin;
         return;
       }
-      this.kinds.push(kind);
-      this.removed.push(this.ordinal);
+      kinds.push(kind);
+      removed.push(this.ordinal);
     }
   }
 
@@ -215,7 +232,7 @@ export class Timeline {
     last.z += z;
     last.direction = direction;
     last.length = length;
-    if (this.left) this.#cut_blocks(on_cut);
+    if (this.block > 1) this.#cut_blocks(on_cut);
     else this.#cut_cells(on_cut);
     return start;
   }
@@ -232,15 +249,16 @@ export class Timeline {
 
   /** The same where cells are blocks: each goes with its last voxel. @param {OnCut} on_cut */
   #cut_blocks(on_cut) {
-    const {last, block, edge, order} = this, left = /** @type {Uint16Array} */ (this.left), axis = last.direction >> 1, up = last.direction & 1;
-    const step = (up ? 1 : -1) * (axis === 0 ? 1 : axis === 1 ? edge : edge * edge), place = (axis === 0 ? last.x : axis === 1 ? last.y : last.z) % block;
+    const {last, block, edge, order} = this, axis = last.direction >> 1, up = last.direction & 1;
+    const step = (up ? 1 : -1) * (axis === 0 ? 1 : axis === 1 ? edge : edge * edge), place = (axis === 0 ? last.x : axis === 1 ? last.y : last.z) & (block - 1);
     let cell = this.cell(last.x, last.y, last.z), taken = up ? block - place : place + 1;  // voxels of the run in its first block
     let first = -1, from = 0, final = 0;
     for (let rest = last.length; rest > 0; rest -= taken, taken = block, cell += step) {
       if (taken > rest) taken = rest;
       this.ordinal += taken;
-      if ((left[cell] -= taken) > 0) continue;
-      order[cell] = this.ordinal;
+      const left = order[cell] - taken;
+      order[cell] = left > NEVER ? left : this.ordinal;
+      if (left > NEVER) continue;
       if (first < 0) {
         first = cell;
         from = this.ordinal;

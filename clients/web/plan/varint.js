@@ -10,6 +10,11 @@ export class Varints {
 
   /** @returns {number} -1 where it does not end: then `at` stays */
   next() {
+    const first = this.bytes[this.at];
+    if (first < 128) {
+      ++this.at;
+      return first;
+    }
     let value = 0, scale = 1;
     for (let at = this.at; at < this.bytes.length; scale *= 128) {
       const byte = this.bytes[at++];

@@ -14,6 +14,7 @@ export class Chunks {
     this.count = this.across ** 3;
     this.scale = STRETCHES / Math.max(1, remove);
     this.bits = new Uint32Array(this.count * WORDS);
+    this.noted = {box: -1, stretch: -1};  // last, of one stretch
   }
 
   /** @param {number} chunk @returns {[number, number, number]} its first cell */
@@ -32,7 +33,11 @@ export class Chunks {
     const a0 = Math.max(0, ((low & (edge - 1)) - REACH) >> 5), a1 = Math.min(top, ((high & (edge - 1)) + REACH) >> 5);
     const b0 = Math.max(0, (((low >>> row_bits) & (edge - 1)) - REACH) >> 5), b1 = Math.min(top, (((high >>> row_bits) & (edge - 1)) + REACH) >> 5);
     const c0 = Math.max(0, ((low >>> (2 * row_bits)) - REACH) >> 5), c1 = Math.min(top, ((high >>> (2 * row_bits)) + REACH) >> 5);
-    for (let stretch = this.#stretch(from); stretch <= end; ++stretch) {
+    const begin = this.#stretch(from), box = ((((a0 * across + a1) * across + b0) * across + b1) * across + c0) * across + c1;
+    if (begin === end && this.noted.stretch === end && this.noted.box === box) return;
+    this.noted.box = box;
+    this.noted.stretch = end;
+    for (let stretch = begin; stretch <= end; ++stretch) {
       const word = stretch >> 5, bit = 1 << (stretch & 31);
       for (let c = c0; c <= c1; ++c)
         for (let b = b0; b <= b1; ++b)

@@ -169,5 +169,5 @@ export class Standing {
 function class_of(order, label, cell, moment) {
   if (moment.chosen !== null && moment.chosen.has(cell)) return CHOSEN_CLASS;
   if (label === KEEP_LABEL) return KEEP_LABEL;
-  return moment.final && order === NEVER ? RESIDUE_CLASS : 0;
+  return moment.final && order >= NEVER ? RESIDUE_CLASS : 0;
 }

@@ -68,7 +68,7 @@ const on = {
     if (!cell) return postMessage({kind: 'picked', ticket, hit: null});
     const at = cell[0] + timeline.edge * (cell[1] + timeline.edge * cell[2]);
     const order = timeline.order[at];
-    postMessage({kind: 'picked', ticket, hit: {cell, label: timeline.label[at], ordinal: order === NEVER ? null : order}});
+    postMessage({kind: 'picked', ticket, hit: {cell, label: timeline.label[at], ordinal: order >= NEVER ? null : order}});
   },
 };
 
