@@ -39,11 +39,9 @@ const on = {
     const from = told;
     told = timeline.keyframes;
     const head = began ? null : {header: timeline.header, voxels: timeline.voxels, edge: timeline.edge, block: timeline.block};
-    postMessage({
-      kind: 'grown', generation, head, keyframes: told,
-      removed: timeline.removed.values.slice(from, told), kinds: timeline.kinds.values.slice(from, told),
-      changes: timeline.changes.filter(({keyframe}) => keyframe >= from),
-    });
+    const removed = timeline.removed.values.slice(from, told), kinds = timeline.kinds.values.slice(from, told);
+    const changes = timeline.changes.filter(({keyframe}) => keyframe >= from);
+    postMessage({kind: 'grown', generation, head, keyframes: told, removed, kinds, changes}, [removed.buffer, kinds.buffer]);
   },
 
   /** The moment, or with `all` everything anew: another picture of the same moment. */
