@@ -48,7 +48,7 @@ class StrayBound {
   void add_others();
   static constexpr double far_m = 1e-3;
   static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
-  static constexpr int max_halvings = 8;
+  static constexpr int max_halvings = 14;
   void add_links_and_stock(const Cell& cell);
   void add_link_pairs(const Cell& cell);
   void add_speed(const Configuration& share);
