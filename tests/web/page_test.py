@@ -53,11 +53,13 @@ class Finished(PageTest):
             lines = [json.loads(line) for line in b"".join(client.read_artifact(self.job)).splitlines()]
         n, m = 32, 16
         order, _ = rays.orders_of(lines, n)
-        blocks = [0] * m ** 3
+        blocks, left = [0] * m ** 3, [0] * m ** 3
         for at, ordinal in enumerate(order):
             i, j, k = at % n, at // n % n, at // (n * n)
             block = i // 2 + m * (j // 2 + m * (k // 2))
-            blocks[block] = max(blocks[block], min(ordinal, 2**32 - 1))
+            blocks[block] = max(blocks[block], ordinal)
+            left[block] += ordinal == rays.NEVER
+        blocks = [0xffffff00 + left[block] if left[block] else ordinal for block, ordinal in enumerate(blocks)]
         page = self.open()
         page.settled()
         self.assertEqual(page.run(f"""import('/ui/plan/timeline.js').then(async ({{Timeline}}) => {{
