@@ -16,6 +16,7 @@ namespace {
 // For numbers of 32 bits and double arithmetic.
 constexpr double share_of_acceleration = 1 - 5e-4, share_of_speed = 1 - 1e-6;
 constexpr double min_ladder_s = 0.008;  // a window no longer than that is taken as it is
+constexpr int usual_step = 4;
 
 struct Attempt {
   Configuration acceleration;
@@ -54,15 +55,25 @@ class Timer {
     return attempt;
   }
 
-  /// A long window strays far and so slows down corners, a short one asks for less acceleration.
+  /// A long window strays far and so slows down corners, a short one asks for less acceleration: somewhere between the
+  /// time is least. Of windows that are each sqrt(2) times shorter than the one before it is looked for from the one
+  /// that leaves a quarter of the acceleration, the longest being needed for all of it.
   Attempt best() const {
-    double window_s = 2 * asked_.limits.acceleration.cwiseQuotient(asked_.limits.jerk).maxCoeff();
-    Attempt best = with_window(window_s);
-    while (window_s > min_ladder_s) {
-      window_s /= std::sqrt(2.0);
-      Attempt next = with_window(window_s);
-      if (next.time.total >= best.time.total) break;
-      best = std::move(next);
+    const double longest_s = 2 * asked_.limits.acceleration.cwiseQuotient(asked_.limits.jerk).maxCoeff();
+    const auto window_at = [&](int step) { return longest_s / std::pow(2, step / 2.0); };
+    int last = 0;
+    while (window_at(last) > min_ladder_s) ++last;
+    int step = std::min(usual_step, last);
+    Attempt best = with_window(window_at(step));
+    for (const int way : {1, -1}) {
+      const int begin = step;
+      while (step + way >= 0 && step + way <= last) {
+        Attempt next = with_window(window_at(step + way));
+        if (next.time.total >= best.time.total) break;
+        best = std::move(next);
+        step += way;
+      }
+      if (step != begin) break;
     }
     return best;
   }
