@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/verify/findings/slack.hpp"
 #include "core/verify/robot/checked_pairs.hpp"
 
 namespace sculpt {
