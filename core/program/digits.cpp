@@ -15,7 +15,7 @@ constexpr double alone = 1.25;
 }  // namespace
 
 Configuration Digits::axes_at(const ProgramPlace& place) const {
-  const Configuration axes = layout_.to_axes(place.q);
+  Configuration axes = layout_.to_axes(place.q);
   const int decimals = facts_of(dialect_).decimals;
   if (decimals == 0) return axes;
   const DigitStray nearest = stray_at(place, layout_.to_joints(nearest_axes(layout_, axes, decimals)));

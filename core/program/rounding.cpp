@@ -23,7 +23,14 @@ double size_of(const Beside& beside) {
 class Descent {
  public:
   Descent(std::vector<Beside> by_step, const Beside& beside)
-      : by_step_(std::move(by_step)), steps_(by_step_.size(), 0), beside_(beside) {}
+      : by_step_(std::move(by_step)), steps_(by_step_.size(), 0), beside_(beside) {
+    for (std::size_t first = 0; first < steps_.size(); ++first)
+      for (const int by_first : {-1, 1}) {
+        changes_.push_back({first, first, by_first, 0});
+        for (std::size_t second = first + 1; second < steps_.size(); ++second)
+          for (const int by_second : {-1, 1}) changes_.push_back({first, second, by_first, by_second});
+      }
+  }
 
   std::vector<int> run() {
     while (take_best()) {
@@ -38,27 +45,25 @@ class Descent {
   };
 
   bool take_best() {
-    Change best;
+    const Change* best = nullptr;
     double least = size_of(beside_) * (1 - 1e-9);
-    const auto look = [&](const Change& change) {
+    for (const Change& change : changes_) {
+      if (!is_near(change)) continue;
       if (const double size = size_of(after(change)); size < least) {
         least = size;
-        best = change;
+        best = &change;
       }
-    };
-    for (std::size_t first = 0; first < steps_.size(); ++first)
-      for (const int by_first : {-1, 1}) {
-        if (std::abs(steps_[first] + by_first) > 1) continue;
-        look({first, first, by_first, 0});
-        for (std::size_t second = first + 1; second < steps_.size(); ++second)
-          for (const int by_second : {-1, 1})
-            if (std::abs(steps_[second] + by_second) <= 1) look({first, second, by_first, by_second});
-      }
-    if (best.by_first == 0) return false;
-    beside_ = after(best);
-    steps_[best.first] += best.by_first;
-    steps_[best.second] += best.by_second;
+    }
+    if (best == nullptr) return false;
+    beside_ = after(*best);
+    steps_[best->first] += best->by_first;
+    steps_[best->second] += best->by_second;
     return true;
+  }
+
+  bool is_near(const Change& change) const {
+    return std::abs(steps_[change.first] + change.by_first) <= 1 &&
+           std::abs(steps_[change.second] + change.by_second) <= 1;
   }
 
   Beside after(const Change& change) const {
@@ -68,6 +73,7 @@ class Descent {
   std::vector<Beside> by_step_;
   std::vector<int> steps_;
   Beside beside_;
+  std::vector<Change> changes_;
 };
 
 }  // namespace

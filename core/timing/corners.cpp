@@ -164,27 +164,36 @@ class CornerFinder {
     return std::min(place(point).speed, std::max(speed(first), speed(second)));
   }
 
+  /// An edge, and the parabola between it and the one beside it.
+  void note_edge(WindowCorners& around, std::size_t edge_at, std::size_t beside, double speed, std::size_t known) {
+    around.add_edge(place(edge_at).edge, speed);
+    if (beside > 0 && beside < known) around.add_rise(place(edge_at).edge, place(beside).edge);
+  }
+
+  /// `at`: by r, from the first one.
+  void note_corner(WindowCorners& around, std::size_t point, double at, std::size_t known) {
+    const Place& there = place(point);
+    if (!there.rest && !there.cost.straight) around.add(there.cost, at, corner_speed(point, known));
+  }
+
   /// Corners one behind the other from `point`, in steps of `step`, until a window is over in any case.
   void look_around(WindowCorners& around, std::size_t point, int step, std::size_t known) {
     const double half = place(point).cost.wanted;
-    double gone = 0;                                   // time since the end of the corner's parabola, at least
-    double at = 0;                                     // by r
+    const std::size_t forth = step > 0 ? 1 : 0;
+    double gone = 0, at = 0;                           // time since the end of the corner's parabola, at least; r
     double fastest_here = corner_speed(point, known);  // r' rises by no more than the lines' accelerations
     for (std::size_t count = 1;; ++count) {
-      const std::size_t edge_at = step > 0 ? point + 1 : point;
+      const std::size_t edge_at = point + forth;
       if (edge_at == 0 || edge_at >= known) return;
       const PathEdge& edge = place(edge_at).edge;
       const double speed = fastest(edge_at, known);
       fastest_here = std::min(std::max(edge.cap, fastest_here), fastest_here + edge.line_acceleration * window_);
-      around.add_edge(edge, fastest_here);
-      if (const std::size_t beside = step > 0 ? edge_at - 1 : edge_at + 1; beside > 0 && beside < known)
-        around.add_rise(edge, place(beside).edge);
+      note_edge(around, edge_at, edge_at + 1 - 2 * forth, fastest_here, known);
       at += step * edge.length;
-      point = step > 0 ? point + 1 : point - 1;
-      const Place& there = place(point);
-      const double own = count == 1 ? std::min(half, edge.length) : 0, far = std::min(there.cost.wanted, edge.length);
-      const bool reached = gone + (edge.length - own - far) / speed < window_;
-      if (reached && !there.rest && !there.cost.straight) around.add(there.cost, at, corner_speed(point, known));
+      point = point + 2 * forth - 1;
+      const double own = count == 1 ? std::min(half, edge.length) : 0,
+                   far = std::min(place(point).cost.wanted, edge.length);
+      if (gone + (edge.length - own - far) / speed < window_) note_corner(around, point, at, known);
       gone += (edge.length - own) / speed;
       if (gone > window_) return;
       if (count == WindowCorners::max_near) {
@@ -208,7 +217,7 @@ class CornerFinder {
     CornerCaps& caps = corners_.caps[point];
     const bool inside = point > 0 && point + 1 < path_.size();
     WindowCorners around;
-    if (inside && !here.rest && !here.cost.straight) around.add(here.cost, 0, corner_speed(point, known));
+    if (inside) note_corner(around, point, 0, known);
     if (point > 0) look_around(around, point, -1, known);
     if (point + 1 < path_.size()) look_around(around, point, 1, known);
     const double slower = around.feed_change(window_, tools_.first().rates);

@@ -34,22 +34,28 @@ double WindowCorners::share(const CornerCost& cost, double turned) const {
   return std::max(cost.share, cost.tool_m / room_m_) + turned * cost.share_by_turn * cost.room_m / room_m_;
 }
 
+/// Of all where the window's mean is there, each weighed.
+double WindowCorners::share_at(double mean, double reach, double turned) const {
+  double sum = 0;
+  for (std::size_t at = 0; at < count_; ++at) {
+    const auto& [cost, place] = corners_[at];
+    const double beyond = std::abs(mean - place) - cost->wanted;
+    if (beyond <= 0)
+      sum += share(*cost, turned);
+    else if (beyond < reach)
+      sum += square(1 - beyond / reach) * share(*cost, turned);
+  }
+  return sum;
+}
+
 /// Between ends of parabolas and of the first one's reach the sum is convex in the place of the mean.
 double WindowCorners::max_share(double turned, double window_s) const {
   const double reach = fastest_ * window_s / 2, first_reach = corners_[0].cost->wanted + reach;
-  const auto sum_at = [&](double mean) {
-    double sum = 0;
-    for (std::size_t at = 0; at < count_; ++at) {
-      const auto& [cost, place] = corners_[at];
-      const double beyond = std::abs(mean - place) - cost->wanted;
-      if (beyond < reach || beyond <= 0) sum += square(beyond <= 0 ? 1 : 1 - beyond / reach) * share(*cost, turned);
-    }
-    return sum;
-  };
-  double most = std::max(sum_at(first_reach), sum_at(-first_reach));
+  double most = std::max(share_at(first_reach, reach, turned), share_at(-first_reach, reach, turned));
   for (std::size_t at = 0; at < count_; ++at)
-    for (const double end : {-corners_[at].cost->wanted, corners_[at].cost->wanted})
-      if (std::abs(corners_[at].at + end) < first_reach) most = std::max(most, sum_at(corners_[at].at + end));
+    for (const double side : {-1, 1})
+      if (const double end = corners_[at].at + side * corners_[at].cost->wanted; std::abs(end) < first_reach)
+        most = std::max(most, share_at(end, reach, turned));
   return most;
 }
 

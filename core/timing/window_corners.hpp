@@ -36,6 +36,7 @@ class WindowCorners {
 
  private:
   double share(const CornerCost& cost, double turned) const;
+  double share_at(double mean, double reach, double turned) const;
 
   struct Corner {
     const CornerCost* cost;

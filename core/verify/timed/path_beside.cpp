@@ -13,6 +13,7 @@ constexpr std::size_t edges_beside = 200;  // that a window of time may hold
 
 std::vector<int> numbers_of(const Cell& cell, const std::vector<std::string>& joints) {
   std::vector<int> numbers;
+  numbers.reserve(joints.size());
   for (const std::string& name : joints) numbers.push_back(cell.robot.find_joint(name));
   return numbers;
 }
