@@ -28,6 +28,7 @@ std::vector<Passage> find_way(const Robot& robot, int from, int to) {
     down.pop_back();
   }
   std::vector<Passage> way;
+  way.reserve(up.size() + down.size());
   for (int joint : up) way.push_back({joint, true});
   for (auto joint = down.rbegin(); joint != down.rend(); ++joint) way.push_back({*joint, false});
   return way;
