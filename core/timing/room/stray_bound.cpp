@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -44,20 +45,22 @@ StrayBound StrayBound::of_links(const Cell& cell, const Chain& chain, double res
 StrayBound::StrayBound(const Cell& cell, const Chain& chain, std::vector<Body> bodies, double reserve_m)
     : cell_(cell), chain_(chain), bodies_(std::move(bodies)), reserve_m_(reserve_m) {
   beside_.most = below_.most = Configuration::Zero(chain.dof());
-  add_links_and_stock(cell);
-  add_link_pairs(cell);
+  add_links_and_stock();
+  add_link_pairs();
 }
 
-void StrayBound::add_links_and_stock(const Cell& cell) {
-  const std::vector<int> group = rigid_groups(cell.robot);
+void StrayBound::add_links_and_stock() {
+  const std::vector<int> group = rigid_groups(cell_.robot);
   const auto group_of = [&](int link) { return group[static_cast<std::size_t>(link)]; };
   const double room_m = share_of_link_margin * link_margin_m - reserve_m_;
-  const Vec3 first = cell.stock_origin_m, last = first + Vec3::Constant(cell.stock_size_m);
-  LinkExtent stock{cell.stock_link, first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm()};
-  for (std::size_t at = 0; at + 1 < bodies_.size() && cell.has_post; ++at)
-    if (bodies_[at].link == stock.link) stock.extent_m = std::max(stock.extent_m, bodies_[at].extent_m);
-  for (std::size_t at = 0; at + 1 < bodies_.size(); ++at)
-    if (const Body& body = bodies_[at]; group_of(body.link) != group_of(stock.link))
+  const Vec3 first = cell_.stock_origin_m, last = first + Vec3::Constant(cell_.stock_size_m);
+  LinkExtent stock{cell_.stock_link, first.cwiseAbs().cwiseMax(last.cwiseAbs()).norm()};
+  const std::span links(bodies_.data(), bodies_.size() - 1);
+  if (cell_.has_post)
+    for (const Body& body : links)
+      if (body.link == stock.link) stock.extent_m = std::max(stock.extent_m, body.extent_m);
+  for (const Body& body : links)
+    if (group_of(body.link) != group_of(stock.link))
       add_speed(approach_bound(chain_, {body.link, body.extent_m}, stock) / room_m);
 }
 
@@ -92,11 +95,11 @@ void StrayBound::add_others() {
   }
 }
 
-void StrayBound::add_link_pairs(const Cell& cell) {
+void StrayBound::add_link_pairs() {
   std::map<int, std::size_t> body_of;
   const std::size_t whole = bodies_.size() - 1;
   for (std::size_t at = 0; at < whole; ++at) body_of[bodies_[at].link] = at;
-  for (const CheckedLinks& checked : find_link_pairs(cell).checked) {
+  for (const CheckedLinks& checked : find_link_pairs(cell_).checked) {
     const auto first = body_of.find(checked.links.first), second = body_of.find(checked.links.second);
     if (first == body_of.end() || second == body_of.end()) continue;
     std::vector<Body> parts = bodies_;

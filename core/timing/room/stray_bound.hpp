@@ -49,8 +49,8 @@ class StrayBound {
   static constexpr double far_m = 1e-3;
   static constexpr std::size_t points_a_stretch = 8, stretches_beside = 8, stretches_a_look = 32;
   static constexpr int max_halvings = 14;
-  void add_links_and_stock(const Cell& cell);
-  void add_link_pairs(const Cell& cell);
+  void add_links_and_stock();
+  void add_link_pairs();
   void add_speed(const Configuration& share);
   /// Bodies that the tool must stay off.
   struct Others {
@@ -74,7 +74,7 @@ class StrayBound {
   std::vector<Body> bodies_;
   double bottom_m_ = 0, reserve_m_, tool_m_ = 1e-9;
   std::vector<Configuration> links_;  ///< speeds by the room there is, of pairs; none is below another in all joints
-  Others beside_, below_;             ///< the latter are always below the stock's bottom
+  Others beside_, below_;             ///< the latter are always more than far_m below the stock's bottom
 };
 
 }  // namespace sculpt

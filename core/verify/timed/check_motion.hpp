@@ -39,8 +39,9 @@ struct MotionCheck {
 
 /// Velocities and accelerations are looked at on every piece, exactly: they are means of those before the moving
 /// average. Jerk is at most the change of acceleration over a window. At samples: velocity, acceleration, jerk, the
-/// ball's speed, and how far ball and links are from where the path is at the mean of the window. Throws InputError
-/// `trajectory_invalid`, `limits_missing`; Cancelled.
+/// ball's speed, how far ball and shank are from where the path is at the mean of the window, and how much nearer links
+/// may be to each other and to the stock than there. Throws InputError `trajectory_invalid`, `limits_missing`;
+/// Cancelled.
 MotionVerdict check_motion(std::istream& plan, const LawFile& law, const Cell& cell, const Watch& watch,
                            const MotionCheck& check = {});
 

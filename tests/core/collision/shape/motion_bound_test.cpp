@@ -4,6 +4,7 @@
 
 #include "tests/core/cell/sample_robots.hpp"
 #include "tests/core/cell/tool_derivatives.hpp"
+#include "tests/core/collision/shape/random_shapes.hpp"
 
 namespace sculpt {
 namespace {
@@ -54,11 +55,6 @@ TEST(MotionBound, CountsAShiftBehindATurnInBothOrders) {
   EXPECT_GE(derivative_bounds(chain, turn.dot(step), speed.dot(step)).second_m, found_m - 1e-3);
 }
 
-Vec3 random_point(Random& random, double extent_m) {
-  const Vec3 way(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-  return extent_m * way.normalized();
-}
-
 // However far: the joints' whole ranges, not only small steps.
 TEST(MotionBound, PointsOfTwoLinksComeNoNearerThanApproachBoundSays) {
   const Cell panda = shipped_cell("panda-turntable");
@@ -82,7 +78,7 @@ TEST(MotionBound, PointsOfTwoLinksComeNoNearerThanApproachBoundSays) {
       for (int a = 0; a < links; ++a)
         for (int b = 0; b < links; ++b) {
           const LinkExtent first{a, random.between(0, 0.3)}, second{b, random.between(0, 0.3)};
-          const Vec3 p = random_point(random, first.extent_m), q = random_point(random, second.extent_m);
+          const Vec3 p = first.extent_m * random_direction(random), q = second.extent_m * random_direction(random);
           const auto distance = [&](const std::vector<Frame>& at) {
             return (at[static_cast<std::size_t>(a)] * p - at[static_cast<std::size_t>(b)] * q).norm();
           };
