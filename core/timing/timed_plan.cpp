@@ -16,7 +16,7 @@ namespace {
 // For numbers of 32 bits and double arithmetic.
 constexpr double share_of_acceleration = 1 - 5e-4, share_of_speed = 1 - 1e-6;
 constexpr double min_ladder_s = 0.008;  // a window no longer than that is taken as it is
-constexpr int usual_step = 4;            // a quarter of the longest
+constexpr int usual_step = 4;           // a quarter of the longest
 
 struct Attempt {
   Configuration acceleration;
