@@ -7,12 +7,15 @@ breaches=0
 
 # forbid WHY PATTERN [EXCEPT-REGEX] -- PATHS...: no line of any C++ file under PATHS may match PATTERN, except in files whose name matches.
 forbid() {
-  local why=$1 pattern=$2 except='^$' found
+  local why=$1 pattern=$2 except='^$' path paths=() line found=()
   shift 2
   [ "$1" = -- ] || { except=$1; shift; }
-  shift
-  found=$(find "$@" \( -name '*.hpp' -o -name '*.cpp' \) 2>/dev/null | sort | grep -vE "$except" | xargs -r grep -nE "$pattern" -- /dev/null || true)
-  [ -z "$found" ] || { printf 'fence: %s\n%s\n' "$why" "$found"; breaches=$((breaches + 1)); }
+  for path in "${@:2}"; do [ ! -e "$path" ] || paths+=("$path"); done
+  ((${#paths[@]} > 0)) || return 0
+  while read -r line; do
+    [[ ${line%%:*} =~ $except ]] || found+=("$line")
+  done < <(grep -rnsE --include='*.hpp' --include='*.cpp' -e "$pattern" -- "${paths[@]}" | sort)
+  ((${#found[@]} == 0)) || { printf 'fence: %s\n' "$why" "${found[@]}"; breaches=$((breaches + 1)); }
 }
 
 include() { printf '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](%s)' "$1"; }

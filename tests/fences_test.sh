@@ -7,14 +7,14 @@ trap 'rm -rf "$tree"' EXIT
 
 expect_breach() {
   local file=$1 line=$2
-  mkdir -p "$tree/$(dirname "$file")"
+  mkdir -p "$tree"/{core,proto,server,clients} "$tree/$(dirname "$file")"
   : >"$tree/${file%.*}.hpp"
   printf '%s\n' "$line" >"$tree/$file"
-  if "$here/fences.sh" "$tree" >/dev/null; then
+  if ! grep -q ' rules broken$' <<<"$("$here/fences.sh" "$tree")"; then
     echo "not found: '$line' in $file"
     exit 1
   fi
-  rm -f "$tree/$file" "$tree/${file%.*}.hpp"
+  rm -r "${tree:?}"/*
 }
 
 expect_breach core/plan/plan.cpp '#include "server/jobs.hpp"'
@@ -85,12 +85,10 @@ expect_breach core/verify/verify.cpp '#include "core/solid/voxelize.hpp"'
 expect_breach core/verify/verify.cpp 'const Chain& chain = cell.chain();'
 expect_breach core/verify/robot/urdf_differences.cpp 'for (const Shape& shape : holder_shapes(cell.tool))'
 expect_breach core/lathe/turn.cpp '// A folder that nobody gave a rule.'
-rmdir "$tree/core/lathe"
 expect_breach server/lathe/turn.cpp '// A folder that nobody gave a rule.'
-rmdir "$tree/server/lathe"
-mkdir -p "$tree/server/ops"
+mkdir -p "$tree"/{core/plan,proto,server/ops,clients}
 printf 'int what;\n' >"$tree/server/ops/what.cpp"
-if "$here/fences.sh" "$tree" >/dev/null; then echo "not found: a file that does not say what it is" && exit 1; fi
+if ! grep -q ' rules broken$' <<<"$("$here/fences.sh" "$tree")"; then echo "not found: a file that does not say what it is" && exit 1; fi
 rm "$tree/server/ops/what.cpp"
 printf '// A plan.\n#include "core/base/error.hpp"\n' >"$tree/core/plan/plan.cpp"
 "$here/fences.sh" "$tree"
