@@ -25,6 +25,7 @@ class Solver {
   Solver(const Chain& chain, const IkGoal& goal, const IkSettings& settings)
       : chain_(chain), goal_(goal), settings_(settings), middle_((chain.lower() + chain.upper()) / 2) {
     linear_.jacobian.setZero(5, chain.dof());
+    tried_ = linear_;
     step_.resize(chain.dof());
     pull_.resize(chain.dof());
     held_.resize(static_cast<std::size_t>(chain.dof()));
@@ -32,7 +33,7 @@ class Solver {
 
   std::optional<Configuration> run(Configuration q) {
     if (settings_.respect_limits) q = q.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
-    linearize(q);
+    linearize(q, linear_);
     Configuration trial = q;
     double damping = start_damping, best = linear_.error.norm();
     for (int step = 0; step < settings_.max_steps; ++step) {
@@ -41,13 +42,13 @@ class Solver {
       if (!find_step(q, damping)) return std::nullopt;
       trial = q + step_;
       if (settings_.respect_limits) trial = trial.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
-      linearize(trial);
-      if (linear_.error.norm() <= before) {
+      linearize(trial, tried_);
+      if (tried_.error.norm() <= before) {
         damping = std::max(damping / 4, min_damping);
         q.swap(trial);
+        std::swap(linear_, tried_);
       } else {
         damping *= 8;
-        linearize(q);
       }
       // From a local minimum no number of steps gets away: better to leave it to another seed.
       if (step % patience == patience - 1) {
@@ -68,25 +69,25 @@ class Solver {
     return linear_.position_m <= settings_.position_tolerance_m && linear_.axis_rad <= settings_.axis_tolerance_rad;
   }
 
-  void linearize(const Configuration& q) {
+  void linearize(const Configuration& q, Linear& at) {
     const ToolPose pose = chain_.tool_pose(q, full_);
     const Vec3 offset = goal_.ball_m - pose.ball_m;
-    linear_.error.head<3>() = offset;
-    linear_.position_m = offset.norm();
-    linear_.jacobian.topRows<3>() = full_.topRows<3>();
+    at.error.head<3>() = offset;
+    at.position_m = offset.norm();
+    at.jacobian.topRows<3>() = full_.topRows<3>();
     if (!goal_.axis) return;
 
     const Vec3 cross = pose.axis.cross(*goal_.axis);
     const double sine = cross.norm();
-    linear_.axis_rad = std::atan2(sine, pose.axis.dot(*goal_.axis));
+    at.axis_rad = std::atan2(sine, pose.axis.dot(*goal_.axis));
     const Vec3 u = pose.axis.unitOrthogonal();
     const Vec3 v = pose.axis.cross(u);
     // Where the axes are opposite every turn is as good as any other.
-    const Vec3 turn = sine > 1e-12 ? Vec3(cross * (linear_.axis_rad / sine)) : Vec3(u * linear_.axis_rad);
-    linear_.error[3] = u.dot(turn);
-    linear_.error[4] = v.dot(turn);
-    linear_.jacobian.row(3).noalias() = u.transpose() * full_.bottomRows<3>();
-    linear_.jacobian.row(4).noalias() = v.transpose() * full_.bottomRows<3>();
+    const Vec3 turn = sine > 1e-12 ? Vec3(cross * (at.axis_rad / sine)) : Vec3(u * at.axis_rad);
+    at.error[3] = u.dot(turn);
+    at.error[4] = v.dot(turn);
+    at.jacobian.row(3).noalias() = u.transpose() * full_.bottomRows<3>();
+    at.jacobian.row(4).noalias() = v.transpose() * full_.bottomRows<3>();
   }
 
   /// Sets `step_`: the damped least-squares step plus the part of the pull that does not move the tool. A joint that
@@ -154,7 +155,7 @@ class Solver {
   const IkGoal& goal_;
   const IkSettings& settings_;
   Configuration middle_;
-  Linear linear_;
+  Linear linear_, tried_;  ///< at the configuration, and where the last step would lead
   JointColumns<6> full_;
   Configuration step_, pull_;
   std::vector<char> held_;

@@ -4,7 +4,10 @@
 #include <bitset>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "core/base/helpers.hpp"
 #include "core/cell/ik.hpp"
 #include "core/motion/random_configuration.hpp"
 
@@ -85,22 +88,44 @@ class FieldSearch {
     Probes free;
   };
 
-  /// Starts with the ball above a node of the top; grows from those with room everywhere at once.
+  /// Starts with the ball above a node of the top; grows from those with room everywhere at once. The first guess is
+  /// often the one: the others are looked at side by side, more and more of them.
   void look_from(int i, int j, const std::vector<Configuration>& guesses) {
+    std::vector<Configuration> here;
+    for (std::size_t first = 0, count = 1; first < guesses.size() && !is_done(); first += count, count *= 2) {
+      const auto some = std::span(guesses).subspan(first).first(std::min(count, guesses.size() - first));
+      for (Start& start : find_starts(i, j, some, here)) {
+        if (is_done()) return;
+        starts_.push_back(std::move(start));
+        if (starts_.back().free.all()) grow(starts_.back());
+      }
+    }
+  }
+
+  /// From the guesses, those that touch nothing and are not nearly one of those found `here` before.
+  std::vector<Start> find_starts(int i, int j, std::span<const Configuration> guesses,
+                                 std::vector<Configuration>& here) const {
     const Vec3 above = ToolView::place(PostureLattice::hub_of(view_.n, {{}, i, j})) - Vec3(0.5, 0.5, 0);
     const IkGoal goal{view_.ball_m(scene_.grid(), above), view_.axis()};
-    std::vector<Configuration> here;
-    for (const Configuration& guess : guesses) {
-      if (is_done()) return;
+    std::vector<std::optional<Configuration>> reached(guesses.size());
+    run_.helpers.for_each_index(guesses.size(), [&](std::size_t guess) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
-      const auto q = solve_ik(scene_.chain(), goal, guess);
+      reached[guess] = solve_ik(scene_.chain(), goal, guesses[guess]);
+    });
+    const std::size_t known = here.size();
+    for (const auto& q : reached) {
       const auto is_it = [&](const Configuration& other) { return (*q - other).cwiseAbs().maxCoeff() < 0.3; };
-      if (!q || std::ranges::any_of(here, is_it)) continue;
-      here.push_back(*q);
-      if (scene_.contact_at(*q) != Contact::none) continue;
-      starts_.push_back({{*q, i, j}, find_free_probes(scene_, view_, *q)});
-      if (starts_.back().free.all()) grow(starts_.back());
+      if (q && std::ranges::none_of(here, is_it)) here.push_back(*q);
     }
+    std::vector<std::optional<Start>> found(here.size() - known);
+    run_.helpers.for_each_index(found.size(), [&](std::size_t at) {
+      const Configuration& q = here[known + at];
+      if (scene_.contact_at(q) == Contact::none) found[at] = {{q, i, j}, find_free_probes(scene_, view_, q)};
+    });
+    std::vector<Start> starts;
+    for (auto& start : found)
+      if (start) starts.push_back(std::move(*start));
+    return starts;
   }
 
   /// From the starts that have room where none before had, the most promising first.
