@@ -32,25 +32,7 @@ Wide wide(std::int64_t value) {
   return value;
 }
 
-/// Where a + b x + c x^2 <= 0 (c >= 0).
-std::array<double, 2> solve(double a, double b, double c) {
-  if (c < 1e-12) {
-    if (std::abs(b) < 1e-9) return a <= 0 ? std::array{-infinity, infinity} : std::array{infinity, -infinity};
-    return b > 0 ? std::array{-infinity, -a / b} : std::array{-a / b, infinity};
-  }
-  const double root = b * b - 4 * a * c;
-  if (root < 0) return {infinity, -infinity};
-  const double half = std::sqrt(root);
-  return {(-b - half) / (2 * c), (-b + half) / (2 * c)};
-}
-
-/// Where low <= a + b x <= high.
-std::array<double, 2> solve_between(double low, double high, double a, double b) {
-  if (std::abs(b) < 1e-9)
-    return a >= low && a <= high ? std::array{-infinity, infinity} : std::array{infinity, -infinity};
-  const double first = (low - a) / b, second = (high - a) / b;
-  return {std::min(first, second), std::max(first, second)};
-}
+constexpr std::array none{infinity, -infinity}, all{-infinity, infinity};
 
 std::array<double, 2> both(std::array<double, 2> a, std::array<double, 2> b) {
   return {std::max(a[0], b[0]), std::min(a[1], b[1])};
@@ -59,6 +41,10 @@ std::array<double, 2> both(std::array<double, 2> a, std::array<double, 2> b) {
 void widen(std::array<double, 2>& range, std::array<double, 2> other) {
   if (other[0] > other[1]) return;
   range = {std::min(range[0], other[0]), std::max(range[1], other[1])};
+}
+
+Vec3 to_vector(const QuantaPoint& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
 }  // namespace
@@ -138,11 +124,39 @@ bool SweptCutter::any_in_row(const VoxelSet& set, int first, int last, int j, in
   return false;
 }
 
+SweptCutter::Range SweptCutter::Slope::between(double low, double high, double a) const {
+  if (std::abs(by_x) < 1e-9) return a >= low && a <= high ? all : none;
+  const double first = (low - a) * inverse, second = (high - a) * inverse;
+  return {std::min(first, second), std::max(first, second)};
+}
+
+SweptCutter::Range SweptCutter::Curvature::below(double a, double b) const {
+  if (c < 1e-12) return Slope(b).between(-infinity, 0, a);
+  const double root = b * b - 4 * a * c;
+  if (root < 0) return none;
+  const double half = std::sqrt(root);
+  return {(-b - half) * half_inverse, (-b + half) * half_inverse};
+}
+
 SweptCutter::Sweep::Sweep(const SweptCutter& cutter, const QuantaPoint& from, const QuantaPoint& to)
-    : cutter_(cutter), base_(from), way_(minus(to, from)) {
+    : cutter_(cutter),
+      base_(from),
+      way_(minus(to, from)),
+      way_length2_(dot(way_, way_)),
+      way_rise_(dot(way_, cutter.direction_)),
+      go_(to_vector(way_)),
+      axis_(to_vector(cutter.direction_) / std::sqrt(static_cast<double>(cutter.direction_length2_))),
+      inverse_length2_(1 / static_cast<double>(way_length2_)),
+      along_go_(go_.x()),
+      along_axis_(axis_.x()),
+      about_go_(std::max(0.0, 1 - go_.x() * go_.x() * inverse_length2_)),
+      about_axis_(std::max(0.0, 1 - axis_.x() * axis_.x())),
+      across_(go_ - go_.dot(axis_) * axis_),
+      beside_(axis_.cross(across_).normalized()),
+      across2_(across_.squaredNorm()),
+      along_across_(across_.x()),
+      along_beside_(beside_.x()) {
   for (std::size_t axis = 0; axis < 3; ++axis) base_[axis] += cutter.to_base_[axis];
-  way_length2_ = dot(way_, way_);
-  way_rise_ = dot(way_, cutter.direction_);
 }
 
 SweptCutter::Box SweptCutter::Sweep::box(const VoxelCentres& centres) const {
@@ -183,58 +197,56 @@ bool SweptCutter::Sweep::contains(std::size_t part, const QuantaPoint& point) co
   return from_start * length2 - along * along <= bound * length2;
 }
 
-/// Of a row, about the range of x (from x0 on) that the part sweeps; never less.
-std::array<double, 2> SweptCutter::Sweep::about(std::size_t part, double x0, double y, double z) const {
-  const Vec3 way(static_cast<double>(way_[0]), static_cast<double>(way_[1]), static_cast<double>(way_[2]));
-  const Vec3 v(x0, y, z), w = v - way;  // at x = 0 of the row
-  const auto within_ball = [](const Vec3& at, double radius) {
-    return solve(at.squaredNorm() - radius * radius, 2 * at.x(), 1);
-  };
-  const double length = std::sqrt(static_cast<double>(cutter_.direction_length2_));
-  const Vec3 axis = Vec3(static_cast<double>(cutter_.direction_[0]), static_cast<double>(cutter_.direction_[1]),
-                         static_cast<double>(cutter_.direction_[2])) /
-                    length;
-  const auto above_both = [&](double low) {
-    std::array<double, 2> above{-infinity, infinity};
-    for (const Vec3& at : {v, w})
-      above = both(above, solve_between(low - spare, static_cast<double>(cutter_.high_) / length + spare, at.dot(axis),
-                                        axis.x()));
-    return above;
-  };
-  std::array<double, 2> range{infinity, -infinity};
-  if (part == cutter_.cylinders_.size()) {
-    const double radius = static_cast<double>(cutter_.ball_radius_) + spare;
-    widen(range, within_ball(v, radius));
-    widen(range, within_ball(w, radius));
-    if (const auto length2 = static_cast<double>(way_length2_); length2 > 0) {
-      const double along = v.dot(way), x = way.x();
-      const auto beside = solve(v.squaredNorm() - along * along / length2 - radius * radius,
-                                2 * (v.x() - along * x / length2), std::max(0.0, 1 - x * x / length2));
-      widen(range, both(beside, solve_between(0, length2, along, x)));
-    }
-    return both(range, above_both(-infinity));
+/// Of a row, about the range of x from the base on that the part sweeps; never less. `y`, `z`: of the row, from the
+/// base.
+SweptCutter::Range SweptCutter::Sweep::about(std::size_t part, double y, double z) const {
+  return part == cutter_.cylinders_.size() ? about_ball(y, z) : about_cylinder(cutter_.cylinders_[part], y, z);
+}
+
+SweptCutter::Range SweptCutter::Sweep::about_ball(double y, double z) const {
+  const double radius = static_cast<double>(cutter_.ball_radius_) + spare, radius2 = radius * radius;
+  const double to_y = y - go_.y(), to_z = z - go_.z(), off2 = y * y + z * z;
+  Range range = none;
+  if (const double left2 = radius2 - off2; left2 >= 0) widen(range, {-std::sqrt(left2), std::sqrt(left2)});
+  if (const double left2 = radius2 - to_y * to_y - to_z * to_z; left2 >= 0)
+    widen(range, {go_.x() - std::sqrt(left2), go_.x() + std::sqrt(left2)});
+  if (way_length2_ > 0) {
+    const double along = y * go_.y() + z * go_.z();
+    const Range beside =
+        about_go_.below(off2 - along * along * inverse_length2_ - radius2, -2 * along * go_.x() * inverse_length2_);
+    if (beside[0] <= beside[1])
+      widen(range, both(beside, along_go_.between(0, static_cast<double>(way_length2_), along)));
   }
-  const Cylinder& cylinder = cutter_.cylinders_[part];
+  return range[0] <= range[1] ? both(range, within_heights(-infinity, y, z)) : none;
+}
+
+SweptCutter::Range SweptCutter::Sweep::about_cylinder(const Cylinder& cylinder, double y, double z) const {
   const double radius = static_cast<double>(cylinder.radius) + spare;
-  const auto within_cylinder = [&](const Vec3& at) {
-    const double up = at.dot(axis);
-    return solve(at.squaredNorm() - up * up - radius * radius, 2 * (at.x() - up * axis.x()),
-                 std::max(0.0, 1 - axis.x() * axis.x()));
+  Range range = none;
+  // Where the way begins, and where it ends.
+  const auto widen_by = [&](double x, double dy, double dz) {
+    const double up = x * axis_.x() + dy * axis_.y() + dz * axis_.z();
+    widen(range, about_axis_.below(x * x + dy * dy + dz * dz - up * up - radius * radius, 2 * (x - up * axis_.x())));
   };
-  widen(range, within_cylinder(v));
-  widen(range, within_cylinder(w));
-  const Vec3 across = way - way.dot(axis) * axis;
-  if (const double across2 = across.squaredNorm(); across2 > 0.25) {
-    const Vec3 beside = axis.cross(across) / std::sqrt(across2);
-    widen(range, both(solve_between(-radius, radius, v.dot(beside), beside.x()),
-                      solve_between(0, across2, v.dot(across), across.x())));
-  }
-  return both(range, above_both(static_cast<double>(cylinder.low) / length));
+  widen_by(0, y, z);
+  widen_by(-go_.x(), y - go_.y(), z - go_.z());
+  if (across2_ > 0.25)
+    widen(range, both(along_beside_.between(-radius, radius, y * beside_.y() + z * beside_.z()),
+                      along_across_.between(0, across2_, y * across_.y() + z * across_.z())));
+  const double low = static_cast<double>(cylinder.low) / std::sqrt(static_cast<double>(cutter_.direction_length2_));
+  return range[0] <= range[1] ? both(range, within_heights(low, y, z)) : none;
+}
+
+/// At both ends of the way.
+SweptCutter::Range SweptCutter::Sweep::within_heights(double low, double y, double z) const {
+  const double high = cutter_.top_ + spare, at_start = y * axis_.y() + z * axis_.z();
+  return both(along_axis_.between(low - spare, high, at_start),
+              along_axis_.between(low - spare, high, at_start - go_.dot(axis_)));
 }
 
 std::array<int, 2> SweptCutter::Sweep::row(std::size_t part, const VoxelCentres& centres, int j, int k) const {
   const std::int64_t y = centres.at(1, j), z = centres.at(2, k);
-  const auto [low, high] = about(part, 0, static_cast<double>(y - base_[1]), static_cast<double>(z - base_[2]));
+  const auto [low, high] = about(part, static_cast<double>(y - base_[1]), static_cast<double>(z - base_[2]));
   if (!(low <= high)) return {0, -1};
   const double x0 = static_cast<double>(base_[0]);
   auto [first, last] = centres.between(0, x0 + low - spare, x0 + high + spare);

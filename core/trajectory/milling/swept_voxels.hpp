@@ -74,6 +74,23 @@ class SweptCutter {
   struct Box {
     std::array<int, 3> first, last;
   };
+  using Range = std::array<double, 2>;  ///< of x; none if first > last
+  /// b of a + b x.
+  struct Slope {
+    explicit Slope(double value) : by_x(value), inverse(1 / value) {}
+    /// Where low <= a + b x <= high.
+    Range between(double low, double high, double a) const;
+
+    double by_x, inverse;
+  };
+  /// c of a + b x + c x^2; c >= 0.
+  struct Curvature {
+    explicit Curvature(double value) : c(value), half_inverse(1 / (2 * value)) {}
+    /// Where that is 0 or less.
+    Range below(double a, double b) const;
+
+    double c, half_inverse;
+  };
   /// One motion.
   class Sweep {
    public:
@@ -84,11 +101,22 @@ class SweptCutter {
     bool contains(std::size_t part, const QuantaPoint& point) const;
 
    private:
-    std::array<double, 2> about(std::size_t part, double x0, double y, double z) const;
+    Range about(std::size_t part, double y, double z) const;
+    Range about_ball(double y, double z) const;
+    Range about_cylinder(const Cylinder& cylinder, double y, double z) const;
+    Range within_heights(double low, double y, double z) const;
 
     const SweptCutter& cutter_;
     QuantaPoint base_, way_;
     std::int64_t way_length2_, way_rise_;
+    // In quanta, rounded: for bounds.
+    Vec3 go_, axis_;          ///< way; direction, a unit vector
+    double inverse_length2_;  ///< of the way
+    Slope along_go_, along_axis_;
+    Curvature about_go_, about_axis_;
+    Vec3 across_, beside_;  ///< the way, and a unit vector, both across the axis, and across each other
+    double across2_;        ///< length of `across_`, squared
+    Slope along_across_, along_beside_;
   };
   std::size_t parts() const { return cylinders_.size() + (ball_radius_ > 0 ? 1 : 0); }
   static bool any_in_row(const VoxelSet& set, int first, int last, int j, int k);
