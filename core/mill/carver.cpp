@@ -1,7 +1,6 @@
 #include "core/mill/carver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -31,15 +30,6 @@ double area_of(const Mesh& mesh) {
 /// No longer than it is wide, and one more where the voxels are that coarse.
 double voxels_of_chip(const MillTool& tool, const Grid& grid) {
   return 1 + tool.max_depth_m * std::pow(tool.max_width_m, 2) / std::pow(grid.voxel_m, 3);
-}
-
-/// Calls `visit` with each step that cuts and where the tip is before it.
-template <class Keyframes, class Visit>
-void for_each_cut(Keyframes&& keyframes, QuantaPoint at, const Visit& visit) {
-  for (auto& keyframe : keyframes) {
-    if (keyframe.cut) visit(*keyframe.mill, at);
-    at = keyframe.mill->tip;
-  }
 }
 
 /// Some of its cells' middles, those nearest to its own first.
@@ -85,7 +75,7 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
 void Carver::take_tool(std::size_t number) {
   const MillTool& tool = job_.tools[number];
   auto held = std::make_unique<HeldTool>(job_.cell, tool, job_.grid, around_);
-  held->see(cells_of(stock_.standing(), job_.grid, around_));
+  held->see(cells_of(standing(), job_.grid, around_));
   meter_ = std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3));
   arm_.take_tool(static_cast<int>(number), *held);  // the one before is there until then
   held_ = std::move(held);
@@ -113,7 +103,7 @@ std::unique_ptr<Site> Carver::make_site(std::size_t direction, const SiteMargins
 }
 
 bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>& places) {
-  held_->see(cells_of(stock_.standing(), job_.grid, around_));
+  held_->see(cells_of(standing(), job_.grid, around_));
   struct Way {
     const PostureField* field;
     std::unique_ptr<const ReachFloor> floor;
@@ -154,7 +144,7 @@ void Carver::draw_back(const Site& site) {
         remove(followed);  // it ends before what would come loose
         may_hop = followed.strokes() == strokes.size();
         go(std::move(followed));
-        if (may_hop) return;
+        if (may_hop) return settle();
       }
     }
     if (trail_.empty()) throw InputError("no_transit", "the arm cannot draw back along the tool's axis");
@@ -167,11 +157,18 @@ void Carver::draw_back(const Site& site) {
     go(std::move(back));
     trail_ = rest;
   }
+  settle();
 }
 
 std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
   FollowedMill followed = arm_.try_strokes(strokes);
-  remove(followed);
+  run_.helpers.for_each_index(3, [&](std::size_t part) {
+    if (part == 0)
+      remove(followed);
+    else
+      part == 1 ? clear_due() : cut_nails_due();
+  });
+  due_.clear();
   const std::size_t done = followed.strokes();
   // Nobody needs to go over to where nothing is cut.
   std::size_t useful = done;
@@ -183,27 +180,36 @@ std::size_t Carver::carry_out(const std::vector<MillStroke>& strokes) {
 
 /// What is removed is known.
 void Carver::go(FollowedMill followed) {
-  const QuantaPoint begin = quanta_of(*arm_.tip());
-  QuantaPoint from = begin;
+  QuantaPoint at = quanta_of(*arm_.tip());
   for (const Keyframe& keyframe : followed.keyframes) {
+    const QuantaPoint from = std::exchange(at, keyframe.mill->tip);
     trail_.push_back(point_of(from));
-    from = keyframe.mill->tip;
+    if (keyframe.cut) due_.push_back({from, at});
   }
-  const bool is_ball = tool().cutter.kind == CutterKind::ball;
-  const Vec3 to_middle = tool().cutter.radius_m * axis_;
-  const std::array<std::function<void()>, 2> changes{
-      [&] {
-        for_each_cut(followed.keyframes, begin,
-                     [&](const MillStep& step, const QuantaPoint& at) { stock_.clear(*sweeps_, at, step.tip); });
-      },
-      [&] {
-        if (!is_ball) return;
-        for_each_cut(followed.keyframes, begin, [&](const MillStep& step, const QuantaPoint& at) {
-          nails_.cut(point_of(at) + to_middle, point_of(step.tip) + to_middle, tool().cutter.radius_m - stray_m());
-        });
-      }};
-  run_.helpers.for_each_index(changes.size(), [&](std::size_t which) { changes[which](); });
   arm_.commit(std::move(followed));
+}
+
+void Carver::clear_due() {
+  for (const Edge& edge : due_) stock_.clear(*sweeps_, edge.from, edge.to);
+}
+
+void Carver::cut_nails_due() {
+  const Cutter& cutter = tool().cutter;
+  if (cutter.kind != CutterKind::ball) return;
+  const Vec3 to_middle = cutter.radius_m * axis_;
+  for (const Edge& edge : due_)
+    nails_.cut(point_of(edge.from) + to_middle, point_of(edge.to) + to_middle, cutter.radius_m - stray_m());
+}
+
+void Carver::settle() {
+  if (due_.empty()) return;
+  run_.helpers.for_each_index(2, [&](std::size_t part) { part == 0 ? clear_due() : cut_nails_due(); });
+  due_.clear();
+}
+
+const VoxelSet& Carver::standing() {
+  settle();
+  return stock_.standing();
 }
 
 /// Of the stock, by one stroke after the other, up to the first one that would bring a piece loose.

@@ -34,7 +34,11 @@ class Carver {
   void go_home() { arm_.go_home(); }
 
   const MillTool& tool() const { return held_->assembly().tool; }
-  const MillStock& stock() const { return stock_; }
+  /// Voxels that are not removed.
+  const SweptSet& left() const { return stock_.left(); }
+  /// Those in which something may stand.
+  const VoxelSet& standing();
+  /// As they are now whenever the tip is at the hub.
   const Nails& nails() const { return nails_; }
   void mark_reachable(std::size_t nail) { nails_.mark_reachable(nail); }
   /// Of the wishes.
@@ -63,8 +67,16 @@ class Carver {
   void count(const std::vector<Keyframe>& keyframes);
   void go(FollowedMill followed);
   void remove(FollowedMill& followed);
+  void settle();
+  void clear_due();
+  void cut_nails_due();
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
   std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;
+
+  /// Where the tip goes straight on while it cuts.
+  struct Edge {
+    QuantaPoint from, to;
+  };
 
   const MillJob& job_;
   const RunContext& run_;
@@ -77,6 +89,7 @@ class Carver {
   std::unique_ptr<HeldTool> held_;
   std::unique_ptr<ToolMeter> meter_;
   std::optional<MillSweeps> sweeps_;
+  std::vector<Edge> due_;  ///< removed from the stock, but what stands and the nails have yet to lose them
   std::unique_ptr<const ReachFloor> floor_;
   Vec3 hub_ = Vec3::Zero(), axis_ = Vec3::UnitZ();
   std::optional<Vec3> tip_;  ///< of the last keyframe that was counted

@@ -35,7 +35,7 @@ MillResult mill(const MillJob& job, const std::function<void(std::vector<Keyfram
     if (number + 1 == job.tools.size()) carver.go_home();
     result.tools.push_back(carver.figures());
   }
-  result.left = carver.stock().left().voxels();
+  result.left = carver.left().voxels();
   VoxelSet wanted = result.left;
   wanted -= job.voxels.keep;
   result.cures = find_cures(job, wanted, views, run);

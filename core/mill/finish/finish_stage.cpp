@@ -24,7 +24,7 @@ constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 constexpr double link_spacings = 4;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
-constexpr std::size_t strokes_a_batch = 1000, looked_at = 6;
+constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
 constexpr int max_refused = 100;
 
 class FinishStage {
@@ -66,9 +66,10 @@ class FinishStage {
 
   std::optional<std::size_t> best_direction(double from, const std::vector<std::uint32_t>& tried, double worth) const {
     std::vector<std::size_t> counts(reach_.directions());
-    for (std::size_t direction = 0; direction < counts.size(); ++direction)
+    run_.helpers.for_each_index(counts.size(), [&](std::size_t direction) {
       for (std::size_t nail = 0; nail < nails_.size(); ++nail)
         counts[direction] += is_wanted(nail, direction, from, tried);
+    });
     const auto most = std::ranges::max_element(counts);
     if (*most == 0 || static_cast<double>(*most) < worth) return std::nullopt;
     return static_cast<std::size_t>(most - counts.begin());
@@ -82,7 +83,7 @@ class FinishStage {
         tried[nail] |= std::uint32_t{1} << direction;
       }
     Site& along = reach_.site(direction);
-    along.see(carver_.stock().standing(), job_.grid, run_.helpers);
+    along.see(carver_.standing(), job_.grid, run_.helpers);
     std::erase_if(wanted,
                   [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
     std::vector<Vec3> places;
@@ -223,7 +224,7 @@ class FinishStage {
     for (int failures = 0; !contours.empty() && failures < max_refused; ++failures) {
       ContourStrokes laid({site, task, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
                            beside_spacings * spacing_m_, min_height},
-                          carver_.stock().left(), carver_.tip(site));
+                          carver_.left(), carver_.tip(site));
       auto [batch, ahead, done] = follow_batches(site, min_height, contours, laid, apart);
       std::ranges::move(ahead.apart, std::back_inserter(apart));
       if (done == batch.strokes.size()) break;

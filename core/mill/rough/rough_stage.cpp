@@ -40,7 +40,6 @@ class RoughStage {
 
  private:
   const MillTool& tool() const { return carver_.tool(); }
-  const MillStock& stock() const { return carver_.stock(); }
   double stray_m() const { return job_.wishes.stray_m(); }
   double step_m() const { return std::max(finest_cell_m, tool().cutter.radius_m / cells_a_radius); }
   SiteMargins margins() const { return {rough_share * tool().cutter.radius_m + stray_m(), air_clearance_m / 2}; }
@@ -48,7 +47,7 @@ class RoughStage {
   /// Of each direction which of some voxels that are to be removed the tool comes to.
   void find_prospects() {
     const int stride = std::max(1, job_.grid.n / samples_along);
-    VoxelSet wanted = stock().left().voxels();
+    VoxelSet wanted = carver_.left().voxels();
     wanted -= job_.voxels.keep;
     for (int k = stride / 2; k < job_.grid.n; k += stride)
       for (int j = stride / 2; j < job_.grid.n; j += stride)
@@ -73,7 +72,7 @@ class RoughStage {
     std::vector<std::size_t> gains(mill_directions().size());
     for (std::size_t number = 0; number < gains.size(); ++number)
       for (std::size_t at = 0; at < samples_.size() && !used_up[number]; ++at)
-        gains[number] += prospects_[number][at] && stock().left().voxels().contains(samples_[at]);
+        gains[number] += prospects_[number][at] && carver_.left().voxels().contains(samples_[at]);
     const auto most = std::ranges::max_element(gains);
     if (static_cast<double>(*most) < min_gain_) return std::nullopt;
     return static_cast<std::size_t>(most - gains.begin());
@@ -83,14 +82,14 @@ class RoughStage {
   std::vector<Vec3> places_left(std::size_t direction) const {
     std::vector<Vec3> places;
     for (std::size_t at = 0; at < samples_.size(); ++at)
-      if (prospects_[direction][at] && stock().left().voxels().contains(samples_[at]))
+      if (prospects_[direction][at] && carver_.left().voxels().contains(samples_[at]))
         places.push_back(job_.grid.centre(samples_[at]));
     return places;
   }
 
   void rough_along(std::size_t number) {
     const auto site = carver_.make_site(number, margins(), step_m());
-    site->see(stock().standing(), job_.grid, run_.helpers);
+    site->see(carver_.standing(), job_.grid, run_.helpers);
     if (!carver_.enter(number, *site, places_left(number))) return;
     const ToolFrame& frame = site->frame();
     StockTop surface = surface_of(*site);
@@ -109,7 +108,7 @@ class RoughStage {
 
   /// What is to be cut and can be: not all that may stand.
   HeightMap tops_to_cut(const Site& site) const {
-    return heights_of(stock().left().voxels(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
+    return heights_of(carver_.left().voxels(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
   }
   StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, stray_m()}; }
 
@@ -127,7 +126,7 @@ class RoughStage {
 
   void rough_level_along(Site& site, StockTop& surface, double height) {
     if (!is_worth_it(site, surface, height)) return;
-    site.see(stock().standing(), job_.grid, run_.helpers);
+    site.see(carver_.standing(), job_.grid, run_.helpers);
     const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
     std::vector<char> free = free_cells(site, height, reachable);
     std::array min_heights{height, carver_.hub().z()};
@@ -153,7 +152,7 @@ class RoughStage {
       for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
                          [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });
       if (done == 0) carver_.draw_back(site);
-      site.see(stock().standing(), job_.grid, run_.helpers);
+      site.see(carver_.standing(), job_.grid, run_.helpers);
       surface = surface_of(site);
     }
   }
