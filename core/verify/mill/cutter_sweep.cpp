@@ -24,6 +24,17 @@ bool near_segment(Int128 p_p, Int128 p_way, Int128 way_way, Int128 radius2) {
   return p_p * way_way - p_way * p_way <= radius2 * way_way;
 }
 
+/// Calls `visit` with the number of each bit that is set, from `begin` to `end`.
+template <typename Words, typename Visit>
+void for_each_bit(const Words& words, std::int64_t begin, std::int64_t end, const Visit& visit) {
+  for (std::int64_t word = begin >> 6; word <= end >> 6; ++word) {
+    std::uint64_t bits = words[static_cast<std::size_t>(word)];
+    if (word == begin >> 6) bits &= ~std::uint64_t{0} << (begin & 63);
+    if (word == end >> 6) bits &= ~std::uint64_t{0} >> (63 - (end & 63));
+    for (; bits != 0; bits &= bits - 1) visit(64 * word + std::countr_zero(bits));
+  }
+}
+
 }  // namespace
 
 CutterSweep::CutterSweep(const Cutter& cutter, const std::array<int, 3>& direction, double less_m)
@@ -67,42 +78,28 @@ bool CutterSweep::holds(const Quanta3& p, const Quanta3& way) const {
 
 std::uint64_t CutterSweep::take(VoxelSet& set, const Grid& grid, const Quanta3& from, const Quanta3& to,
                                 std::vector<Voxel>* taken) const {
-  const std::int64_t n = grid.n, size = std::llround(grid.n * grid.voxel_m * per_metre);
-  const double length = std::sqrt(static_cast<double>(length2_));
-  Quanta3 start{}, way{}, origin{};
-  std::array<std::int64_t, 3> first{}, last{};
+  Quanta3 start{}, way{};
+  Vec3 up;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     start[axis] = from[axis] + base_[axis];
     way[axis] = to[axis] - from[axis];
-    origin[axis] = std::llround(grid.origin_m[static_cast<int>(axis)] * per_metre);
-    const auto up =
-        static_cast<std::int64_t>(static_cast<double>(height_) * static_cast<double>(direction_[axis]) / length);
-    const std::int64_t low = std::min<std::int64_t>(0, way[axis]) + std::min<std::int64_t>(0, up) - reach_ - 2,
-                       high = std::max<std::int64_t>(0, way[axis]) + std::max<std::int64_t>(0, up) + reach_ + 2;
-    first[axis] = std::clamp<std::int64_t>((start[axis] + low - origin[axis]) * n / size - 1, 0, n - 1);
-    last[axis] = std::clamp<std::int64_t>((start[axis] + high - origin[axis]) * n / size + 1, 0, n - 1);
+    up[static_cast<int>(axis)] =
+        static_cast<double>(height_) * static_cast<double>(direction_[axis]) / std::sqrt(static_cast<double>(length2_));
   }
-  const auto centre = [&](std::size_t axis, std::int64_t i) {
-    return origin[axis] + ((2 * i + 1) * size + n) / (2 * n);
-  };
   std::uint64_t count = 0;
   auto& words = set.words();
-  for (std::int64_t k = first[2]; k <= last[2]; ++k)
-    for (std::int64_t j = first[1]; j <= last[1]; ++j) {
-      const std::int64_t row = n * (j + n * k), begin = row + first[0], end = row + last[0];
-      Quanta3 p{0, centre(1, j) - start[1], centre(2, k) - start[2]};
-      for (std::int64_t word = begin >> 6; word <= end >> 6; ++word)
-        for (std::uint64_t bits = words[static_cast<std::size_t>(word)]; bits != 0; bits &= bits - 1) {
-          const std::int64_t at = 64 * word + std::countr_zero(bits);
-          if (at < begin || at > end) continue;
-          p[0] = centre(0, at - row) - start[0];
-          if (!holds(p, way)) continue;
-          words[static_cast<std::size_t>(word)] &= ~(std::uint64_t{1} << (at & 63));
-          ++count;
-          if (taken != nullptr)
-            taken->push_back({static_cast<int>(at - row), static_cast<int>(j), static_cast<int>(k)});
-        }
-    }
+  const NearVoxels near(grid, start, way, up, static_cast<double>(reach_) + 2);
+  near.for_each_row([&](std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) {
+    const std::int64_t row = grid.n * (j + grid.n * k), begin = row + first, end = row + last;
+    Quanta3 p{0, near.from_corner(1, j), near.from_corner(2, k)};
+    for_each_bit(words, begin, end, [&](std::int64_t at) {
+      p[0] = near.from_corner(0, at - row);
+      if (!holds(p, way)) return;
+      words[static_cast<std::size_t>(at >> 6)] &= ~(std::uint64_t{1} << (at & 63));
+      ++count;
+      if (taken != nullptr) taken->push_back({static_cast<int>(at - row), static_cast<int>(j), static_cast<int>(k)});
+    });
+  });
   return count;
 }
 

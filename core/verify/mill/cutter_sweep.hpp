@@ -7,10 +7,9 @@
 
 #include "core/cell/milling/mill_tool.hpp"
 #include "core/material/voxel_set.hpp"
+#include "core/verify/mill/near_voxels.hpp"
 
 namespace sculpt {
-
-using Quanta3 = std::array<std::int64_t, 3>;
 
 /// A cutter in one direction, smaller by a margin on all sides.
 class CutterSweep {
