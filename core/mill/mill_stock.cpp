@@ -1,12 +1,9 @@
 #include "core/mill/mill_stock.hpp"
 
-#include <numbers>
-
 namespace sculpt {
 
 MillSweeps::MillSweeps(const Cutter& cutter, const Direction& direction, double stray_m, double voxel_m)
-    : of_centres(cutter, direction, stray_m),
-      of_cubes(cutter, direction, stray_m + voxel_m * std::numbers::sqrt3 / 2) {}
+    : of_centres(cutter, direction, stray_m), of_cubes(cutter, direction, cube_margin_m(stray_m, voxel_m)) {}
 
 std::uint32_t MillStock::remove(const MillSweeps& sweeps, const QuantaPoint& from, const QuantaPoint& to,
                                 SweptSet::Taken& taken) {

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
 #include "core/mill/map/tool_frame.hpp"
 #include "core/trajectory/milling/swept_set.hpp"
 
 namespace sculpt {
+
+/// How far inside the cutter, which may be `stray_m` from where it should be, the centre of a voxel is whose cube it
+/// sweeps.
+inline double cube_margin_m(double stray_m, double voxel_m) {
+  return stray_m + voxel_m * std::numbers::sqrt3 / 2;
+}
 
 /// The sweeps of one tool held in one direction.
 struct MillSweeps {

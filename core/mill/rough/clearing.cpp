@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mill/rough/ramp.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -18,6 +20,8 @@ constexpr double min_share = 0.15;
 constexpr double linked_radii = 12;
 /// How often half a width is laid before a place that would take off too much.
 constexpr int max_tries = 3;
+/// Of what may be taken off: by ramps.
+constexpr double ramp_share = 0.9;
 
 /// How far inside the edge of a slab, as thick as the depth of cut, the tip takes off depth times width; negative: so
 /// far outside. To `step_m`, and no more.
@@ -42,7 +46,8 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
       width_m_(task.tool.max_width_m) {
   const Cutter& cutter = task.tool.cutter;
   double cleared = 0;
-  while (cleared < cutter.radius_m && cutter.height_m(cleared) <= task.cusp_m) cleared += lattice_.step / 4;
+  while (cleared < cutter.radius_m - task.seam_m && cutter.height_m(cleared) <= task.cusp_m)
+    cleared += lattice_.step / 4;
   const double step = std::max(step_share * cutter.radius_m, 2 * lattice_.step);
   const double inside = std::min(cleared, first_row_inside(task.tool, lattice_.step)) - lattice_.step;
   rows_.emplace(LevelArea{lattice_, task.is_free, task.stands, cutter.radius_m, width_m_, cleared, inside, step},
@@ -55,9 +60,9 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
   }
 }
 
-void Clearing::cut(const Point2& from, const Point2& to) {
+void Clearing::cut(const Vec3& from, const Vec3& to) {
   double heights = 0;
-  surface_.cut(at_level(from), at_level(to), [&](std::size_t at, float before) {
+  surface_.cut(from, to, [&](std::size_t at, float before) {
     heights += static_cast<double>(before - surface_.map().heights[at]);
   });
   taken_m3_ += heights * lattice_.step * lattice_.step;
@@ -68,7 +73,7 @@ double Clearing::volume(const Point2& from, const Point2& to) const {
 }
 
 /// Nowhere more than it may, bit by bit: what a long edge takes off at its end does not count by all of its length.
-bool Clearing::may_cut(const LevelPass& way) const {
+bool Clearing::may_cut(const Way& way) const {
   ChipWindow window = chip_window();
   bool is_first = true;
   for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
@@ -145,16 +150,16 @@ void Clearing::turn_towards(LevelRow& row, const Point2& at) const {
 }
 
 /// Straight, from farther outside or from before its beginning; into a ring bit by bit.
-std::vector<LevelPass> Clearing::ways_into(const LevelRow& row) const {
+std::vector<Clearing::Way> Clearing::ways_into(const LevelRow& row) const {
   const Point2 begin = row.points.front(), out = row.field->outwards(begin),
                ahead = (row.points[1] - begin).normalized();
   const double radius = task_.tool.cutter.radius_m;
-  std::vector<LevelPass> ways{{begin}};
+  std::vector<Way> ways{{begin}};
   for (int halves = 1; halves <= 6; ++halves) ways.push_back({begin + halves * width_m_ / 2 * out, begin});
   for (const double radii : {1.0, 2.0}) ways.push_back({begin - radii * radius * ahead, begin});
   for (const double radii : {3.0, 6.0}) {
     if (!row.is_closed) break;
-    LevelPass way{begin};
+    Way way{begin};
     double back = 0;
     for (std::size_t at = row.points.size() - 1; at > 0 && back < radii * radius; --at) {
       back += (row.points[at] - row.points[at - 1]).norm();
@@ -168,13 +173,43 @@ std::vector<LevelPass> Clearing::ways_into(const LevelRow& row) const {
 }
 
 /// From where the tip is, if that is near; or from where it is open.
-LevelPass Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
+Clearing::Way Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
   const Point2& begin = row.points.front();
   if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}))
     return {*tip, begin};
-  for (LevelPass& way : ways_into(row))
-    if (is_open(way.front()) && may_cut(way) && task_.comes_down(way.front())) return std::move(way);
+  for (Way& way : ways_into(row))
+    if (is_open(way.front()) && may_cut(way) && task_.comes_down(at_level(way.front()))) return std::move(way);
   return {};
+}
+
+/// The highest place that the cutter meets along it.
+double Clearing::top_along(const LevelRow& row) const {
+  float top = static_cast<float>(task_.height);
+  for (std::size_t at = 0; at + 1 < row.points.size(); ++at)
+    for_each_cell_near(lattice_, at_level(row.points[at]), at_level(row.points[at + 1]), task_.tool.cutter.radius_m,
+                       [&](int a, int b) { top = std::max(top, surface_.map().at(a, b)); });
+  return static_cast<double>(top);
+}
+
+/// Where nothing is open: from the top of what stands down along it, as deep each time as a slot may be.
+LevelPass Clearing::enter_by_ramp(const LevelRow& row) {
+  const double slot_m = ramp_share * cap_m2_ / (2 * task_.tool.cutter.radius_m);
+  LevelPass pass = ramp_along(row.points, row.is_closed, top_along(row), task_.height, slot_m);
+  if (pass.empty() || !task_.comes_down(pass.front())) return {};
+  const StockTop before = surface_;
+  const double taken_before = taken_m3_;
+  ChipWindow window = chip_window();
+  for (std::size_t at = 0; at + 1 < pass.size(); ++at) {
+    const Vec3 &from = pass[at], &to = pass[at + 1];
+    if (edge_is_free(from.head<2>(), to.head<2>()) && window.take(surface_.volume(from, to), (to - from).norm())) {
+      cut(from, to);
+      continue;
+    }
+    surface_ = before;
+    taken_m3_ = taken_before;
+    return {};
+  }
+  return pass;
 }
 
 /// What would take off too much comes once more, after a row that is farther out.
@@ -206,14 +241,19 @@ void Clearing::put_off(std::size_t number, std::size_t refused) {
 LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip) {
   turns_[number].is_done = true;
   LevelRow& row_now = turns_[number].row;
-  LevelPass pass = enter(row_now, tip);
-  if (pass.empty() && !row_now.is_closed) {
+  Way way = enter(row_now, tip);
+  if (way.empty() && !row_now.is_closed) {
     std::ranges::reverse(row_now.points);
-    pass = enter(row_now, tip);
+    way = enter(row_now, tip);
   }
-  if (pass.empty()) return {};
+  if (way.empty()) return enter_by_ramp(row_now);
   const LevelRow row = row_now;  // turns are added below
-  for (std::size_t at = 0; at + 1 < pass.size(); ++at) cut(pass[at], pass[at + 1]);
+  LevelPass pass{at_level(way.front())};
+  const auto go = [&](const Point2& to) {
+    cut(pass.back(), at_level(to));
+    pass.push_back(at_level(to));
+  };
+  std::for_each(way.begin() + 1, way.end(), go);
   ChipWindow window = chip_window();
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
     const Point2 &from = row.points[at], &to = row.points[at + 1];
@@ -226,8 +266,7 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
       put_off(number, at);
       break;
     }
-    cut(from, to);
-    pass.push_back(to);
+    go(to);
   }
   return pass;
 }

@@ -25,12 +25,14 @@ struct ClearingTask {
   double cusp_m = 0;                 ///< may be left
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
   const std::vector<char>& stands;   ///< by cell: what is to come off
-  /// May the tip come down to the level there, from where it is now?
-  std::function<bool(const Point2&)> comes_down;
+  double seam_m = 0;  ///< of the cutter's radius: nearer to its edge nothing counts as cleared beside a row
+  /// May the tip come down to there (tool frame), from where it is now?
+  std::function<bool(const Vec3&)> comes_down;
 };
 
-/// Edges at the height of the level. The first place is in the open, or where the tip is.
-using LevelPass = std::vector<Point2>;
+/// Places of the tip (tool frame), at the height of the level or on a ramp down to it. The first one is in the open, on
+/// top of what stands, or where the tip is.
+using LevelPass = std::vector<Vec3>;
 
 /// Plans passes, one after the other, and takes off the surface what they cut. Not shared between threads.
 class Clearing {
@@ -52,21 +54,25 @@ class Clearing {
     bool is_done = false;
   };
 
+  using Way = std::vector<Point2>;  ///< at the height of the level
+
   Vec3 at_level(const Point2& p) const { return {p.x(), p.y(), task_.height}; }
   ChipWindow chip_window() const { return {cap_m2_, task_.tool.cutter.radius_m / 2}; }
   double volume(const Point2& from, const Point2& to) const;
   bool edge_is_free(const Point2& from, const Point2& to) const {
     return sculpt::edge_is_free(lattice_, task_.is_free, from, to);
   }
-  bool may_cut(const LevelPass& way) const;
+  bool may_cut(const Way& way) const;
   bool is_open(const Point2& p) const;
-  void cut(const Point2& from, const Point2& to);
+  void cut(const Vec3& from, const Vec3& to);
   bool are_near(const LevelRow& one, const LevelRow& other) const;
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
   void turn_towards(LevelRow& row, const Point2& at) const;
-  std::vector<LevelPass> ways_into(const LevelRow& row) const;
-  LevelPass enter(const LevelRow& row, const std::optional<Point2>& tip) const;
+  std::vector<Way> ways_into(const LevelRow& row) const;
+  Way enter(const LevelRow& row, const std::optional<Point2>& tip) const;
+  double top_along(const LevelRow& row) const;
+  LevelPass enter_by_ramp(const LevelRow& row);
   LevelPass follow(std::size_t number, const std::optional<Point2>& tip);
   void put_off(std::size_t number, std::size_t refused);
 

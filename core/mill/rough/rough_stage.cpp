@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/mill/drive/hop.hpp"
@@ -21,6 +23,8 @@ constexpr double min_gain_share = 1e-3, min_gain_passes = 15;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
 constexpr int max_failures = 12;
+/// What is less uneven is flat.
+constexpr double flat_m = 1e-4;
 /// Of rows over one level: a rib that is left stands the higher the deeper the levels beside it, until no row may take
 /// it off any more.
 constexpr int max_rounds = 3;
@@ -101,8 +105,10 @@ class RoughStage {
                                                                  Vec3(corner & 1, corner >> 1 & 1, corner >> 2))
                                     .z());
     for (double height = top - tool().max_depth_m; height > bottom - tool().cutter.radius_m;
-         height -= tool().max_depth_m)
-      rough_level_along(*site, surface, height);
+         height -= tool().max_depth_m) {
+      if (const auto flat = flat_above(*site, surface, height)) rough_level_along(*site, surface, *flat, height);
+      rough_level_along(*site, surface, height, -std::numeric_limits<double>::infinity());
+    }
     carver_.draw_back(*site);
   }
 
@@ -124,16 +130,46 @@ class RoughStage {
     return volume >= min_pass_m3(tool());
   }
 
-  void rough_level_along(Site& site, StockTop& surface, double height) {
+  /// The height of what is flat of the part, lies above this one and less than a depth of cut, and has much on it.
+  std::optional<double> flat_above(const Site& site, const StockTop& surface, double height) const {
+    const double depth = tool().max_depth_m, cell = std::pow(site.lattice().step, 2);
+    std::vector<double> volumes(static_cast<std::size_t>(depth / flat_m) + 2);
+    for (std::size_t at = 0; at < site.lattice().size(); ++at) {
+      const double limit = lowest_tip(site, at) - height,
+                   stands = std::min(static_cast<double>(surface.map().heights[at]) - height, depth) - limit;
+      if (limit > 0 && stands > cusp_m(tool())) volumes[static_cast<std::size_t>(limit / flat_m)] += stands * cell;
+    }
+    // It may lie where two of them meet.
+    std::size_t most = 1;
+    for (std::size_t at = 1; at < volumes.size(); ++at)
+      if (volumes[at - 1] + volumes[at] > volumes[most - 1] + volumes[most]) most = at;
+    if (volumes[most - 1] + volumes[most] < min_pass_m3(tool())) return std::nullopt;
+    return height + static_cast<double>(most + 1) * flat_m;
+  }
+
+  static double lowest_tip(const Site& site, std::size_t cell) {
+    return static_cast<double>(std::max(site.limit().heights[cell], site.body_limit().heights[cell]));
+  }
+
+  /// Of these cells those where the tip may not come down to a height.
+  static std::vector<char> cells_above(const Site& site, std::vector<char> cells, double height) {
+    for (std::size_t at = 0; at < cells.size(); ++at) cells[at] &= lowest_tip(site, at) > height;
+    return cells;
+  }
+
+  /// `next`: the next level's height, if what the tool comes to there is left to it.
+  void rough_level_along(Site& site, StockTop& surface, double height, double next) {
     if (!is_worth_it(site, surface, height)) return;
     site.see(carver_.standing(), job_.grid, run_.helpers);
     const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
     std::vector<char> free = free_cells(site, height, reachable);
+    std::vector<char> wanted = cells_above(site, free, next);
     std::array min_heights{height, carver_.hub().z()};
     bool is_drawn_back = false;
     for (int rounds = 0, failures = 0; rounds < max_rounds && failures < max_failures;) {
-      const auto [strokes, is_cut_off] = rough_level(
-          site, {tool(), height, free}, {carver_.tip(site), min_heights, stray_m(), reachable}, surface, run_.helpers);
+      const auto [strokes, is_cut_off] =
+          rough_level(site, {tool(), height, free, wanted, cube_margin_m(stray_m(), job_.grid.voxel_m)},
+                      {carver_.tip(site), min_heights, stray_m(), reachable}, surface, run_.helpers);
       if (strokes.empty()) {
         if (!is_cut_off || std::exchange(is_drawn_back, true)) return;
         carver_.draw_back(site);  // from above everything it may come there
@@ -149,8 +185,9 @@ class RoughStage {
       // Not there, then, and what was to come after it is planned anew.
       if (!strokes[done].cut) min_heights[0] = carver_.hub().z();
       const Vec3 refused = site.frame().of(strokes[done].tip_m);
-      for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2,
-                         [&](int a, int b) { free[site.lattice().index(a, b)] = 0; });
+      for_each_cell_near(site.lattice(), refused, refused, tool().cutter.radius_m / 2, [&](int a, int b) {
+        free[site.lattice().index(a, b)] = wanted[site.lattice().index(a, b)] = 0;
+      });
       if (done == 0) carver_.draw_back(site);
       site.see(carver_.standing(), job_.grid, run_.helpers);
       surface = surface_of(site);

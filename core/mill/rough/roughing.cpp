@@ -65,18 +65,18 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vecto
   const double height = level.height;
   Vec3 tip = ways.from;
   std::vector<MillStroke> over;
-  const auto comes_down = [&](const Point2& at) {
-    over = way_over(site, ways, tip, {at.x(), at.y(), height});
+  const auto comes_down = [&](const Vec3& at) {
+    over = way_over(site, ways, tip, at);
     plan.is_cut_off = plan.is_cut_off || over.empty();
     return !over.empty();
   };
-  Clearing clearing({level.tool, height, cusp_m(level.tool), level.is_free, stands, comes_down}, layout, surface);
+  Clearing clearing({level.tool, height, cusp_m(level.tool), level.is_free, stands, level.seam_m, comes_down}, layout,
+                    surface);
   while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
-    const Vec3 begin(pass->front().x(), pass->front().y(), height);
-    if (tip != begin) std::ranges::move(over, std::back_inserter(plan.strokes));
-    for (std::size_t edge = 1; edge < pass->size(); ++edge)
-      plan.strokes.push_back({site.frame().point({(*pass)[edge].x(), (*pass)[edge].y(), height}), true, ways.stray_m});
-    tip = {pass->back().x(), pass->back().y(), height};
+    if (tip != pass->front()) std::ranges::move(over, std::back_inserter(plan.strokes));
+    for (auto place = pass->begin() + 1; place != pass->end(); ++place)
+      plan.strokes.push_back({site.frame().point(*place), true, ways.stray_m});
+    tip = pass->back();
   }
   plan.taken_m3 = clearing.taken_m3();
   Vec3 at = site.frame().point(ways.from);
@@ -92,7 +92,7 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vecto
 LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
                          const Helpers& helpers) {
   const CellsToClear cells =
-      find_cells_to_clear(level.tool.cutter, level.height, cusp_m(level.tool), level.is_free, surface.map());
+      find_cells_to_clear(level.tool.cutter, level.height, cusp_m(level.tool), level.wanted, surface.map());
   if (cells.volume_m3 < min_pass_m3(level.tool)) return {};
   constexpr std::array layouts{RowLayout::around, RowLayout::along_u, RowLayout::along_v};
   std::vector<StockTop> left(layouts.size(), surface);

@@ -26,6 +26,8 @@ struct RoughLevel {
   const MillTool& tool;
   double height = 0;                 ///< of the tip
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
+  const std::vector<char>& wanted;   ///< those of them where it is to take off what it can
+  double seam_m = 0;                 ///< as `ClearingTask`
 };
 
 /// Where the robot can hold the tip (tool frame).

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -220,6 +221,29 @@ TEST(Mill, UprightWallsAreNotCut) {
     const ExcessFigures& reachable = result.report.surface->reachable;
     EXPECT_GT(reachable.within_tolerance, reachable.points * 8 / 10);
   }
+}
+
+TEST(Mill, AFlatCutterRoughsPocketsAndWhatIsFlat) {
+  // A plate of 34 mm, between two levels, with a pocket that is open above only. Where two rows met nothing was swept
+  // whole by one of them, and counted as standing for ever; the neck kept off it.
+  const auto plate = [](float x, float y) { return std::abs(x - 25) < 15 && std::abs(y - 25) < 12 ? 20.0F : 34.0F; };
+  std::vector<float> lines{0, 50};
+  for (const float step : {10.0F, 13.0F, 37.0F, 40.0F}) lines.insert(lines.end(), {step - 1e-3F, step + 1e-3F});
+  for (int line = 1; line < 25; ++line) lines.push_back(2.0F * static_cast<float>(line) + 0.1F);
+  std::ranges::sort(lines);
+  Job job = make_job("bust", 32, {"D12"});
+  job.mesh = {make_steps(lines, plate), "stl", "plate.stl"};
+  auto library = nlohmann::json::parse(job.mill->library.json);
+  for (auto& tool : library["tools"])
+    if (tool["name"] == "D12") tool["cutter"]["kind"] = "flat";
+  job.mill->library.json = library.dump();
+  const fs::path file = scratch("flat");
+  const JobResult result = run_job(job, file, {});
+  fs::remove(file);
+  EXPECT_TRUE(result.report.verify.clean);
+  EXPECT_EQ(result.report.surface->gouged_points, 0U);
+  // All but the corners of the pocket.
+  EXPECT_GT(result.report.tools[0].removed_m3, 0.94 * (50 * 50 * 16 + 30 * 24 * 14) * 1e-9);
 }
 
 TEST(Mill, RefusesWhatCannotBe) {

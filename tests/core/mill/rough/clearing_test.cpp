@@ -70,11 +70,11 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
   Cleared cleared;
   const double cusp_m = 0.35 * tool.max_depth_m;
   const CellsToClear cells = find_cells_to_clear(tool.cutter, height, cusp_m, free, surface.map());
-  Clearing clearing({tool, height, cusp_m, free, cells.marked, [](const Point2&) { return true; }}, layout, surface);
-  Point2 at(-0.075, -0.075);
+  Clearing clearing({tool, height, cusp_m, free, cells.marked, 0, [](const Vec3&) { return true; }}, layout, surface);
+  Vec3 at(-0.075, -0.075, 0);
   bool is_down = false;
   Engagement engagement(tool);
-  while (std::optional<LevelPass> pass = clearing.next_from(at, is_down)) {
+  while (std::optional<LevelPass> pass = clearing.next_from(at.head<2>(), is_down)) {
     ++cleared.passes;
     if (!is_down || pass->front() != at) {
       ++cleared.entries;
@@ -82,13 +82,12 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
     }
     is_down = true;
     for (std::size_t n = 0; n + 1 < pass->size(); ++n) {
-      const Point2 &from = (*pass)[n], &to = (*pass)[n + 1];
+      const Vec3 &from = (*pass)[n], &to = (*pass)[n + 1];
       const double length = (to - from).norm();
       const int bits = 1 + static_cast<int>(length / (tool.cutter.radius_m / 8));
       double volume = 0;
       for (int bit = 0; bit < bits; ++bit) {
-        const Point2 p = from + (to - from) * bit / bits, q = from + (to - from) * (bit + 1) / bits;
-        const Vec3 begin(p.x(), p.y(), height), end(q.x(), q.y(), height);
+        const Vec3 begin = from + (to - from) * bit / bits, end = from + (to - from) * (bit + 1) / bits;
         const double more = measured.volume(begin, end);
         measured.cut(begin, end, [](std::size_t, float) {});
         engagement.add(more, length / bits);
@@ -99,6 +98,7 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
       if (volume > 0) cleared.in_passes_m += length;
     }
     at = pass->back();
+    EXPECT_EQ(at.z(), height);
   }
   cleared.max_share = engagement.max_share();
   return cleared;
@@ -149,6 +149,32 @@ TEST_P(LaidRows, GoAroundWhatIsNotFree) {
         ASSERT_LT(top, -0.002F) << u << " " << v;
       }
     }
+}
+
+/// Nowhere may the tip be but in a pocket: it comes down along ramps, and takes no more there than a slot may.
+TEST_P(LaidRows, EnterAPocketByRamps) {
+  for (const CutterKind kind : {CutterKind::ball, CutterKind::flat}) {
+    MillTool tool = ball_tool(0.012);
+    tool.cutter.kind = kind;
+    if (kind == CutterKind::flat) tool.cutter.corner_radius_m = 0;
+    StockTop surface = make_block(tool, 0.0006), measured = surface;
+    const Lattice lattice = surface.lattice();
+    std::vector<char> free(lattice.size());
+    std::size_t cells = 0;
+    for (int b = 0; b < lattice.height; ++b)
+      for (int a = 0; a < lattice.width; ++a)
+        if (std::abs(lattice.u(a)) < 0.03 && std::abs(lattice.v(b) - 0.01) < 0.02) {
+          free[lattice.index(a, b)] = 1;
+          ++cells;
+        }
+    double volume = 0;
+    for (int level = 1; level <= 2; ++level) {
+      const Cleared cleared = clear_level(tool, surface, measured, -0.006 * level, free, GetParam());
+      EXPECT_LE(cleared.max_share, 1.2) << "level " << level;
+      volume += cleared.volume_m3;
+    }
+    EXPECT_GT(volume, 0.8 * 0.012 * static_cast<double>(cells) * lattice.step * lattice.step);
+  }
 }
 
 /// Ways from pass to pass go over gaps and through what stands beyond them.
