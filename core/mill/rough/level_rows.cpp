@@ -43,15 +43,15 @@ CellBox box_of(const std::vector<char>& marked, const Lattice& lattice) {
   return box;
 }
 
-/// The distance from the middle, and `more`.
-RowField straight_field(const Lattice& lattice, RowLayout layout, double more) {
+/// The distance across the rows from a place (m, of the lattice), and `more`; on one side of it the distance is
+/// negative if `is_signed`.
+RowField straight_field(const Lattice& lattice, RowLayout layout, double place, bool is_signed, double more) {
   RowField field{lattice, {}};
   field.values.reserve(lattice.size());
   for (int b = 0; b < lattice.height; ++b)
     for (int a = 0; a < lattice.width; ++a) {
-      const double across =
-          layout == RowLayout::along_u ? b - (lattice.height - 1) / 2.0 : a - (lattice.width - 1) / 2.0;
-      field.values.push_back(static_cast<float>(std::abs(across) * lattice.step + more));
+      const double across = (layout == RowLayout::along_u ? lattice.v(b) : lattice.u(a)) - place;
+      field.values.push_back(static_cast<float>((is_signed ? across : std::abs(across)) + more));
     }
   return field;
 }
@@ -91,8 +91,14 @@ LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), sta
   if (is_around && !any) return;
   const double last = last_row_cells * lattice.step;
   if (any) fields_.push_back(std::make_unique<RowField>(RowField{lattice, distances_to(shut, lattice)}));
-  if (!is_around)
-    fields_.push_back(std::make_unique<RowField>(straight_field(lattice, layout, last - task_.cleared_m)));
+  if (!is_around) {
+    const bool is_u = layout == RowLayout::along_u;
+    const double first = is_u ? all.v(marked.first_b) : all.u(marked.first_a),
+                 end = is_u ? all.v(marked.last_b) : all.u(marked.last_a);
+    fields_.push_back(std::make_unique<RowField>(
+        any ? straight_field(lattice, layout, (first + end) / 2, false, last - task_.cleared_m)
+            : straight_field(lattice, layout, first - all.step / 2, true, last - task_.cleared_m)));
+  }
   const double farthest = farthest_of(*fields_.back(), task_.stands, all, box);
   if (is_around)
     lay_around(farthest);
@@ -114,8 +120,8 @@ void LevelRows::lay_around(double farthest) {
     lay(field, 2 * number - 1, first + (number - 0.5) * width, cleared, cleared);
 }
 
-/// From two sides to the middle, all as far apart; where the tip may not be somewhere (`any`) one around that, for
-/// which they leave something.
+/// All as far apart, from one side to the other; where the tip may not be somewhere (`any`) from both to the middle and
+/// one around that, for which they leave something.
 void LevelRows::lay_straight(double farthest, bool any) {
   const RowField& field = *fields_.back();
   const double last = last_row_cells * task_.lattice.step, all = farthest - task_.inside_m - last;

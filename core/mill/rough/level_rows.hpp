@@ -9,7 +9,7 @@
 //               . 2 1 1 1 2 .              . 1 1 0 0 1 1 .
 //
 // Around are level curves of the distance from @, from the outside inwards: corners first, closed ones last. Along are
-// straight rows, from both sides to the middle, and one last row around @.
+// straight rows, from both sides to the middle, and one last row around @; without one from one side to the other.
 #pragma once
 
 #include <memory>

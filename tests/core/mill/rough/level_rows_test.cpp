@@ -89,20 +89,38 @@ TEST(LevelRows, AroundNothingThereAreNone) {
   EXPECT_FALSE(LevelRows(level.task(), RowLayout::along_u).rows().empty());
 }
 
-TEST(LevelRows, StraightOnesBeginInsideTheEdgeAndAreEvenlySpread) {
-  const Level level({});
+/// Where the straight rows of a level are across, those farther than `least` from its middle line on one side.
+std::vector<double> across(const Level& level, double least) {
   const LevelRows laid(level.task(), RowLayout::along_u);
   std::vector<double> at;
   for (const LevelRow& row : laid.rows())
-    if (row.points.front().y() > 0) at.push_back(row.points.front().y());
+    if (row.rank >= 0 && row.points.front().y() > least) at.push_back(row.points.front().y());
   std::ranges::sort(at);
-  ASSERT_EQ(at.size(), 6);  // between 2 mm inside of an edge 50 mm from the middle and 7.3 mm beside the middle
-  EXPECT_NEAR(at.back(), 0.05 - inside, level.lattice.step);
-  EXPECT_NEAR(at.front(), cleared, level.lattice.step);
+  return at;
+}
+
+void expect_even(const std::vector<double>& at) {
   for (std::size_t row = 1; row < at.size(); ++row) {
     EXPECT_LE(at[row] - at[row - 1], width + 1e-6);
     EXPECT_NEAR(at[row] - at[row - 1], at[1] - at[0], 1e-5);
   }
+}
+
+TEST(LevelRows, StraightOnesGoFromOneSideToTheOther) {
+  const Level level({});
+  const std::vector<double> at = across(level, -1);
+  ASSERT_EQ(at.size(), 11);  // from 7.3 mm inside of one edge to 2 mm inside of the other, 100 mm away
+  EXPECT_NEAR(at.front(), -0.05 + cleared, level.lattice.step);
+  EXPECT_NEAR(at.back(), 0.05 - inside, level.lattice.step);
+  expect_even(at);
+}
+
+TEST(LevelRows, StraightOnesGoFromBothSidesToTheMiddleBesideThePart) {
+  const Level level({{{0.04, 0}, 0.002}});
+  const std::vector<double> at = across(level, 0);
+  ASSERT_GE(at.size(), 6);  // between 2 mm inside of an edge 50 mm from the middle and 7.3 mm beside the middle
+  EXPECT_NEAR(at.back(), 0.05 - inside, level.lattice.step);
+  EXPECT_NEAR(at.front(), cleared, level.lattice.step);
 }
 
 TEST(LevelRows, StraightOnesLeaveSomethingForTheRingAroundThePart) {
