@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 class ProgramsTest : public testing::Test {
  protected:
+  explicit ProgramsTest(std::chrono::milliseconds limit = std::chrono::minutes(10))
+      : live([limit](Config& config) { config.result_time = limit; }) {}
   static Json spec(const std::string& name, double feed_m_s = 0.05) {
     return {{"dialect", "krl"}, {"name", name}, {"motion", {{"feed_m_s", feed_m_s}}}};
   }
@@ -48,7 +50,7 @@ class ProgramsTest : public testing::Test {
     return found;
   }
 
-  LiveServer live{[](Config& config) { config.result_time = std::chrono::milliseconds(1500); }};
+  LiveServer live;
   client::Client client = live.connect();
 };
 
@@ -95,12 +97,21 @@ TEST_F(ProgramsTest, WhatStopsTheProcessIsSaidAndLeavesNothing) {
   const std::string job = finished();
   EXPECT_EQ(fetch(job, spec("refused")), "axes_unfit");
   EXPECT_EQ(fetch(job, spec("crashes")), "internal_error");
-  EXPECT_EQ(fetch(job, spec("endless")), "run_time_exceeded");
   EXPECT_EQ(fetch(job, spec("writes_none")), "storage_error");
   EXPECT_EQ(made(job), Json::array());
   for (const auto& entry : fs::directory_iterator(live.results(job)))
     EXPECT_EQ(entry.path().filename().string().find("program-"), std::string::npos) << entry.path();
   EXPECT_EQ(fetch(job, spec("bust")), "krl bust 0.05 of plain");
+}
+
+struct ImpatientProgramsTest : ProgramsTest {
+  ImpatientProgramsTest() : ProgramsTest(std::chrono::milliseconds(200)) {}
+};
+
+TEST_F(ImpatientProgramsTest, WhatTakesTooLongIsStoppedAndLeavesNothing) {
+  const std::string job = finished();
+  EXPECT_EQ(fetch(job, spec("endless")), "run_time_exceeded");
+  EXPECT_EQ(made(job), Json::array());
 }
 
 TEST_F(ProgramsTest, NothingIsMadeOfAPlanThatMustNotBeRunOrIsNotThere) {
