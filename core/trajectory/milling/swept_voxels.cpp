@@ -124,14 +124,14 @@ bool SweptCutter::any_in_row(const VoxelSet& set, int first, int last, int j, in
   return false;
 }
 
-SweptCutter::Range SweptCutter::Slope::between(double low, double high, double a) const {
+SweptCutter::Range SweptCutter::LinearTerm::between(double low, double high, double a) const {
   if (std::abs(by_x) < 1e-9) return a >= low && a <= high ? all : none;
   const double first = (low - a) * inverse, second = (high - a) * inverse;
   return {std::min(first, second), std::max(first, second)};
 }
 
-SweptCutter::Range SweptCutter::Curvature::below(double a, double b) const {
-  if (c < 1e-12) return Slope(b).between(-infinity, 0, a);
+SweptCutter::Range SweptCutter::SquareTerm::below(double a, double b) const {
+  if (c < 1e-12) return LinearTerm(b).between(-infinity, 0, a);
   const double root = b * b - 4 * a * c;
   if (root < 0) return none;
   const double half = std::sqrt(root);

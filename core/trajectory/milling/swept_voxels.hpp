@@ -76,16 +76,16 @@ class SweptCutter {
   };
   using Range = std::array<double, 2>;  ///< of x; none if first > last
   /// b of a + b x.
-  struct Slope {
-    explicit Slope(double value) : by_x(value), inverse(1 / value) {}
+  struct LinearTerm {
+    explicit LinearTerm(double value) : by_x(value), inverse(1 / value) {}
     /// Where low <= a + b x <= high.
     Range between(double low, double high, double a) const;
 
     double by_x, inverse;
   };
   /// c of a + b x + c x^2; c >= 0.
-  struct Curvature {
-    explicit Curvature(double value) : c(value), half_inverse(1 / (2 * value)) {}
+  struct SquareTerm {
+    explicit SquareTerm(double value) : c(value), half_inverse(1 / (2 * value)) {}
     /// Where that is 0 or less.
     Range below(double a, double b) const;
 
@@ -112,11 +112,11 @@ class SweptCutter {
     // In quanta, rounded: for bounds.
     Vec3 go_, axis_;          ///< way; direction, a unit vector
     double inverse_length2_;  ///< of the way
-    Slope along_go_, along_axis_;
-    Curvature about_go_, about_axis_;
+    LinearTerm along_go_, along_axis_;
+    SquareTerm about_go_, about_axis_;
     Vec3 across_, beside_;  ///< the way, and a unit vector, both across the axis, and across each other
     double across2_;        ///< length of `across_`, squared
-    Slope along_across_, along_beside_;
+    LinearTerm along_across_, along_beside_;
   };
   std::size_t parts() const { return cylinders_.size() + (ball_radius_ > 0 ? 1 : 0); }
   static bool any_in_row(const VoxelSet& set, int first, int last, int j, int k);
