@@ -56,6 +56,14 @@ RowField straight_field(const Lattice& lattice, RowLayout layout, double place, 
   return field;
 }
 
+/// Where straight rows are counted from (m): the edge of what is marked, or its middle.
+double place_of(const CellBox& marked, const Lattice& all, RowLayout layout, bool middle) {
+  const bool is_u = layout == RowLayout::along_u;
+  const double first = is_u ? all.v(marked.first_b) : all.u(marked.first_a),
+               last = is_u ? all.v(marked.last_b) : all.u(marked.last_a);
+  return middle ? (first + last) / 2 : first - all.step / 2;
+}
+
 /// The largest value at cells that are marked; the field is over a box of their lattice.
 double farthest_of(const RowField& field, const std::vector<char>& marked, const Lattice& all, const CellBox& box) {
   double farthest = 0;
@@ -91,14 +99,9 @@ LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), sta
   if (is_around && !any) return;
   const double last = last_row_cells * lattice.step;
   if (any) fields_.push_back(std::make_unique<RowField>(RowField{lattice, distances_to(shut, lattice)}));
-  if (!is_around) {
-    const bool is_u = layout == RowLayout::along_u;
-    const double first = is_u ? all.v(marked.first_b) : all.u(marked.first_a),
-                 end = is_u ? all.v(marked.last_b) : all.u(marked.last_a);
+  if (!is_around)
     fields_.push_back(std::make_unique<RowField>(
-        any ? straight_field(lattice, layout, (first + end) / 2, false, last - task_.cleared_m)
-            : straight_field(lattice, layout, first - all.step / 2, true, last - task_.cleared_m)));
-  }
+        straight_field(lattice, layout, place_of(marked, all, layout, any), !any, last - task_.cleared_m)));
   const double farthest = farthest_of(*fields_.back(), task_.stands, all, box);
   if (is_around)
     lay_around(farthest);
