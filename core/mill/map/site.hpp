@@ -35,6 +35,11 @@ class Site {
   /// The tip may not be lower, for what the body would touch of it.
   const HeightMap& body_limit() const { return body_limit_; }
 
+  /// The tip may not be lower, for all of that; by cell.
+  double lowest_tip(std::size_t cell) const {
+    return static_cast<double>(std::max(limit_.heights[cell], body_limit_.heights[cell]));
+  }
+
   /// The tip may not be lower, for what the cutter would touch of fixtures, and the body of anything.
   double floor(int a, int b) const { return static_cast<double>(std::max(beside_.at(a, b), body_limit_.at(a, b))); }
   /// The highest place of what stands.

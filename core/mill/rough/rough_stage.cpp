@@ -135,7 +135,7 @@ class RoughStage {
     const double depth = tool().max_depth_m, cell = std::pow(site.lattice().step, 2);
     std::vector<double> volumes(static_cast<std::size_t>(depth / flat_m) + 2);
     for (std::size_t at = 0; at < site.lattice().size(); ++at) {
-      const double limit = lowest_tip(site, at) - height,
+      const double limit = site.lowest_tip(at) - height,
                    stands = std::min(static_cast<double>(surface.map().heights[at]) - height, depth) - limit;
       if (limit > 0 && stands > cusp_m(tool())) volumes[static_cast<std::size_t>(limit / flat_m)] += stands * cell;
     }
@@ -147,13 +147,9 @@ class RoughStage {
     return height + static_cast<double>(most + 1) * flat_m;
   }
 
-  static double lowest_tip(const Site& site, std::size_t cell) {
-    return static_cast<double>(std::max(site.limit().heights[cell], site.body_limit().heights[cell]));
-  }
-
   /// Of these cells those where the tip may not come down to a height.
   static std::vector<char> cells_above(const Site& site, std::vector<char> cells, double height) {
-    for (std::size_t at = 0; at < cells.size(); ++at) cells[at] &= lowest_tip(site, at) > height;
+    for (std::size_t at = 0; at < cells.size(); ++at) cells[at] &= site.lowest_tip(at) > height;
     return cells;
   }
 

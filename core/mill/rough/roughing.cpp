@@ -22,8 +22,7 @@ std::vector<char> free_cells(const Site& site, double height, const IsReachable&
   for (int b = 0; b < lattice.height; ++b)
     for (int a = 0; a < lattice.width; ++a) {
       const std::size_t at = lattice.index(a, b);
-      const auto limit = static_cast<double>(std::max(site.limit().heights[at], site.body_limit().heights[at]));
-      free[at] = limit <= height && reachable({lattice.u(a), lattice.v(b), height});
+      free[at] = site.lowest_tip(at) <= height && reachable({lattice.u(a), lattice.v(b), height});
     }
   return free;
 }

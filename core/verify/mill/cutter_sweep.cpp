@@ -9,8 +9,6 @@ namespace {
 
 __extension__ typedef __int128 Int128;
 
-constexpr double per_metre = 1e7;
-
 std::int64_t product(const Quanta3& a, const Quanta3& b) {
   std::int64_t sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) sum += a[axis] * b[axis];
@@ -41,14 +39,14 @@ CutterSweep::CutterSweep(const Cutter& cutter, const std::array<int, 3>& directi
     : direction_{direction[0], direction[1], direction[2]}, base_{}, length2_(product(direction_, direction_)) {
   const double length = std::sqrt(static_cast<double>(length2_)), corner = cutter.corner_radius_m;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    base_[axis] = std::llround(corner * per_metre * static_cast<double>(direction_[axis]) / length);
+    base_[axis] = std::llround(corner * quanta_per_metre * static_cast<double>(direction_[axis]) / length);
   const auto shrunk = [&](double radius) {
-    return static_cast<std::int64_t>(std::floor((radius - less_m) * per_metre)) - 1;
+    return static_cast<std::int64_t>(std::floor((radius - less_m) * quanta_per_metre)) - 1;
   };
-  const auto scaled = [&](double height) { return std::llround(height * per_metre * length); };
+  const auto scaled = [&](double height) { return std::llround(height * quanta_per_metre * length); };
   const double top = cutter.flute_m - corner - less_m;
   top_ = scaled(top);
-  height_ = std::llround(std::max(0.0, top) * per_metre);
+  height_ = std::llround(std::max(0.0, top) * quanta_per_metre);
   const auto add_rod = [&](double radius, double bottom) {
     if (shrunk(radius) > 0 && bottom < top) rods_.push_back({shrunk(radius), scaled(bottom)});
   };

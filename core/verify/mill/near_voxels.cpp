@@ -4,11 +4,6 @@
 #include <limits>
 
 namespace sculpt {
-namespace {
-
-constexpr double quanta_per_metre = 1e7;
-
-}  // namespace
 
 NearVoxels::NearVoxels(const Grid& grid, const Quanta3& corner, const Quanta3& way, const Vec3& up, double reach)
     : n_(grid.n), size_(std::llround(grid.n * grid.voxel_m * quanta_per_metre)), corner_(corner), reach_(reach) {

@@ -20,6 +20,7 @@
 namespace sculpt {
 
 using Quanta3 = std::array<std::int64_t, 3>;
+inline constexpr double quanta_per_metre = 1e7;
 
 /// A grid's voxels whose centres may be no farther than `reach` from a parallelogram. Immutable.
 class NearVoxels {

@@ -13,8 +13,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double quanta_per_metre = 1e7;
-
 /// Of a point from a segment.
 double from_segment(const Vec3& point, const Vec3& from, const Vec3& way) {
   const double length2 = way.squaredNorm();
