@@ -1,6 +1,5 @@
 // The page: joins connection, queue, 3D view and panels, and keeps the address up to date.
 
-import {connection, worker} from './ahead.js';
 import {by_selector, by_id, make} from './dom.js';
 import {ask_token, show_help} from './panels/dialogs.js';
 import {read_residue, show_job_head} from './panels/job_head.js';
@@ -19,6 +18,7 @@ import {read_link, write_link} from './link.js';
 import {Stage, sentence_of} from './stage.js';
 import {TakeAlong} from './take_along.js';
 import {View} from './view/view.js';
+import {Connection} from './wire/connection.js';
 
 const RANK = {read: 0, submit: 1, admin: 2};
 const FIRST_PICTURE_MS = 1500;  // until then nothing is drawn that the job of a link is not in
@@ -26,7 +26,8 @@ const FIRST_PICTURE_MS = 1500;  // until then nothing is drawn that the job of a
 class App {
   constructor() {
     this.wish = read_link();
-    this.connection = connection;
+    this.connection = new Connection();  // it is made, and the worker started, while the rest is
+    this.worker = new Worker('/ui/stock/worker.js', {type: 'module'});
     this.queue = new Queue(this.connection);
     this.time = new TimeBar();
     this.plots = new Plots();
@@ -44,19 +45,18 @@ class App {
     this.#offer_layers();
     this.apply_layers();
     this.take_along = new TakeAlong(this);
-    connection.tell_again();
   }
 
   #make_view() {
     try {
       this.view = new View(by_id('canvas'));
     } catch (error) {
-      worker.terminate();
+      this.worker.terminate();
       by_id('stage-note').textContent = `This browser gives no WebGL 2, so there is no picture; everything else works. (${error.message})`;
       return;
     }
     if (this.wish.job) this.view.pictures.hold(FIRST_PICTURE_MS);
-    this.stage = new Stage(this.view, worker, this.time, this.connection);
+    this.stage = new Stage(this.view, this.worker, this.time, this.connection);
     this.view.addEventListener('lost', () => this.say('The browser lost its graphics; it usually comes back by itself. If not, load the page again.'));
     this.view.addEventListener('restored', () => this.say(''));
     this.view.addEventListener('moved', () => this.#write_address());
@@ -78,7 +78,7 @@ class App {
   }
 
   #listen() {
-    const {queue} = this;
+    const {connection, queue} = this;
     connection.addEventListener('open', (event) => this.#on_open(event.detail));
     connection.addEventListener('lost', (event) => {
       by_id('server').className = '';

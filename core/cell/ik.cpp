@@ -32,7 +32,7 @@ class Solver {
   }
 
   std::optional<Configuration> run(Configuration q) {
-    if (settings_.respect_limits) q = q.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
+    hold_in_limits(q);
     linearize(q, linear_);
     Configuration trial = q;
     double damping = start_damping, best = linear_.error.norm();
@@ -41,7 +41,7 @@ class Solver {
       const double before = linear_.error.norm();
       if (!find_step(q, damping)) return std::nullopt;
       trial = q + step_;
-      if (settings_.respect_limits) trial = trial.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
+      hold_in_limits(trial);
       linearize(trial, tried_);
       if (tried_.error.norm() <= before) {
         damping = std::max(damping / 4, min_damping);
@@ -64,6 +64,10 @@ class Solver {
   static constexpr double start_damping = 1e-3;
   static constexpr double min_damping = 1e-6;
   static constexpr int patience = 12;
+
+  void hold_in_limits(Configuration& q) const {
+    if (settings_.respect_limits) q = q.cwiseMax(chain_.lower()).cwiseMin(chain_.upper());
+  }
 
   bool reached() const {
     return linear_.position_m <= settings_.position_tolerance_m && linear_.axis_rad <= settings_.axis_tolerance_rad;

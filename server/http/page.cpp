@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
 
 #include "core/base/extension.hpp"
 #include "core/base/sha256.hpp"
 #include "server/files/gzip.hpp"
+#include "server/http/joined_modules.hpp"
 
 namespace sculpt::server {
 namespace {
@@ -14,6 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view files_path = "/ui/";
+
+// The modules that a browser begins with; each comes with all that it imports.
+constexpr const char* scripts_of_modules[] = {"app.js", "stock/worker.js"};
+
+bool is_script_of_modules(const std::string& name) {
+  return std::ranges::find(scripts_of_modules, name) != std::end(scripts_of_modules);
+}
 
 // Nothing but the page's own files may run, and it may speak to its own server only. Memory that its workers share
 // needs the two cross-origin headers.
@@ -59,12 +69,35 @@ HttpReply with_headers(const std::string& name, std::string body) {
   return reply;
 }
 
-HttpReply embedded_reply(const std::string& name, const HttpRequest& request) {
+std::string_view embedded_file(const std::string& name) {
   const auto files = page_files();
   const auto found = std::ranges::find(files, name, &PageFile::name);
   if (found == files.end()) refuse(name);
+  return found->gzip;
+}
+
+std::string pack(const std::string& text) {
+  std::istringstream in(text);
+  std::ostringstream out;
+  write_gzip(in, out);
+  return out.str();
+}
+
+std::string_view embedded_script(const std::string& name) {
+  static const auto packed = [] {
+    std::map<std::string, std::string> scripts;
+    const auto read = [](const std::string& module) { return read_gzip(embedded_file(module)); };
+    for (const char* script : scripts_of_modules)
+      scripts[script] = pack(join_modules(script, std::string(files_path), read));
+    return scripts;
+  }();
+  return packed.at(name);
+}
+
+HttpReply embedded_reply(const std::string& name, const HttpRequest& request) {
+  const std::string_view gzip = is_script_of_modules(name) ? embedded_script(name) : embedded_file(name);
   const bool packed = request.accept_encoding.find("gzip") != std::string::npos;
-  const std::string tag = "\"" + sha256_hex(found->gzip) + (packed ? "-gzip\"" : "\"");
+  const std::string tag = "\"" + sha256_hex(gzip) + (packed ? "-gzip\"" : "\"");
   HttpReply reply = with_headers(name, {});
   reply.headers.emplace_back("ETag", tag);
   if (is_known(request, tag)) {
@@ -72,14 +105,20 @@ HttpReply embedded_reply(const std::string& name, const HttpRequest& request) {
     return reply;
   }
   if (packed) reply.headers.emplace_back("Content-Encoding", "gzip");
-  reply.body = packed ? std::string(found->gzip) : read_gzip(found->gzip);
+  reply.body = packed ? std::string(gzip) : read_gzip(gzip);
   return reply;
 }
 
-HttpReply folder_reply(const fs::path& folder, const std::string& name) {
+std::string file_of_folder(const fs::path& folder, const std::string& name) {
   std::ifstream in(folder / name, std::ios::binary);
   if (!is_name(name) || !in || !fs::is_regular_file(folder / name)) refuse(name);
-  return with_headers(name, {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+HttpReply folder_reply(const fs::path& folder, const std::string& name) {
+  const auto read = [&](const std::string& file) { return file_of_folder(folder, file); };
+  return with_headers(name,
+                      is_script_of_modules(name) ? join_modules(name, std::string(files_path), read) : read(name));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace sculpt::server {
 namespace {
 
-Ending failed(const std::string& code, const std::string& sentence, Cause cause = Cause::job) {
+Ending failed_with(const std::string& code, const std::string& sentence, Cause cause = Cause::job) {
   return {JobState::failed, code, sentence, {}, cause};
 }
 
@@ -23,22 +23,22 @@ std::optional<Ending> caught_ending() {
     return std::nullopt;
   } catch (const InputError& error) {
     // There may be space again.
-    return failed(error.code(), error.what(), error.code() == "file_unwritable" ? Cause::fault : Cause::job);
+    return failed_with(error.code(), error.what(), error.code() == "file_unwritable" ? Cause::fault : Cause::job);
   } catch (const SyncError& error) {
     end_after_failed_sync(error.what());
   } catch (const std::bad_alloc&) {
-    return failed("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
+    return failed_with("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
                   Cause::fault);
   } catch (const StorageError& error) {
-    return failed("storage_error", error.what(), Cause::fault);
+    return failed_with("storage_error", error.what(), Cause::fault);
   } catch (const CrashError& error) {
-    return failed("planner_crashed", error.what(), Cause::crash);
+    return failed_with("planner_crashed", error.what(), Cause::crash);
   } catch (const std::system_error& error) {
-    return failed("internal_error", std::string("the system refused: ") + error.what(), Cause::fault);
+    return failed_with("internal_error", std::string("the system refused: ") + error.what(), Cause::fault);
   } catch (const std::exception& error) {
-    return failed("internal_error", std::string("the planner failed: ") + error.what());
+    return failed_with("internal_error", std::string("the planner failed: ") + error.what());
   } catch (...) {
-    return failed("internal_error", "the planner failed with something that is no exception");
+    return failed_with("internal_error", "the planner failed with something that is no exception");
   }
 }
 

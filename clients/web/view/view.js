@@ -7,11 +7,20 @@ import {
 import {LOOKS, stock_material} from '../stock/material.js';
 import {Shell} from '../stock/shell.js';
 import {Backdrop} from './backdrop.js';
-import {Draft} from './draft.js';
 import {Pictures} from './pictures.js';
+import {Smooth} from './smooth.js';
 import {vantage} from './vantage.js';
 
 const EDGES = '#8b97a3';
+
+// A canvas whose edges are not smoothed (view/smooth.js does that). three smooths a headset's pictures where the canvas has it, so that it is told so.
+function graphics_of(canvas) {
+  const context = canvas.getContext('webgl2', {antialias: false, stencil: false});
+  if (!context) throw new Error('the canvas has no such context');
+  const attributes = context.getContextAttributes.bind(context);
+  context.getContextAttributes = () => ({...attributes(), antialias: true});
+  return context;
+}
 
 /** Events: `lost` and `restored` of the graphics context, `picked` with a ray in cells, `moved` when the camera was, `drawn` when a picture is there. */
 export class View extends EventTarget {
@@ -21,7 +30,7 @@ export class View extends EventTarget {
     this.canvas = canvas;
     const ratio = Math.min(2, devicePixelRatio), {clientWidth: width, clientHeight: height} = canvas.parentElement;
     Object.assign(canvas, {width, height});  // the first one is the right one: another is made anew, and waited for
-    this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: false});
+    this.renderer = new WebGLRenderer({canvas, antialias: false, preserveDrawingBuffer: false});
     if (ratio !== 1) this.renderer.setPixelRatio(ratio);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(38, 1, 0.01, 50);
@@ -45,7 +54,7 @@ export class View extends EventTarget {
     /** @type {import('../vendor/libraries.js').Mesh | null} in the place of the stock */
     this.machined = null;
     this.edge = 0;
-    this.draft = new Draft();
+    this.smooth = new Smooth();
     this.pictures = new Pictures(this);
     this.#listen();
     this.backdrop = new Backdrop(this.scene, () => this.draw());
@@ -154,8 +163,8 @@ export class View extends EventTarget {
     if (this.renderer.getContext().isContextLost()) return;
     this.#aim();
     this.shell.send();
-    if (is_draft) this.draft.draw(this.renderer, this.scene, this.camera);
-    else this.renderer.render(this.scene, this.camera);
+    if (is_draft) this.renderer.render(this.scene, this.camera);
+    else this.smooth.draw(this.renderer, this.scene, this.camera);
   }
 
   // What is drawn depends on where the eye is, in cells: the cut, and which sides are seen. A headset has two eyes.

@@ -1,6 +1,6 @@
 // The protocol of sculptd over one WebSocket (proto/PROTOCOL.md): calls, their answers and chunks, events.
 
-import {token} from './token.js';
+import {take_token_of_address, token} from './token.js';
 
 /** Methods whose results are followed by a chunk. */
 const CHUNKED = ['artifact.read', 'job.cell', 'job.samples'];
@@ -19,7 +19,7 @@ export class ServerError extends Error {
 export class Lost extends Error {}
 
 /**
- * Keeps a connection for as long as the page lives: a lost one is made again.
+ * Keeps a connection for as long as the page lives, with the token of its address: a lost one is made again.
  * Events: `open` with what `hello` gave, `lost` with the wait in ms before the next try, `refused` with a ServerError, `event` with an event's params.
  */
 export class Connection extends EventTarget {
@@ -30,13 +30,13 @@ export class Connection extends EventTarget {
     this.waiting = new Map();
     this.next_id = 1;
     this.tries = 0;
-    /** @type {CustomEvent | null} the last one of `open`, `lost` and `refused` */
-    this.news = null;
     /** @type {{settle: (chunk: Uint8Array) => void} | null} the answer whose chunk is still to come */
     this.unfinished = null;
+    take_token_of_address();
+    this.#open();
   }
 
-  open() {
+  #open() {
     const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/v1/ws`);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.#greet();
@@ -98,18 +98,11 @@ export class Connection extends EventTarget {
     this.waiting.clear();
     const wait_ms = PATIENCE_MS[Math.min(this.tries++, PATIENCE_MS.length - 1)];
     this.#tell('lost', wait_ms);
-    setTimeout(() => this.socket === null && this.open(), wait_ms);
+    setTimeout(() => this.socket === null && this.#open(), wait_ms);
   }
 
   /** @param {string} name @param {any} detail */
   #tell(name, detail) {
-    const event = new CustomEvent(name, {detail});
-    if (name !== 'event') this.news = event;
-    this.dispatchEvent(event);
-  }
-
-  /** For whoever listens only now: how it stands. */
-  tell_again() {
-    if (this.news) this.dispatchEvent(this.news);
+    this.dispatchEvent(new CustomEvent(name, {detail}));
   }
 }

@@ -1,7 +1,8 @@
-// A picture without smoothed edges, for graphics that take long for one: where there is no graphics card smoothing takes most of the time.
+// A picture with smoothed edges. The canvas itself has none: where there is no graphics card smoothing takes most of a picture's time, of drafts too.
 
 import {GLSL3, HalfFloatType, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget} from '../vendor/libraries.js';
 
+const SAMPLES = 4;
 const COPY_VERTEX = /* glsl */ `
 out vec2 at;
 void main() {
@@ -14,9 +15,9 @@ out vec4 colour;
 uniform sampler2D drawn;
 void main() { colour = linearToOutputTexel(texture(drawn, at)); }`;
 
-export class Draft {
+export class Smooth {
   constructor() {
-    this.target = new WebGLRenderTarget(1, 1, {type: HalfFloatType, samples: 0});
+    this.target = new WebGLRenderTarget(1, 1, {type: HalfFloatType, samples: SAMPLES});
     const material = new ShaderMaterial({
       glslVersion: GLSL3, vertexShader: COPY_VERTEX, fragmentShader: COPY_FRAGMENT, uniforms: {drawn: {value: this.target.texture}}, depthTest: false, depthWrite: false,
     });
