@@ -30,6 +30,9 @@ std::string Cure::sentence() const {
   const std::string cutter = "D" + millimetres(diameter_m);
   switch (obstacle) {
     case Obstacle::way:
+      if (resolution > 0)
+        return cutter + " has room there, but the voxels are too large for its ways: take a resolution of " +
+               std::to_string(resolution) + " or more";
       return cutter + " has room there, but no pass was worth it or no way was found";
     case Obstacle::length:
     case Obstacle::radius:

@@ -22,6 +22,7 @@ struct Cure {
   double diameter_m = 0;  ///< of the cutter; 0 where none comes there
   double free_m = 0;      ///< from its tip to what is thicker than the cutter, in whole millimetres; 0 if no matter
   double share = 0;       ///< of what was left
+  int resolution = 0;     ///< the least one whose voxels are small enough for the cutter's ways; 0: the job's are
 
   /// "D4 with 62 mm free would reach it".
   std::string sentence() const;
