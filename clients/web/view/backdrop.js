@@ -1,6 +1,6 @@
 // What is behind the cell: paper and floor, dark or light as the page is.
 
-import {Color, GridHelper} from '../vendor/libraries.js';
+import {Color, GridHelper, LineBasicMaterial} from '../vendor/libraries.js';
 
 const PAPER = {light: '#eef0f2', dark: '#14181d'}, LINES = {light: '#c5cbd1', dark: '#2a313a'};
 
@@ -19,7 +19,8 @@ export class Backdrop {
     this.scene.background = new Color(PAPER[theme]);
     const shown = this.floor?.visible ?? true;
     this.floor?.removeFromParent();
-    this.floor = new GridHelper(4, 40, LINES[theme], LINES[theme]);
+    this.floor = new GridHelper(4, 40);
+    this.floor.material = new LineBasicMaterial({color: LINES[theme]});  // its own would need another program than the block's edges
     this.floor.rotation.x = Math.PI / 2;
     this.floor.position.z = -0.051;
     this.floor.visible = shown;
