@@ -114,7 +114,12 @@ class Http(WithAJob):
             response, body = self.get(f"/ui/{name}", Accept_Encoding="br, gzip")
             self.assertEqual(response.getheader("Content-Type"), "text/javascript; charset=utf-8")
             self.assertEqual(response.getheader("Cross-Origin-Embedder-Policy"), "require-corp")
-            self.assertEqual(gzip.decompress(body), path.read_bytes(), name)
+            text, file = gzip.decompress(body).decode(), path.read_text()
+            if str(name) in ("app.js", "stock/worker.js"):  # with all that they import
+                self.assertIn(file[-2000:].replace("export ", ""), text, name)
+                self.assertGreater(len(text), 2 * len(file), name)
+            else:
+                self.assertEqual(text, file, name)
             again, body = self.get(f"/ui/{name}", Accept_Encoding="br, gzip", If_None_Match=response.getheader("ETag"))
             self.assertEqual((again.status, body), (304, b""))
         self.refused(404, "not_found", "/ui/nothing.js")
