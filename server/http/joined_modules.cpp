@@ -30,15 +30,31 @@ struct Module {
                            "' is of no form that is understood");
 }
 
+/// The name of the module that another one calls this.
+std::string resolve(const std::string& name, const std::string& path) {
+  return (std::filesystem::path(name).parent_path() / path).lexically_normal().generic_string();
+}
+
 Import read_import(const std::string& name, const std::string& statement) {
   static const std::regex form(R"(import\s*\{([^{}]*)\}\s*from\s*'(\.[^']*)';)");
   std::smatch parts;
   if (!std::regex_match(statement, parts, form)) refuse(name, statement);
-  const auto folder = std::filesystem::path(name).parent_path();
-  return {parts[1], (folder / parts[2].str()).lexically_normal().generic_string()};
+  return {parts[1], resolve(name, parts[2])};
 }
 
-Module take_apart(const std::string& name, const std::string& text) {
+/// Modules that are imported when they are needed are found from anywhere.
+std::string with_late_imports(const std::string& name, const std::string& root, std::string line) {
+  static const std::regex form(R"(import\('(\.[^']*)'\))");
+  std::smatch parts;
+  std::string before;
+  while (std::regex_search(line, parts, form)) {
+    before += parts.prefix().str() + "import('" + root + resolve(name, parts[1]) + "')";
+    line = parts.suffix();
+  }
+  return before + line;
+}
+
+Module take_apart(const std::string& name, const std::string& root, const std::string& text) {
   static const std::regex form(R"(export ((?:async )?function|class|const) (\w+)\b.*)");
   Module module;
   std::istringstream lines(text);
@@ -54,7 +70,7 @@ Module take_apart(const std::string& name, const std::string& text) {
       module.exports.push_back(parts[2]);
       line.erase(0, std::string_view("export ").size());
     }
-    module.body += line + '\n';
+    module.body += with_late_imports(name, root, line) + '\n';
   }
   return module;
 }
@@ -86,7 +102,7 @@ class Joiner {
     const auto [known, is_new] = is_done_.try_emplace(name, false);
     if (!is_new && !known->second) throw std::runtime_error("the module '" + name + "' imports itself in the end");
     if (!is_new) return;
-    const Module module = take_apart(name, read_(name));
+    const Module module = take_apart(name, root_, read_(name));
     std::string inside;
     for (const Import& import : module.imports) {
       inside += "const " + as_pattern(import.names) + " = " + object_of(import.module) + ";\n";

@@ -65,6 +65,14 @@ TEST(JoinedModules, WhatIsVendoredStaysAModule) {
   EXPECT_NE(joined.find("const {y: x} = outside_0;"), std::string::npos) << joined;
 }
 
+TEST(JoinedModules, WhatIsImportedLaterIsFoundFromAnywhere) {
+  const Files files{{"app.js", "import {b} from './parts/b.js';\nexport const app = () => import('./late.js');\n"},
+                    {"parts/b.js", "export const b = () => [import('../late.js'), import('./later.js')];\n"}};
+  const std::string joined = join(files);
+  EXPECT_NE(joined.find("[import('/ui/late.js'), import('/ui/parts/later.js')]"), std::string::npos) << joined;
+  EXPECT_NE(joined.find("app = () => import('/ui/late.js')"), std::string::npos) << joined;
+}
+
 TEST(JoinedModules, OtherFormsAreRefusedByNameAndLine) {
   for (const char* line : {"import x from './b.js';", "import * as x from './b.js';", "import './b.js';",
                            "import {x} from 'three';", "import {x} from \"./b.js\";", "export default 1;",
