@@ -27,8 +27,9 @@ std::optional<Ending> caught_ending() {
   } catch (const SyncError& error) {
     end_after_failed_sync(error.what());
   } catch (const std::bad_alloc&) {
-    return failed_with("out_of_memory", "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
-                  Cause::fault);
+    return failed_with("out_of_memory",
+                       "the planner ran out of memory: use a smaller resolution or mesh, or fewer workers",
+                       Cause::fault);
   } catch (const StorageError& error) {
     return failed_with("storage_error", error.what(), Cause::fault);
   } catch (const CrashError& error) {
