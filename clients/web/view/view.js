@@ -30,7 +30,7 @@ export class View extends EventTarget {
     this.canvas = canvas;
     const ratio = Math.min(2, devicePixelRatio), {clientWidth: width, clientHeight: height} = canvas.parentElement;
     Object.assign(canvas, {width, height});  // the first one is the right one: another is made anew, and waited for
-    this.renderer = new WebGLRenderer({canvas, antialias: false, preserveDrawingBuffer: false});
+    this.renderer = new WebGLRenderer({canvas, context: graphics_of(canvas)});
     if (ratio !== 1) this.renderer.setPixelRatio(ratio);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(38, 1, 0.01, 50);
