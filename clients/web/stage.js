@@ -25,7 +25,10 @@ export class Stage extends EventTarget {
     this.connection = connection;
     this.worker = worker;
     this.worker.onmessage = (message) => this.#on_worker(message.data);
-    this.worker.onerror = (event) => this.#note(`The picture of the stock cannot be made: ${event.message}`);
+    this.worker.onerror = (event) => {
+      view.pictures.go_on();
+      this.#note(`The picture of the stock cannot be made: ${event.message}`);
+    };
     this.busy = false;
     this.wanted = false;
     this.generation = 0;
@@ -137,6 +140,7 @@ export class Stage extends EventTarget {
     if (!this.head) return;
     this.joints = new Joints(this.job.job, this.head.header);
     this.whole = true;
+    this.view.pictures.hold();  // until the stock is in it
     this.time.go((this.wish.at ?? 1) * this.time.keyframes);
   }
 

@@ -112,7 +112,7 @@ class Page:
 
     def app(self, expression):
         """With `app`, the page's own object, in reach; the content policy lets a module of the page be imported."""
-        return self.run(f"import('/ui/app.js').then(({{app}}) => ({expression}))")
+        return self.run(f"import('/ui/app.js').then(async ({{app}}) => ({expression}))")
 
     def until(self, expression, what=None):
         """Waits for it to be true of `app`."""

@@ -143,7 +143,7 @@ class Finished(PageTest):
         page.until("document.querySelector('#banner').hidden")
         page.app("app.time.go(0)")
         page.settled()
-        self.assertGreater(page.app("app.view.class_picture(2, true, 1).pixels.filter(value => value === 255).length"), 1000)
+        self.assertGreater(page.app("(await import('/ui/view/class_picture.js')).class_picture(app.view, 2, true, 1).pixels.filter(value => value === 255).length"), 1000)
 
 
 class Residue(PageTest):

@@ -43,7 +43,7 @@ class Picture(PageTest):
         picture = page.app(f"""(({{size, pixels}}) => {{
             let text = '';
             for (let at = 0; at < pixels.length; at += 8192) text += String.fromCharCode(...pixels.subarray(at, at + 8192));
-            return [size, btoa(text)]; }})(app.view.class_picture({side[0]}, {json.dumps(side[1])}, {SCALE}))""")
+            return [size, btoa(text)]; }})((await import('/ui/view/class_picture.js')).class_picture(app.view, {side[0]}, {json.dumps(side[1])}, {SCALE}))""")
         size, pixels = picture[0], base64.b64decode(picture[1])
         self.assertEqual((size, len(pixels)), (n * SCALE, 4 * (n * SCALE) ** 2))
         wrong = []

@@ -3,6 +3,7 @@
 import {by_id, count, percent} from '../dom.js';
 
 const MOVE = '#b9a06a', CUT = ['#5b88b5', '#3f6f9f', '#6f9a86', '#4b8069', '#8a79ad', '#6c5a94', '#4f7f9c'];
+const GROWN_MS = 100;
 
 /** Events: `moved` with the place in keyframes, `stopped` when playing ended, by itself or not. */
 export class TimeBar extends EventTarget {
@@ -12,6 +13,8 @@ export class TimeBar extends EventTarget {
     this.live = false;
     this.growing = false;
     this.playing = false;
+    /** @type {ReturnType<typeof setTimeout> | null} until what was added is seen */
+    this.showing = null;
     /** asks for the next picture's time: a headset has a clock of its own */
     this.next_frame = (/** @type {FrameRequestCallback} */ draw) => requestAnimationFrame(draw);
     this.clear();
@@ -83,6 +86,12 @@ export class TimeBar extends EventTarget {
     this.kinds.set(grown.kinds, this.keyframes);
     this.keyframes = grown.keyframes;
     if (this.live) this.#go(this.keyframes);
+    this.showing ??= setTimeout(() => this.#show_grown(), GROWN_MS);
+  }
+
+  // Of many pieces at once: each would be a picture of the page.
+  #show_grown() {
+    this.showing = null;
     this.#show();
     this.#draw_strip();
   }

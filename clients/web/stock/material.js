@@ -4,12 +4,20 @@ import {Color, GLSL3, ShaderMaterial, Vector3, Vector4} from '../vendor/librarie
 
 export const LOOKS = {plain: 0, time: 1, side: 2, classes: 3};
 
-const VERTEX = /* glsl */ `
+// Faces are seen from both sides only where a section is, and without light (`BARE`) only where pictures are held against rays.
+const NEEDS_PLACE = `
+#if defined(BARE) || defined(DOUBLE_SIDED)
+#define NEEDS_PLACE
+#endif`;
+
+const VERTEX = /* glsl */ `${NEEDS_PLACE}
 precision highp int;
 in uvec2 face;
 uniform float soft;
-out vec3 v_normal;
+flat out vec3 v_normal;
+#ifdef NEEDS_PLACE
 out vec3 v_place;
+#endif
 flat out uint v_class;
 flat out uint v_bucket;
 flat out uint v_side;
@@ -35,20 +43,24 @@ void main() {
   vec3 flat_normal = vec3(0.0);
   flat_normal[axis] = up ? 1.0 : -1.0;
   v_normal = normalMatrix * normalize(mix(flat_normal, normalize(smooth_normal), soft));
-  v_place = cell + offset;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(v_place, 1.0);
+  vec3 place = cell + offset;
+#ifdef NEEDS_PLACE
+  v_place = place;
+#endif
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }`;
 
-const FRAGMENT = /* glsl */ `
+const FRAGMENT = /* glsl */ `${NEEDS_PLACE}
 precision highp float;
 precision highp int;
-in vec3 v_normal;
+flat in vec3 v_normal;
+#ifdef NEEDS_PLACE
 in vec3 v_place;
+#endif
 flat in uint v_class;
 flat in uint v_bucket;
 flat in uint v_side;
 uniform int look;
-uniform bool bare;
 uniform float share;
 uniform vec4 clip;
 uniform vec3 eye;
@@ -62,37 +74,38 @@ vec3 along(float t) {
   return mix(ramp[low], ramp[low + 1], at - float(low));
 }
 void main() {
+#ifdef DOUBLE_SIDED
   if (dot(clip.xyz, v_place) > clip.w) discard;
-  if (bare) {
-    vec3 cell = floor(v_place - 0.5 * (vec3(v_side == 1u, v_side == 3u, v_side == 5u) - vec3(v_side == 0u, v_side == 2u, v_side == 4u)));
-    int axis = int(v_side >> 1);
-    colour = vec4(float(v_class + 1u), axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z, float(v_side), 255.0) / 255.0;
-    return;
-  }
+#endif
+#ifdef BARE
+  vec3 cell = floor(v_place - 0.5 * (vec3(v_side == 1u, v_side == 3u, v_side == 5u) - vec3(v_side == 0u, v_side == 2u, v_side == 4u)));
+  int axis = int(v_side >> 1);
+  colour = vec4(float(v_class + 1u), axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z, float(v_side), 255.0) / 255.0;
+#else
   vec3 base = v_class == 3u ? chosen : v_class == 2u ? residue : v_class == 1u && look == 3 ? keep : look == 3 ? excess : keep;
   if (v_class < 2u) {
     if (look == 0) base = v_bucket == 4095u ? excess : keep;
     if (look == 1) base = v_bucket == 4095u ? excess : along(float(v_bucket) / 4094.0 / max(share, 0.001));
     if (look == 2) base = v_bucket == 4095u ? excess : sides[v_side];
   }
+  vec3 n = normalize(v_normal);
+  float key = max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.6))));
+  float fill = max(0.0, dot(n, normalize(vec3(0.8, 0.1, 0.5))));
+  float sky = 0.5 + 0.5 * n.y;
+  float rim = pow(1.0 - max(0.0, n.z), 3.0);
+  colour = vec4(base * (0.26 + 0.22 * sky + 0.62 * key + 0.14 * fill) + 0.05 * rim, 1.0);
 #ifdef DOUBLE_SIDED
   gl_FragDepth = gl_FrontFacing ? gl_FragCoord.z : gl_FragCoord.z - 3e-6;  // before the table that they lie on
-#endif
   if (!gl_FrontFacing) {
     // A face seen from behind is seen through the cut: what is drawn is the cut, hatched, where the line of sight goes through its plane.
     vec3 way = v_place - eye;
     vec3 on_plane = eye + way * (clip.w - dot(clip.xyz, eye)) / dot(clip.xyz, way);
     float shade = 0.86 + 0.14 * step(0.5, fract((on_plane.x + on_plane.y + on_plane.z) / 4.0));
     colour = vec4(inside * shade, 1.0);
-  } else {
-    vec3 n = normalize(v_normal);
-    float key = max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.6))));
-    float fill = max(0.0, dot(n, normalize(vec3(0.8, 0.1, 0.5))));
-    float sky = 0.5 + 0.5 * n.y;
-    float rim = pow(1.0 - max(0.0, n.z), 3.0);
-    colour = vec4(base * (0.26 + 0.22 * sky + 0.62 * key + 0.14 * fill) + 0.05 * rim, 1.0);
   }
+#endif
   colour = linearToOutputTexel(colour);
+#endif
 }`;
 
 /** Safe for the colour blind: after cividis. */
@@ -108,7 +121,6 @@ export function stock_material() {
     uniforms: {
       soft: {value: 1},
       look: {value: LOOKS.plain},
-      bare: {value: false},
       share: {value: 1},
       clip: {value: new Vector4(0, 0, 0, 1)},
       eye: {value: new Vector3()},

@@ -1,6 +1,6 @@
 // A picture with smoothed edges. The canvas itself has none: where there is no graphics card smoothing takes most of a picture's time, of drafts too.
 
-import {GLSL3, HalfFloatType, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget} from '../vendor/libraries.js';
+import {GLSL3, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget} from '../vendor/libraries.js';
 
 const SAMPLES = 4;
 const COPY_VERTEX = /* glsl */ `
@@ -13,11 +13,12 @@ const COPY_FRAGMENT = /* glsl */ `
 in vec2 at;
 out vec4 colour;
 uniform sampler2D drawn;
-void main() { colour = linearToOutputTexel(texture(drawn, at)); }`;
+void main() { colour = texture(drawn, at); }`;
 
 export class Smooth {
   constructor() {
-    this.target = new WebGLRenderTarget(1, 1, {type: HalfFloatType, samples: SAMPLES});
+    // Colours as the canvas has them, so that the same programs draw both: three does so for what a headset shows.
+    this.target = Object.assign(new WebGLRenderTarget(1, 1, {colorSpace: 'srgb', internalFormat: 'RGBA8', samples: SAMPLES}), {isXRRenderTarget: true});
     const material = new ShaderMaterial({
       glslVersion: GLSL3, vertexShader: COPY_VERTEX, fragmentShader: COPY_FRAGMENT, uniforms: {drawn: {value: this.target.texture}}, depthTest: false, depthWrite: false,
     });

@@ -1,8 +1,8 @@
 // The 3D picture: camera, lights, the robot and the stock. Draws only when something changed.
 
 import {
-  BoxGeometry, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, NearestFilter,
-  OrbitControls, OrthographicCamera, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderTarget, WebGLRenderer,
+  BoxGeometry, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh,
+  OrbitControls, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer,
 } from '../vendor/libraries.js';
 import {LOOKS, stock_material} from '../stock/material.js';
 import {Shell} from '../stock/shell.js';
@@ -251,40 +251,6 @@ export class View extends EventTarget {
     const origin = this.camera.position.clone().applyMatrix4(to_cells);
     const beyond = new Vector3(point.x, point.y, 0.5).unproject(this.camera).applyMatrix4(to_cells);
     return {origin: origin.toArray(), direction: beyond.sub(origin).normalize().toArray()};
-  }
-
-  /**
-   * What is seen along an axis, as numbers: for each of (edge x scale)^2 pixels, row by row from below, four bytes: class + 1 or 0 for nothing, the
-   * place along the axis, the side, 255. Without light, perspective or smoothing, so that it can be held against rays.
-   * @param {number} axis @param {boolean} from_above from its upper end
-   * @param {number} scale pixels along a cell
-   */
-  class_picture(axis, from_above, scale) {
-    const {edge} = this, size = edge * scale;
-    const target = new WebGLRenderTarget(size, size, {minFilter: NearestFilter, magFilter: NearestFilter, samples: 0});
-    const camera = new OrthographicCamera(-edge / 2, edge / 2, edge / 2, -edge / 2, 0.5, 2 * edge);
-    const place = [edge / 2, edge / 2, edge / 2];
-    place[axis] += (from_above ? 1 : -1) * edge;
-    camera.up.set(0, axis === 2 ? 1 : 0, axis === 2 ? 0 : 1);
-    camera.position.fromArray(place);
-    camera.lookAt(edge / 2, edge / 2, edge / 2);
-    this.shell.show_to(null, edge);
-    this.shell.send();
-    const alone = new Scene(), twin = this.stock.clone();
-    twin.visible = true;
-    alone.add(twin);
-    this.material.uniforms.bare.value = true;
-    this.renderer.setRenderTarget(target);
-    this.renderer.setClearColor('#000000', 0);
-    this.renderer.clear();
-    this.renderer.render(alone, camera);
-    const pixels = new Uint8Array(size * size * 4);
-    this.renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
-    this.renderer.setRenderTarget(null);
-    this.material.uniforms.bare.value = false;
-    target.dispose();
-    this.draw();
-    return {size, pixels};
   }
 
   /** @returns {Promise<Blob>} a PNG of what is seen */
