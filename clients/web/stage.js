@@ -140,7 +140,6 @@ export class Stage extends EventTarget {
     if (!this.head) return;
     this.joints = new Joints(this.job.job, this.head.header);
     this.whole = true;
-    this.view.pictures.hold();  // until the stock is in it
     this.time.go((this.wish.at ?? 1) * this.time.keyframes);
   }
 
@@ -241,9 +240,7 @@ export class Stage extends EventTarget {
 
   #on_drawn() {
     if (this.view.pictures.begun >= this.ends_in) this.#on_pictured();
-    if (!this.wanted) return;
-    this.#ask_now();
-    if (this.busy) this.view.pictures.hold();
+    if (this.wanted) this.#ask_now();
   }
 
   #on_pictured() {
@@ -259,6 +256,7 @@ export class Stage extends EventTarget {
     }
     this.busy = true;
     this.wanted = false;
+    this.view.pictures.hold();  // robot and stock move together
     const removed = this.time.cut;
     this.worker.postMessage({kind: 'show', generation: this.generation, removed, final: this.final, chosen: this.chosen, all: this.whole});
     this.whole = false;

@@ -1,7 +1,7 @@
 // When pictures are drawn: one at a time, for if the graphics card is slow those that are begun meanwhile would show what is old by then. It gets drafts
 // while anything moves, and a fine picture when nothing has moved for a while.
 
-const FENCE_MS = 4, STILL_MS = 150, SLOW_MS = 60, FEW_FACES = 50_000;
+const FENCE_MS = 4, STILL_MS = 100, SLOW_MS = 60, FEW_FACES = 50_000;
 
 export class Pictures {
   #wanted = false;
