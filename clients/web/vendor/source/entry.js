@@ -1,7 +1,7 @@
 // What the page uses of other people's libraries: `build` makes ../libraries.js of it.
 export {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DirectionalLight, DoubleSide, EdgesGeometry, FrontSide, GLSL3, GridHelper, Group,
-  HalfFloatType, HemisphereLight, IntType, LatheGeometry, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial, NearestFilter, Object3D,
+  HemisphereLight, IntType, LatheGeometry, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial, NearestFilter, Object3D,
   OrthographicCamera, PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, Scene, ShaderMaterial, SphereGeometry, Spherical, Vector2, Vector3, Vector4,
   WebGLRenderer, WebGLRenderTarget,
 } from 'three';

@@ -11,7 +11,6 @@ export const FrontSide: any;
 export const GLSL3: any;
 export const GridHelper: any;
 export const Group: any;
-export const HalfFloatType: any;
 export const HemisphereLight: any;
 export const IntType: any;
 export const LatheGeometry: any;
