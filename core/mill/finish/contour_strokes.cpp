@@ -41,7 +41,7 @@ double ContourStrokes::take(const Vec3& from, const Vec3& to) {
 /// From above, if little stands there.
 bool ContourStrokes::let_down(const Vec3& to) {
   const Vec3 above = to + Vec3(0, 0, task_.tool.cutter.radius_m);
-  if (!load_.bears_plunge(take(above, to))) {
+  if (take(above, to) > max_plunged_m3(task_.tool, task_.voxel_m)) {
     stock_.give_back(taken_);
     return false;
   }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/cell/milling/mill_tool.hpp"
+#include "core/mill/chip_load.hpp"
 #include "core/mill/drive/mill_stroke.hpp"
-#include "core/mill/finish/chip_load.hpp"
 #include "core/mill/finish/envelope.hpp"
 #include "core/mill/map/site.hpp"
 #include "core/trajectory/milling/swept_set.hpp"
@@ -30,7 +30,7 @@ class ContourStrokes {
   };
   /// `at`: where the tip is, in the air. `stock`: what was not cut yet.
   ContourStrokes(const Task& task, SweptSet stock, const Vec3& at)
-      : task_(task), stock_(std::move(stock)), load_(task.tool, task.voxel_m), at_(at) {}
+      : task_(task), stock_(std::move(stock)), load_(counted_load(task.tool, task.voxel_m)), at_(at) {}
 
   /// Along the surface to where a contour begins, the tip being down; nothing where that is no short way. Any thread.
   Contour way_to(const Contour& contour) const;

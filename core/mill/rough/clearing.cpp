@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/mill/rough/ramp.hpp"
+#include "core/mill/rough/row_entries.hpp"
 
 namespace sculpt {
 namespace {
@@ -11,7 +12,9 @@ namespace {
 /// Of the cutter's radius: how long an edge is.
 constexpr double step_share = 0.8;
 /// Of depth times width of cut: what may be taken off.
-constexpr double cap_share = 1.08;
+constexpr double cap_share = 1.07;
+/// Of what may be taken off over a diameter: at once. Edges are weighed in so many bits a radius.
+constexpr double burst_share = 0.1, bits_a_radius = 4;
 /// Of what may be taken off over a radius, where a pass begins.
 constexpr double little_share = 0.05;
 /// Of what may be taken off: rows that take off less are left to a smaller tool.
@@ -22,19 +25,10 @@ constexpr double linked_radii = 12;
 constexpr int max_tries = 3;
 /// Of what may be taken off: by ramps.
 constexpr double ramp_share = 0.9;
-
-/// How far inside the edge of a slab, as thick as the depth of cut, the tip takes off depth times width; negative: so
-/// far outside. To `step_m`, and no more.
-double first_row_inside(const MillTool& tool, double step_m) {
-  const double radius = tool.cutter.radius_m;
-  double off = -radius, section_m2 = 0;
-  while (off + step_m < radius) {
-    section_m2 += step_m * std::max(0.0, tool.max_depth_m - tool.cutter.height_m(std::abs(off + step_m / 2)));
-    if (section_m2 > tool.max_depth_m * tool.max_width_m) break;
-    off += step_m;
-  }
-  return off;
-}
+/// How far a row may give way to take off as much as it may (steps, of which so many are a width of cut), and of what
+/// may be taken off: where less stands beside it, it goes on straight.
+constexpr int steps_a_width = 10, max_steps_in = 6, max_steps_out = 6;
+constexpr double beside_share = 0.1;
 
 }  // namespace
 
@@ -43,7 +37,7 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
       surface_(surface),
       lattice_(surface.lattice()),
       cap_m2_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
-      width_m_(task.tool.max_width_m) {
+      width_m_(cap_share * task.tool.max_width_m) {
   const Cutter& cutter = task.tool.cutter;
   double cleared = 0;
   while (cleared < cutter.radius_m - task.seam_m && cutter.height_m(cleared) <= task.cusp_m)
@@ -55,7 +49,8 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
   for (const LevelRow& row : rows_->rows()) {
     Turn turn{row};
     for (std::size_t other = 0; other < turns_.size(); ++other)
-      if (turns_[other].row.rank > row.rank && are_near(row, turns_[other].row)) turn.after.push_back(other);
+      if (turns_[other].row.rank > row.rank && are_near(row, turns_[other].row, cutter.radius_m + width_m_))
+        turn.after.push_back(other);
     turns_.push_back(std::move(turn));
   }
 }
@@ -72,21 +67,32 @@ double Clearing::volume(const Point2& from, const Point2& to) const {
   return surface_.volume(at_level(from), at_level(to));
 }
 
-/// Nowhere more than it may, bit by bit: what a long edge takes off at its end does not count by all of its length.
-bool Clearing::may_cut(const Way& way) const {
-  ChipWindow window = chip_window();
-  bool is_first = true;
+ChipLoad Clearing::no_load() const {
+  const double radius = task_.tool.cutter.radius_m;
+  return {cap_m2_, cap_m2_ * radius / bits_a_radius + burst_share * cap_m2_ * 2 * radius};
+}
+
+/// Bit by bit, for what a long edge takes off at its end does not count by all of its length. `before_m3` of it is gone
+/// already.
+bool Clearing::bears(ChipLoad& load, const Vec3& from, const Vec3& to, double before_m3) const {
+  const double length = (to - from).norm();
+  const int bits = std::max(1, static_cast<int>(std::ceil(length * bits_a_radius / task_.tool.cutter.radius_m)));
+  for (int bit = 1; bit <= bits; ++bit) {
+    const double so_far_m3 = surface_.volume(from, from + (to - from) * bit / bits);
+    if (!load.bears(std::max(0.0, so_far_m3 - before_m3), length / bits)) return false;
+    before_m3 = so_far_m3;
+  }
+  return true;
+}
+
+/// Nowhere more than it may?
+bool Clearing::may_cut(const LevelWay& way) const {
+  ChipLoad load = no_load();
   for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
     const Point2 &from = way[edge], &to = way[edge + 1];
-    if (!edge_is_free(from, to)) return false;
-    const double length = (to - from).norm();
-    const int bits = std::max(1, static_cast<int>(std::ceil(length / window.length_m())));
-    for (int bit = 0; bit < bits; ++bit) {
-      const Point2 p = from + (to - from) * bit / bits, q = from + (to - from) * (bit + 1) / bits;
-      // The bit before it has been where it begins.
-      if (!window.take(volume(p, q) - (is_first ? 0 : volume(p, p)), length / bits)) return false;
-      is_first = false;
-    }
+    // The edge before it has been where it begins.
+    if (!edge_is_free(from, to) || !bears(load, at_level(from), at_level(to), edge == 0 ? 0 : volume(from, from)))
+      return false;
   }
   return true;
 }
@@ -94,13 +100,6 @@ bool Clearing::may_cut(const Way& way) const {
 /// The cutter takes off little there, or nothing.
 bool Clearing::is_open(const Point2& p) const {
   return edge_is_free(p, p) && volume(p, p) <= little_share * cap_m2_ * task_.tool.cutter.radius_m;
-}
-
-bool Clearing::are_near(const LevelRow& one, const LevelRow& other) const {
-  const double near2 = std::pow(task_.tool.cutter.radius_m + width_m_, 2);
-  return std::ranges::any_of(one.points, [&](const Point2& p) {
-    return std::ranges::any_of(other.points, [&](const Point2& q) { return (p - q).squaredNorm() < near2; });
-  });
 }
 
 bool Clearing::is_worth_it(const LevelRow& row) const {
@@ -138,48 +137,23 @@ std::optional<std::size_t> Clearing::nearest(const Point2& at) const {
   return nearest;
 }
 
-void Clearing::turn_towards(LevelRow& row, const Point2& at) const {
-  const auto far = [&](const Point2& p) { return (p - at).squaredNorm(); };
-  if (row.is_closed) {
-    row.points.pop_back();
-    std::rotate(row.points.begin(), std::ranges::min_element(row.points, {}, far), row.points.end());
-    row.points.push_back(row.points.front());
-  } else if (far(row.points.back()) < far(row.points.front())) {
-    std::ranges::reverse(row.points);
-  }
-}
-
-/// Straight, from farther outside or from before its beginning; into a ring bit by bit.
-std::vector<Clearing::Way> Clearing::ways_into(const LevelRow& row) const {
-  const Point2 begin = row.points.front(), out = row.field->outwards(begin),
-               ahead = (row.points[1] - begin).normalized();
-  const double radius = task_.tool.cutter.radius_m;
-  std::vector<Way> ways{{begin}};
-  for (int halves = 1; halves <= 6; ++halves) ways.push_back({begin + halves * width_m_ / 2 * out, begin});
-  for (const double radii : {1.0, 2.0}) ways.push_back({begin - radii * radius * ahead, begin});
-  for (const double radii : {3.0, 6.0}) {
-    if (!row.is_closed) break;
-    Way way{begin};
-    double back = 0;
-    for (std::size_t at = row.points.size() - 1; at > 0 && back < radii * radius; --at) {
-      back += (row.points[at] - row.points[at - 1]).norm();
-      const Point2& p = row.points[at - 1];
-      way.push_back(p + std::min(1.0, back / (radii * radius)) * width_m_ * row.field->outwards(p));
-    }
-    std::ranges::reverse(way);
-    ways.push_back(std::move(way));
-  }
-  return ways;
-}
-
-/// From where the tip is, if that is near; or from where it is open.
-Clearing::Way Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
+/// From where the tip is, if that is near; or from where it is open, the shortest with the way to there.
+LevelWay Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
   const Point2& begin = row.points.front();
   if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}))
     return {*tip, begin};
-  for (Way& way : ways_into(row))
-    if (is_open(way.front()) && may_cut(way) && task_.comes_down(at_level(way.front()))) return std::move(way);
-  return {};
+  LevelWay best;
+  double least_m = 0;
+  for (LevelWay& way : ways_into(row, task_.tool.cutter.radius_m, width_m_)) {
+    if (!is_open(way.front()) || !may_cut(way)) continue;
+    const auto over_m = task_.way_over_m(at_level(way.front()));
+    if (!over_m) continue;
+    const double all_m = *over_m + length_of(way);
+    if (!best.empty() && all_m >= least_m) continue;
+    best = std::move(way);
+    least_m = all_m;
+  }
+  return best;
 }
 
 /// The highest place that the cutter meets along it.
@@ -195,13 +169,13 @@ double Clearing::top_along(const LevelRow& row) const {
 LevelPass Clearing::enter_by_ramp(const LevelRow& row) {
   const double slot_m = ramp_share * cap_m2_ / (2 * task_.tool.cutter.radius_m);
   LevelPass pass = ramp_along(row.points, row.is_closed, top_along(row), task_.height, slot_m);
-  if (pass.empty() || !task_.comes_down(pass.front())) return {};
+  if (pass.empty() || !task_.way_over_m(pass.front())) return {};
   const StockTop before = surface_;
   const double taken_before = taken_m3_;
-  ChipWindow window = chip_window();
+  ChipLoad load = no_load();
   for (std::size_t at = 0; at + 1 < pass.size(); ++at) {
     const Vec3 &from = pass[at], &to = pass[at + 1];
-    if (edge_is_free(from.head<2>(), to.head<2>()) && window.take(surface_.volume(from, to), (to - from).norm())) {
+    if (edge_is_free(from.head<2>(), to.head<2>()) && bears(load, from, to, 0)) {
       cut(from, to);
       continue;
     }
@@ -237,11 +211,36 @@ void Clearing::put_off(std::size_t number, std::size_t refused) {
   if (rest.row.points.size() > 1) turns_.push_back(std::move(rest));
 }
 
+/// The place abreast of `to` where the cutter takes off as much as it may: as far inside as it is allowed to be, or
+/// else as little farther out (constant engagement: Stori, Wright, "Constant engagement tool path generation for convex
+/// geometries", 2000). Nothing where it takes off too much everywhere.
+std::optional<Point2> Clearing::keep_engagement(const Point2& from, const Point2& to, const RowField& field,
+                                                ChipLoad& load) const {
+  const Point2 out = width_m_ / steps_a_width * field.outwards(to);
+  // Of the whole edge first, for that is soon asked.
+  const auto may_be = [&](int steps_out) {
+    const Point2 place = to + steps_out * out;
+    return edge_is_free(from, place) &&
+           volume(from, place) <= cap_m2_ * ((place - from).norm() + burst_share * task_.tool.cutter.radius_m);
+  };
+  int first = 0;
+  if (volume(from, to) >= beside_share * cap_m2_ * (to - from).norm())
+    while (first > -max_steps_in && may_be(first - 1)) --first;
+  for (int steps = first; steps <= max_steps_out; ++steps) {
+    const Point2 place = to + steps * out;
+    ChipLoad after = load;
+    if (!edge_is_free(from, place) || !bears(after, at_level(from), at_level(place), 0)) continue;
+    load = after;
+    return place;
+  }
+  return std::nullopt;
+}
+
 /// As far as it takes off no more than it may.
 LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip) {
   turns_[number].is_done = true;
   LevelRow& row_now = turns_[number].row;
-  Way way = enter(row_now, tip);
+  LevelWay way = enter(row_now, tip);
   if (way.empty() && !row_now.is_closed) {
     std::ranges::reverse(row_now.points);
     way = enter(row_now, tip);
@@ -253,20 +252,24 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
     cut(pass.back(), at_level(to));
     pass.push_back(at_level(to));
   };
-  std::for_each(way.begin() + 1, way.end(), go);
-  ChipWindow window = chip_window();
+  ChipLoad load = no_load();
+  for (std::size_t at = 1; at < way.size(); ++at) {
+    bears(load, pass.back(), at_level(way[at]), 0);
+    go(way[at]);
+  }
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
-    const Point2 &from = row.points[at], &to = row.points[at + 1];
+    const Point2 from = pass.back().head<2>(), &to = row.points[at + 1];
     if (!edge_is_free(from, to)) {
       if (at + 2 < row.points.size())
         turns_.push_back({{row.field, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
       break;
     }
-    if (!window.take(volume(from, to), (to - from).norm())) {
+    const auto place = keep_engagement(from, to, *row.field, load);
+    if (!place) {
       put_off(number, at);
       break;
     }
-    go(to);
+    go(*place);
   }
   return pass;
 }

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "core/cell/milling/mill_tool.hpp"
-#include "core/mill/rough/chip_window.hpp"
+#include "core/mill/chip_load.hpp"
 #include "core/mill/rough/level_rows.hpp"
+#include "core/mill/rough/row_entries.hpp"
 #include "core/mill/rough/stock_top.hpp"
 
 namespace sculpt {
@@ -26,8 +27,9 @@ struct ClearingTask {
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
   const std::vector<char>& stands;   ///< by cell: what is to come off
   double seam_m = 0;  ///< of the cutter's radius: nearer to its edge nothing counts as cleared beside a row
-  /// May the tip come down to there (tool frame), from where it is now?
-  std::function<bool(const Vec3&)> comes_down;
+  /// The way over to there (tool frame) from where the tip is now, as a length of cut that it is worth (m); nothing if
+  /// the robot cannot go it.
+  std::function<std::optional<double>(const Vec3&)> way_over_m;
 };
 
 /// Places of the tip (tool frame), at the height of the level or on a ramp down to it. The first one is in the open, on
@@ -54,25 +56,23 @@ class Clearing {
     bool is_done = false;
   };
 
-  using Way = std::vector<Point2>;  ///< at the height of the level
-
   Vec3 at_level(const Point2& p) const { return {p.x(), p.y(), task_.height}; }
-  ChipWindow chip_window() const { return {cap_m2_, task_.tool.cutter.radius_m / 2}; }
   double volume(const Point2& from, const Point2& to) const;
   bool edge_is_free(const Point2& from, const Point2& to) const {
     return sculpt::edge_is_free(lattice_, task_.is_free, from, to);
   }
-  bool may_cut(const Way& way) const;
+  ChipLoad no_load() const;
+  bool bears(ChipLoad& load, const Vec3& from, const Vec3& to, double before_m3) const;
+  bool may_cut(const LevelWay& way) const;
   bool is_open(const Point2& p) const;
   void cut(const Vec3& from, const Vec3& to);
-  bool are_near(const LevelRow& one, const LevelRow& other) const;
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
-  void turn_towards(LevelRow& row, const Point2& at) const;
-  std::vector<Way> ways_into(const LevelRow& row) const;
-  Way enter(const LevelRow& row, const std::optional<Point2>& tip) const;
+  LevelWay enter(const LevelRow& row, const std::optional<Point2>& tip) const;
   double top_along(const LevelRow& row) const;
   LevelPass enter_by_ramp(const LevelRow& row);
+  std::optional<Point2> keep_engagement(const Point2& from, const Point2& to, const RowField& field,
+                                        ChipLoad& load) const;
   LevelPass follow(std::size_t number, const std::optional<Point2>& tip);
   void put_off(std::size_t number, std::size_t refused);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double last_row_cells = 1.2, last_share = 0.7;
 /// Of the width of cut: from one curve around to the next, for in hollow corners each finds more than the distance
 /// before it; and what straight rows leave for the last one around.
-constexpr double around_share = 0.92, ring_share = 0.7;
+constexpr double around_share = 0.92, ring_share = 0.9;
 /// Gaps in a row that are gone through (radii).
 constexpr double bridged_radii = 3;
 /// How far edges leave out the corners of a curve (cells).
@@ -81,6 +81,34 @@ bool edge_is_free(const Lattice& lattice, const std::vector<char>& is_free, cons
   for_each_cell_near(lattice, {from.x(), from.y(), 0}, {to.x(), to.y(), 0}, 0,
                      [&](int a, int b) { free = free && is_free[lattice.index(a, b)]; });
   return free;
+}
+
+double first_row_inside(const MillTool& tool, double step_m) {
+  const double radius = tool.cutter.radius_m;
+  double off = -radius, section_m2 = 0;
+  while (off + step_m < radius) {
+    section_m2 += step_m * std::max(0.0, tool.max_depth_m - tool.cutter.height_m(std::abs(off + step_m / 2)));
+    if (section_m2 > tool.max_depth_m * tool.max_width_m) break;
+    off += step_m;
+  }
+  return off;
+}
+
+bool are_near(const LevelRow& one, const LevelRow& other, double near_m) {
+  return std::ranges::any_of(one.points, [&](const Point2& p) {
+    return std::ranges::any_of(other.points, [&](const Point2& q) { return (p - q).squaredNorm() < near_m * near_m; });
+  });
+}
+
+void turn_towards(LevelRow& row, const Point2& at) {
+  const auto far = [&](const Point2& p) { return (p - at).squaredNorm(); };
+  if (row.is_closed) {
+    row.points.pop_back();
+    std::rotate(row.points.begin(), std::ranges::min_element(row.points, {}, far), row.points.end());
+    row.points.push_back(row.points.front());
+  } else if (far(row.points.back()) < far(row.points.front())) {
+    std::ranges::reverse(row.points);
+  }
 }
 
 LevelRows::LevelRows(const LevelArea& task, RowLayout layout) : task_(task), stands_(task.stands) {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/cell/milling/mill_tool.hpp"
 #include "core/mill/rough/level_curves.hpp"
 #include "core/mill/rough/row_field.hpp"
 
@@ -29,8 +30,17 @@ struct LevelRow {
   int rank = 0;  ///< those of larger rank come before those near them
 };
 
+/// Do two rows have places so near to each other?
+bool are_near(const LevelRow& one, const LevelRow& other, double near_m);
+/// Begins with the end that is nearer, a ring with its nearest place.
+void turn_towards(LevelRow& row, const Point2& at);
+
 /// May the tip go straight from one place to the other? `is_free`: by cell of the lattice.
 bool edge_is_free(const Lattice& lattice, const std::vector<char>& is_free, const Point2& from, const Point2& to);
+
+/// How far inside the edge of a slab, as thick as the depth of cut, the tip takes off depth times width; negative: so
+/// far outside. To `step_m`, and no more.
+double first_row_inside(const MillTool& tool, double step_m);
 
 /// What rows are laid for.
 struct LevelArea {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/mill/drive/hop.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 /// What a way through the air costs beside one that cuts.
 constexpr double air_share = 0.5;
+/// Of depth times width of cut, by the length of all ways: a level that takes off less is left.
+constexpr double min_engagement = 0.35;
 
 }  // namespace
 
@@ -52,6 +55,14 @@ std::vector<MillStroke> way_over(const Site& site, const LevelWays& ways, const 
   return {};
 }
 
+/// The length of cut that they are worth (m). `from`: in the stock's frame.
+double length_of(const std::vector<MillStroke>& strokes, Vec3 from) {
+  double length = 0;
+  for (const MillStroke& stroke : strokes)
+    length += (stroke.tip_m - std::exchange(from, stroke.tip_m)).norm() * (stroke.cut ? 1 : air_share);
+  return length;
+}
+
 struct LevelPlan {
   std::vector<MillStroke> strokes;
   double length_m = 0, taken_m3 = 0;
@@ -63,26 +74,22 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vecto
   LevelPlan plan;
   const double height = level.height;
   Vec3 tip = ways.from;
-  std::vector<MillStroke> over;
-  const auto comes_down = [&](const Vec3& at) {
-    over = way_over(site, ways, tip, at);
+  const auto way_over_m = [&](const Vec3& to) -> std::optional<double> {
+    const std::vector<MillStroke> over = way_over(site, ways, tip, to);
     plan.is_cut_off = plan.is_cut_off || over.empty();
-    return !over.empty();
+    return over.empty() ? std::nullopt : std::optional(length_of(over, site.frame().point(tip)));
   };
-  Clearing clearing({level.tool, height, cusp_m(level.tool), level.is_free, stands, level.seam_m, comes_down}, layout,
+  Clearing clearing({level.tool, height, cusp_m(level.tool), level.is_free, stands, level.seam_m, way_over_m}, layout,
                     surface);
   while (const auto pass = clearing.next_from(tip.head<2>(), tip.z() == height)) {
-    if (tip != pass->front()) std::ranges::move(over, std::back_inserter(plan.strokes));
+    if (tip != pass->front())
+      std::ranges::move(way_over(site, ways, tip, pass->front()), std::back_inserter(plan.strokes));
     for (auto place = pass->begin() + 1; place != pass->end(); ++place)
       plan.strokes.push_back({site.frame().point(*place), true, ways.stray_m});
     tip = pass->back();
   }
   plan.taken_m3 = clearing.taken_m3();
-  Vec3 at = site.frame().point(ways.from);
-  for (const MillStroke& stroke : plan.strokes) {
-    plan.length_m += (stroke.tip_m - at).norm() * (stroke.cut ? 1 : air_share);
-    at = stroke.tip_m;
-  }
+  plan.length_m = length_of(plan.strokes, site.frame().point(ways.from));
   return plan;
 }
 
@@ -101,6 +108,8 @@ LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelW
   });
   const auto best = std::ranges::max_element(
       plans, {}, [](const LevelPlan& plan) { return plan.strokes.empty() ? 0 : plan.taken_m3 / plan.length_m; });
+  if (best->taken_m3 < min_engagement * level.tool.max_depth_m * level.tool.max_width_m * best->length_m)
+    return {{}, best->is_cut_off};
   surface = std::move(left[static_cast<std::size_t>(best - plans.begin())]);
   return {std::move(best->strokes), best->is_cut_off};
 }

@@ -70,7 +70,7 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
   Cleared cleared;
   const double cusp_m = 0.35 * tool.max_depth_m;
   const CellsToClear cells = find_cells_to_clear(tool.cutter, height, cusp_m, free, surface.map());
-  Clearing clearing({tool, height, cusp_m, free, cells.marked, 0, [](const Vec3&) { return true; }}, layout, surface);
+  Clearing clearing({tool, height, cusp_m, free, cells.marked, 0, [](const Vec3&) { return 0.0; }}, layout, surface);
   Vec3 at(-0.075, -0.075, 0);
   bool is_down = false;
   Engagement engagement(tool);
@@ -114,12 +114,12 @@ TEST(Clearing, ClearsABlockWithoutEverTakingTooMuch) {
     std::cout << "level " << level << ": path " << cleared.path_m << " m (" << cleared.in_passes_m << "), volume "
               << cleared.volume_m3 * 1e6 << " cm3, ideal path " << cleared.volume_m3 / 1e-4 << ", largest "
               << cleared.max_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-    EXPECT_LE(cleared.max_share, 1.06);
+    EXPECT_LE(cleared.max_share, 1.1);
     volume += cleared.volume_m3;
     path += cleared.path_m;
   }
   EXPECT_GT(volume, 0.9 * 0.1 * 0.1 * 0.04);
-  EXPECT_LT(path, 1.5 * volume / (tool.max_depth_m * tool.max_width_m));
+  EXPECT_LT(path, 1.25 * volume / (tool.max_depth_m * tool.max_width_m));
 }
 
 class LaidRows : public testing::TestWithParam<RowLayout> {};
@@ -135,8 +135,8 @@ TEST_P(LaidRows, GoAroundWhatIsNotFree) {
   const Cleared cleared = clear_level(tool, surface, measured, -0.006, free, GetParam());
   std::cout << "island: path " << cleared.path_m << " m, ideal " << cleared.volume_m3 / 36e-6 << ", largest "
             << cleared.max_share << ", passes " << cleared.passes << ", entries " << cleared.entries << "\n";
-  EXPECT_LE(cleared.max_share, 1.06);
-  EXPECT_LT(cleared.path_m, 1.8 * cleared.volume_m3 / 36e-6);
+  EXPECT_LE(cleared.max_share, 1.1);
+  EXPECT_LT(cleared.path_m, 1.5 * cleared.volume_m3 / 36e-6);
   // What stands after it: the island less what the cutter reaches of it from beside, and cusps.
   for (int b = 0; b < surface.lattice().height; ++b)
     for (int a = 0; a < surface.lattice().width; ++a) {

@@ -1,4 +1,4 @@
-#include "core/mill/finish/chip_load.hpp"
+#include "core/mill/chip_load.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,12 +21,12 @@ MillTool d12() {
 constexpr double chip_m2 = 36e-6;
 
 TEST(ChipLoad, BearsDepthTimesWidthForever) {
-  ChipLoad load(d12(), 1e-3);
+  ChipLoad load = counted_load(d12(), 1e-3);
   for (int edge = 0; edge < 1000; ++edge) ASSERT_TRUE(load.bears(chip_m2 * 1e-3, 1e-3)) << edge;
 }
 
 TEST(ChipLoad, RefusesASlotAtTwiceTheWidth) {
-  ChipLoad load(d12(), 1e-3);
+  ChipLoad load = counted_load(d12(), 1e-3);
   int borne = 0;
   while (borne < 1000 && load.bears(2 * chip_m2 * 1e-3, 1e-3)) ++borne;
   EXPECT_GT(borne, 1);   // a layer of voxels
@@ -34,7 +34,7 @@ TEST(ChipLoad, RefusesASlotAtTwiceTheWidth) {
 }
 
 TEST(ChipLoad, ForgetsWhatWasBeforeTheRun) {
-  ChipLoad load(d12(), 1e-3);
+  ChipLoad load = counted_load(d12(), 1e-3);
   while (load.bears(2 * chip_m2 * 1e-3, 1e-3)) {
   }
   load.begin();
@@ -50,7 +50,7 @@ TEST(ChipLoad, IsStricterThanTheReplay) {
     };
     const double voxel_m = std::exp(uniform(std::log(1e-4), std::log(6e-3))), voxel_m3 = std::pow(voxel_m, 3);
     const MillTool tool = d12();
-    ChipLoad load(tool, voxel_m);
+    ChipLoad load = counted_load(tool, voxel_m);
     ChipScale scale;
     double borne_m3 = 0;
     for (int edge = 0; edge < 500; ++edge) {
