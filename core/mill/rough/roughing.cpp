@@ -15,7 +15,7 @@ namespace {
 /// What a way through the air costs beside one that cuts.
 constexpr double air_share = 0.5;
 /// Of depth times width of cut, by the length of all ways: a level that takes off less is left.
-constexpr double min_engagement = 0.35;
+constexpr double min_engagement = 0.3;
 
 }  // namespace
 
