@@ -7,7 +7,7 @@
 
 namespace sculpt {
 
-/// A `<link>` or `<joint>` right below `<robot>`, and where it stands in the text.
+/// A <link> or <joint> right below <robot>, and where it stands in the text.
 struct UrdfElement {
   std::string tag, name;
   std::string parent, child;  ///< links of a joint
