@@ -21,7 +21,7 @@ std::vector<UrdfElement> urdf_elements(const std::string& xml);
 /// such link.
 std::string without_branch(const std::string& xml, const std::string& link);
 
-/// With more elements at its end. Throws InputError `urdf_invalid` where `</robot>` is missing.
+/// With more elements at its end. Throws InputError `urdf_invalid` where </robot> is missing.
 std::string with_elements(const std::string& xml, const std::string& elements);
 
 /// With another reference in each filename="REFERENCE".
