@@ -114,12 +114,12 @@ class Page:
         """With `app`, the page's own object, in reach; the content policy lets a module of the page be imported."""
         return self.run(f"import('/ui/app.js').then(async ({{app}}) => ({expression}))")
 
-    def until(self, expression, what=None):
-        """Waits for it to be true of `app`."""
+    def until(self, expression, what=None, pause_s=0.03):
+        """Waits for it to be true of `app`; to look takes the page time."""
         end = time.monotonic() + PATIENCE_S
         while not self.app(f"Boolean({expression})"):
             assert time.monotonic() < end, f"never: {what or expression}\n{self.text()}\n{self.faults}"
-            time.sleep(0.03)
+            time.sleep(pause_s)
 
     def settled(self):
         """All that was asked for is drawn."""

@@ -50,7 +50,7 @@ struct LevelStrokes {
 };
 
 /// The strokes of one level, in the layout of rows that takes off most for its length; nothing if the level has nothing
-/// that the tool can take off. `surface` loses what they cut.
+/// that the tool can take off, or too little for the ways to it. `surface` loses what they cut.
 LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
                          const Helpers& helpers);
 
