@@ -79,7 +79,7 @@ done
 fcl_headers='collision/shape/fcl_shape|collision/shape/shape_contact|verify/robot/solid_body|verify/robot/cover_tree|verify/material/(standing_voxels|material_tree|convex_probe)|verify/tool_replay'
 forbid "assimp only in mesh_file.cpp" "$(include 'assimp/')" "$(door 'mesh/mesh_file\.cpp')" -- core server proto clients
 forbid "urdfdom only in robot.cpp" "$(include 'urdf_')" "$(door 'cell/robot\.cpp')" -- core server proto clients
-forbid "TinyXML-2 only in mesh/collada.cpp, cell/urdf_guard.cpp and verify/robot/urdf_text.cpp" "$(include 'tinyxml2')" "$(door '(mesh/collada|cell/urdf_guard|verify/robot/urdf_text)\.cpp')" -- core server proto clients
+forbid "TinyXML-2 only in mesh/collada.cpp, cell/urdf/urdf_guard.cpp and verify/robot/urdf_text.cpp" "$(include 'tinyxml2')" "$(door '(mesh/collada|cell/urdf/urdf_guard|verify/robot/urdf_text)\.cpp')" -- core server proto clients
 forbid "FCL and octomap only in collision and verify" "$(include '(fcl|octomap)/')" "$(door "((collision|verify)/[a-z_/]+\.cpp|($fcl_headers)\.hpp)")" -- core server proto clients
 forbid "the headers of collision that name FCL stay there" "$(include 'core/collision/shape/(fcl_shape|shape_contact)')" "$(door 'collision/[a-z_/]+\.[ch]pp')" -- core server clients
 forbid "the headers of verify that name FCL stay there" "$(include 'core/verify/(robot/(solid_body|cover_tree)|material/(standing_voxels|material_tree|convex_probe)|tool_replay)')" "$(door 'verify/[a-z_/]+\.[ch]pp')" -- core server clients

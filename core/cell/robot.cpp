@@ -14,7 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "core/cell/mesh_shelf.hpp"
-#include "core/cell/urdf_guard.hpp"
+#include "core/cell/urdf/urdf_guard.hpp"
 
 namespace sculpt {
 

@@ -219,7 +219,7 @@ void check_counts(std::uint64_t vertices, std::uint64_t faces, std::uint64_t mem
 }
 
 /// A mesh as its own reader gives it.
-Mesh collect(Mesh file, std::uint64_t memory_cap_bytes) {
+Mesh collect(const Mesh& file, std::uint64_t memory_cap_bytes) {
   check_counts(file.vertices.size(), file.triangles.size(), memory_cap_bytes);
   Collector collector(file.vertices.size());
   std::vector<std::uint32_t> ids;

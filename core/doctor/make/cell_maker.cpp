@@ -228,8 +228,7 @@ Cell CellMaker::cell_of(const std::string& urdf, const std::string& stock, const
     cell.ignore_pairs.push_back(std::minmax(link_named(cell.robot, pair.first), link_named(cell.robot, pair.second)));
   std::ranges::sort(cell.ignore_pairs);
   // Two shapes of a pair may touch everywhere and two others along most of the travel.
-  const auto twice = std::ranges::unique(cell.ignore_pairs);
-  cell.ignore_pairs.erase(twice.begin(), twice.end());
+  cell.ignore_pairs.erase(std::unique(cell.ignore_pairs.begin(), cell.ignore_pairs.end()), cell.ignore_pairs.end());
   return cell;
 }
 

@@ -7,7 +7,7 @@
 
 namespace sculpt {
 
-/// A <link> or <joint> right below <robot>, and where it stands in the text.
+/// A `<link>` or `<joint>` right below `<robot>`, and where it stands in the text.
 struct UrdfElement {
   std::string tag, name;
   std::string parent, child;  ///< links of a joint
@@ -21,7 +21,7 @@ std::vector<UrdfElement> urdf_elements(const std::string& xml);
 /// such link.
 std::string without_branch(const std::string& xml, const std::string& link);
 
-/// With more elements at its end. Throws InputError `urdf_invalid` where </robot> is missing.
+/// With more elements at its end. Throws InputError `urdf_invalid` where `</robot>` is missing.
 std::string with_elements(const std::string& xml, const std::string& elements);
 
 /// With another reference in each filename="REFERENCE".

@@ -113,7 +113,7 @@ HeldTool::Fields HeldTool::find_turned(const Direction& direction, const Configu
   std::array<Direction, 4> quarters{direction};
   for (std::size_t quarter = 1; quarter < quarters.size(); ++quarter)
     quarters[quarter] = quarter_turned(quarters[quarter - 1]);
-  std::ranges::rotate(quarters, std::ranges::max_element(quarters));
+  std::rotate(quarters.begin(), std::max_element(quarters.begin(), quarters.end()), quarters.end());
   std::array<ToolView, 4> views{view_of(quarters[0])};
   for (std::size_t quarter = 1; quarter < views.size(); ++quarter) views[quarter] = quarter_turned(views[quarter - 1]);
   const auto [at, is_new] = found_.try_emplace(quarters[0]);

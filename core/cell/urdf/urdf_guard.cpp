@@ -1,4 +1,4 @@
-#include "core/cell/urdf_guard.hpp"
+#include "core/cell/urdf/urdf_guard.hpp"
 
 #include <tinyxml2.h>
 
