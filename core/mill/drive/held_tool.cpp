@@ -107,33 +107,48 @@ HeldTool::Fields HeldTool::search(const Direction& direction, const ToolView& vi
   return fields;
 }
 
+/// A direction and its quarter turns, the largest first.
+struct HeldTool::Quarters {
+  std::array<Direction, 4> directions;
+  std::array<ToolView, 4> views;  ///< turned into each other
+
+  explicit Quarters(const Direction& direction) {
+    directions[0] = direction;
+    for (std::size_t k = 1; k < 4; ++k) directions[k] = quarter_turned(directions[k - 1]);
+    std::rotate(directions.begin(), std::max_element(directions.begin(), directions.end()), directions.end());
+    views[0] = view_of(directions[0]);
+    for (std::size_t k = 1; k < 4; ++k) views[k] = quarter_turned(views[k - 1]);
+  }
+};
+
+HeldTool::Found HeldTool::search(const Quarters& quarters, const Configuration& home, const RunContext& run) const {
+  Found best;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (100 * usable_cells(best.fields) >= enough_percent * PostureField::all_cells()) break;
+    if (k > 0 && quarters.directions[k] == quarters.directions[0]) break;
+    Fields fields = search(quarters.directions[k], quarters.views[k], home, run);
+    if (usable_cells(fields) > usable_cells(best.fields)) best = {std::move(fields), static_cast<int>(k)};
+  }
+  return best;
+}
+
 /// Where the stock can be turned, a field suits four directions. A search finds other postures for each of them, and
 /// the best are turned into the others'.
 HeldTool::Fields HeldTool::find_turned(const Direction& direction, const Configuration& home, const RunContext& run) {
-  std::array<Direction, 4> quarters{direction};
-  for (std::size_t quarter = 1; quarter < quarters.size(); ++quarter)
-    quarters[quarter] = quarter_turned(quarters[quarter - 1]);
-  std::rotate(quarters.begin(), std::max_element(quarters.begin(), quarters.end()), quarters.end());
-  std::array<ToolView, 4> views{view_of(quarters[0])};
-  for (std::size_t quarter = 1; quarter < views.size(); ++quarter) views[quarter] = quarter_turned(views[quarter - 1]);
-  const auto [at, is_new] = found_.try_emplace(quarters[0]);
+  const Quarters quarters(direction);
+  const auto [at, is_new] = found_.try_emplace(quarters.directions[0]);
   Found& best = at->second;
-  for (std::size_t quarter = 0; quarter < quarters.size() && is_new; ++quarter) {
-    if (100 * usable_cells(best.fields) >= enough_percent * PostureField::all_cells()) break;
-    if (quarter > 0 && quarters[quarter] == quarters[0]) break;
-    Fields fields = search(quarters[quarter], views[quarter], home, run);
-    if (usable_cells(fields) > usable_cells(best.fields)) best = {std::move(fields), static_cast<int>(quarter)};
-  }
-  const auto asked = static_cast<int>(std::ranges::find(quarters, direction) - quarters.begin());
+  if (is_new) best = search(quarters, home, run);
+  const auto asked = static_cast<int>(std::ranges::find(quarters.directions, direction) - quarters.directions.begin());
+  const ToolView& view = quarters.views[static_cast<std::size_t>(asked)];
   Fields fields;
   for (const auto& field : best.fields)
     if (asked == best.quarter)
       fields.push_back(std::make_unique<PostureField>(*field));
-    else if (auto other = turned(*field, *turn_, views[static_cast<std::size_t>(asked)], asked - best.quarter))
+    else if (auto other = turned(*field, *turn_, view, asked - best.quarter))
       fields.push_back(std::move(other));
   // The table may not turn so far.
-  if (fields.empty() && !best.fields.empty())
-    return search(direction, views[static_cast<std::size_t>(asked)], home, run);
+  if (fields.empty() && !best.fields.empty()) return search(direction, view, home, run);
   return fields;
 }
 

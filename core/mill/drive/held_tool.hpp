@@ -45,9 +45,17 @@ class HeldTool {
   static Vec3 cell_of(const PostureField& field, const Grid& around, const Vec3& point);
 
  private:
+  struct Quarters;
+  /// What a search gave that suits a direction and its quarter turns best.
+  struct Found {
+    Fields fields;    ///< against the full stock
+    int quarter = 0;  ///< that they are for
+  };
+
   Fields find_turned(const Direction& direction, const Configuration& home, const RunContext& run);
   Fields search(const Direction& direction, const ToolView& view, const Configuration& home,
                 const RunContext& run) const;
+  Found search(const Quarters& quarters, const Configuration& home, const RunContext& run) const;
 
   Assembly assembly_;
   Grid around_;
@@ -56,11 +64,6 @@ class HeldTool {
   Scene guided_scene_;
   std::optional<StockTurn> turn_;
   VoxelSet cells_;
-  /// What a search gave that suits a direction and its quarter turns best.
-  struct Found {
-    Fields fields;    ///< against the full stock
-    int quarter = 0;  ///< that they are for
-  };
   std::map<Direction, Found> found_;  ///< by the first of the four directions
   struct Opened {
     Fields fields;
