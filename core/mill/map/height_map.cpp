@@ -10,9 +10,10 @@
 namespace sculpt {
 namespace {
 
-/// Voxels of which the neighbour along one of the axis' steps does not stand, or is outside.
+/// Voxels of these layers of which the neighbour along one of the axis' steps does not stand, or is outside.
 template <typename Visit>
-void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, const Visit& visit) {
+void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, int first_k, int end_k,
+                          const Visit& visit) {
   const int n = standing.n();
   const auto stands = [&](Voxel v) {
     return v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i < n && v.j < n && v.k < n && standing.contains(v);
@@ -28,7 +29,7 @@ void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, 
   const std::size_t row_words = std::max<std::size_t>(1, static_cast<std::size_t>(n) / 64);
   if (n < 64) {
     for_each_voxel(standing, [&](Voxel v) {
-      for (std::size_t s = 0; s < count; ++s)
+      for (std::size_t s = 0; s < count && v.k >= first_k && v.k < end_k; ++s)
         if (!stands(v + steps[s])) return visit(v);
     });
     return;
@@ -38,7 +39,7 @@ void for_each_upper_voxel(const VoxelSet& standing, const Direction& direction, 
     return words.data() +
            (static_cast<std::size_t>(j) + static_cast<std::size_t>(n) * static_cast<std::size_t>(k)) * row_words;
   };
-  for (int k = 0; k < n; ++k)
+  for (int k = first_k; k < end_k; ++k)
     for (int j = 0; j < n; ++j) {
       const std::uint64_t* here = row(j, k);
       for (std::size_t word = 0; word < row_words; ++word) {
@@ -122,14 +123,17 @@ void HeightMap::raise(const Vec3& p, const Vec3& q, const Vec3& r) {
     }
 }
 
+void HeightMap::raise(const HeightMap& other) {
+  for (std::size_t at = 0; at < heights.size(); ++at) heights[at] = std::max(heights[at], other.heights[at]);
+}
+
 HeightMap heights_of(const VoxelSet& standing, const Grid& grid, const ToolFrame& frame, const Lattice& lattice,
-                     const HeightMap* floor) {
-  HeightMap map(lattice);
+                     const Helpers& helpers, const HeightMap* floor) {
   // A cube's silhouette lies within half of its extent along each axis of the frame.
   const double half_u = grid.voxel_m / 2 * frame.u.cwiseAbs().sum(),
                half_v = grid.voxel_m / 2 * frame.v.cwiseAbs().sum(),
                half_w = grid.voxel_m / 2 * frame.w.cwiseAbs().sum();
-  for_each_upper_voxel(standing, frame.direction, [&](Voxel v) {
+  const auto raise_voxel = [&](HeightMap& map, Voxel v) {
     const Vec3 at = frame.of(grid.centre(v));
     if (floor != nullptr) {
       const int a = lattice.cell_u(at.x()), b = lattice.cell_v(at.y());
@@ -142,8 +146,17 @@ HeightMap heights_of(const VoxelSet& standing, const Grid& grid, const ToolFrame
               last_b = std::min(lattice.height - 1, lattice.cell_v(at.y() + half_v + 1e-9));
     for (int b = first_b; b <= last_b; ++b)
       for (int a = first_a; a <= last_a; ++a) map.raise(a, b, top);
+  };
+  // Layers for each thread, and the higher of what they give.
+  const int n = grid.n, parts = std::min(n, helpers.threads());
+  std::vector<HeightMap> maps(static_cast<std::size_t>(parts), HeightMap(lattice));
+  helpers.for_each_index(maps.size(), [&](std::size_t part) {
+    const int number = static_cast<int>(part);
+    for_each_upper_voxel(standing, frame.direction, n * number / parts, n * (number + 1) / parts,
+                         [&](Voxel v) { raise_voxel(maps[part], v); });
   });
-  return map;
+  for (std::size_t part = 1; part < maps.size(); ++part) maps[0].raise(maps[part]);
+  return std::move(maps[0]);
 }
 
 }  // namespace sculpt

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/frame.hpp"
+#include "core/base/helpers.hpp"
 #include "core/material/voxel_set.hpp"
 #include "core/mill/map/tool_frame.hpp"
 
@@ -44,6 +45,8 @@ struct HeightMap {
 
   /// A triangle, corners in coordinates of the tool's frame.
   void raise(const Vec3& p, const Vec3& q, const Vec3& r);
+  /// The larger of the two, cell by cell; of the same lattice.
+  void raise(const HeightMap& other);
 
   Lattice lattice;
   std::vector<float> heights;
@@ -52,7 +55,7 @@ struct HeightMap {
 /// The surface of standing voxels; each as the whole cube. `grid`: of `standing`. `floor`, if any: voxels whose centres
 /// are lower than that do not count; of the same lattice.
 HeightMap heights_of(const VoxelSet& standing, const Grid& grid, const ToolFrame& frame, const Lattice& lattice,
-                     const HeightMap* floor = nullptr);
+                     const Helpers& helpers, const HeightMap* floor = nullptr);
 
 /// Calls `visit(a, b)` with all cells of the lattice that are nearer than `margin_m` to the segment, and perhaps with
 /// some that are a little farther.

@@ -186,9 +186,4 @@ HeightMap lowest_cut(const HeightMap& limit, const Cutter& cutter) {
   return lowest;
 }
 
-void raise_to(HeightMap& map, const HeightMap& other) {
-  for (std::size_t at = 0; at < map.heights.size(); ++at)
-    map.heights[at] = std::max(map.heights[at], other.heights[at]);
-}
-
 }  // namespace sculpt

@@ -24,7 +24,4 @@ HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& ring
 /// it.
 HeightMap lowest_cut(const HeightMap& limit, const Cutter& cutter);
 
-/// The larger of the two, cell by cell.
-void raise_to(HeightMap& map, const HeightMap& other);
-
 }  // namespace sculpt

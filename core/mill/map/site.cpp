@@ -30,13 +30,13 @@ Site::Site(const ToolFrame& frame, const Lattice& lattice, const Assembly& assem
   raise(solid, fixtures, frame);
   beside_ = offset_by_cutter(solid, cutter_, margins.body_m);
   raise(solid, part, frame);
-  raise_to(beside_, offset_by_rings(solid, rings_, margins.body_m));
+  beside_.raise(offset_by_rings(solid, rings_, margins.body_m));
   limit_ = offset_by_cutter(solid, cutter_, margins.cutter_m);
-  raise_to(limit_, beside_);
+  limit_.raise(beside_);
 }
 
 void Site::see(const VoxelSet& standing, const Grid& grid, const Helpers& helpers) {
-  stands_ = heights_of(standing, grid, frame_, limit_.lattice);
+  stands_ = heights_of(standing, grid, frame_, limit_.lattice, helpers);
   body_limit_ = offset_by_rings(stands_, rings_, margins_.body_m, &helpers);
 }
 

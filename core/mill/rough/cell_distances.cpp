@@ -53,20 +53,30 @@ void find_along(const char* marked, std::size_t width, double far, float* distan
   }
 }
 
+/// Of neighbouring columns together, for they lie beside each other.
+constexpr std::size_t columns_at_once = 16;
+
 }  // namespace
 
-std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice) {
+std::vector<float> distances_to(const std::vector<char>& marked, const Lattice& lattice, const Helpers* helpers) {
   const auto w = static_cast<std::size_t>(lattice.width), h = static_cast<std::size_t>(lattice.height);
   std::vector<float> distances(lattice.size());
   for (std::size_t b = 0; b < h; ++b)
     find_along(marked.data() + b * w, w, static_cast<double>(w + h), distances.data() + b * w);
-  LowerEnvelope envelope(h);
-  std::vector<double> squares(h), least(h);
-  for (std::size_t a = 0; a < w; ++a) {
-    for (std::size_t b = 0; b < h; ++b) squares[b] = std::pow(static_cast<double>(distances[b * w + a]), 2);
-    envelope.find(squares, least);
-    for (std::size_t b = 0; b < h; ++b) distances[b * w + a] = static_cast<float>(std::sqrt(least[b]) * lattice.step);
-  }
+  const auto find_across = [&](std::size_t first) {
+    LowerEnvelope envelope(h);
+    std::vector<double> squares(h), least(h);
+    for (std::size_t a = first; a < std::min(w, first + columns_at_once); ++a) {
+      for (std::size_t b = 0; b < h; ++b) squares[b] = std::pow(static_cast<double>(distances[b * w + a]), 2);
+      envelope.find(squares, least);
+      for (std::size_t b = 0; b < h; ++b) distances[b * w + a] = static_cast<float>(std::sqrt(least[b]) * lattice.step);
+    }
+  };
+  const std::size_t parts = (w + columns_at_once - 1) / columns_at_once;
+  if (helpers != nullptr)
+    helpers->for_each_index(parts, [&](std::size_t part) { find_across(part * columns_at_once); });
+  else
+    for (std::size_t part = 0; part < parts; ++part) find_across(part * columns_at_once);
   return distances;
 }
 

@@ -8,12 +8,12 @@
 namespace sculpt {
 
 CellsToClear find_cells_to_clear(const Cutter& cutter, double height, double cusp_m, const std::vector<char>& is_free,
-                                 const HeightMap& tops) {
+                                 const HeightMap& tops, const Helpers& helpers) {
   const Lattice& lattice = tops.lattice;
   CellsToClear cells{std::vector<char>(lattice.size())};
   const auto stands_above = static_cast<float>(height + cusp_m);
   if (std::ranges::none_of(tops.heights, [&](float top) { return top > stands_above; })) return cells;
-  const std::vector<float> to_free = distances_to(is_free, lattice);
+  const std::vector<float> to_free = distances_to(is_free, lattice, &helpers);
   const double to_corner = std::numbers::sqrt2 * lattice.step;
   double heights = 0;
   for (std::size_t at = 0; at < cells.marked.size(); ++at) {

@@ -16,6 +16,6 @@ struct CellsToClear {
 /// What is higher than the cutter, its tip at `height` (m, tool frame), would leave it if it came to all cells where it
 /// may be (`is_free`), by more than `cusp_m`.
 CellsToClear find_cells_to_clear(const Cutter& cutter, double height, double cusp_m, const std::vector<char>& is_free,
-                                 const HeightMap& tops);
+                                 const HeightMap& tops, const Helpers& helpers);
 
 }  // namespace sculpt

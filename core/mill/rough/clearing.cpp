@@ -55,14 +55,6 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
   }
 }
 
-void Clearing::cut(const Vec3& from, const Vec3& to) {
-  double heights = 0;
-  surface_.cut(from, to, [&](std::size_t at, float before) {
-    heights += static_cast<double>(before - surface_.map().heights[at]);
-  });
-  taken_m3_ += heights * lattice_.step * lattice_.step;
-}
-
 double Clearing::volume(const Point2& from, const Point2& to) const {
   return surface_.volume(at_level(from), at_level(to));
 }
@@ -103,14 +95,13 @@ bool Clearing::is_open(const Point2& p) const {
 }
 
 bool Clearing::is_worth_it(const LevelRow& row) const {
-  double sum = 0, all = 0;
-  for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
+  const double enough_m3 = min_share * cap_m2_ * length_of(row.points);
+  double sum_m3 = 0;
+  for (std::size_t at = 0; at + 1 < row.points.size() && sum_m3 < enough_m3; ++at) {
     const Point2 &from = row.points[at], &to = row.points[at + 1];
-    const double most = cap_m2_ * (to - from).norm();
-    sum += std::min(most, volume(from, to));
-    all += most;
+    sum_m3 += std::min(cap_m2_ * (to - from).norm(), volume(from, to));
   }
-  return all > 0 && sum >= min_share * all;
+  return enough_m3 > 0 && sum_m3 >= enough_m3;
 }
 
 /// Of those whose turn it is.
@@ -176,7 +167,7 @@ LevelPass Clearing::enter_by_ramp(const LevelRow& row) {
   for (std::size_t at = 0; at + 1 < pass.size(); ++at) {
     const Vec3 &from = pass[at], &to = pass[at + 1];
     if (edge_is_free(from.head<2>(), to.head<2>()) && bears(load, from, to, 0)) {
-      cut(from, to);
+      taken_m3_ += surface_.cut(from, to);
       continue;
     }
     surface_ = before;
@@ -249,7 +240,7 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
   const LevelRow row = row_now;  // turns are added below
   LevelPass pass{at_level(way.front())};
   const auto go = [&](const Point2& to) {
-    cut(pass.back(), at_level(to));
+    taken_m3_ += surface_.cut(pass.back(), at_level(to));
     pass.push_back(at_level(to));
   };
   ChipLoad load = no_load();

@@ -65,7 +65,6 @@ class Clearing {
   bool bears(ChipLoad& load, const Vec3& from, const Vec3& to, double before_m3) const;
   bool may_cut(const LevelWay& way) const;
   bool is_open(const Point2& p) const;
-  void cut(const Vec3& from, const Vec3& to);
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
   LevelWay enter(const LevelRow& row, const std::optional<Point2>& tip) const;

@@ -114,7 +114,8 @@ class RoughStage {
 
   /// What is to be cut and can be: not all that may stand.
   HeightMap tops_to_cut(const Site& site) const {
-    return heights_of(carver_.left().voxels(), job_.grid, site.frame(), site.lattice(), &site.lowest_cut());
+    return heights_of(carver_.left().voxels(), job_.grid, site.frame(), site.lattice(), run_.helpers,
+                      &site.lowest_cut());
   }
   StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, stray_m()}; }
 
@@ -158,7 +159,7 @@ class RoughStage {
     if (!is_worth_it(site, surface, height)) return;
     site.see(carver_.standing(), job_.grid, run_.helpers);
     const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
-    std::vector<char> free = free_cells(site, height, reachable);
+    std::vector<char> free = free_cells(site, height, reachable, run_.helpers);
     std::vector<char> wanted = cells_above(site, free, next);
     std::array min_heights{height, carver_.hub().z()};
     bool is_drawn_back = false;

@@ -19,14 +19,16 @@ constexpr double min_engagement = 0.3;
 
 }  // namespace
 
-std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable) {
+std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable, const Helpers& helpers) {
   const Lattice& lattice = site.lattice();
   std::vector<char> free(lattice.size());
-  for (int b = 0; b < lattice.height; ++b)
+  helpers.for_each_index(static_cast<std::size_t>(lattice.height), [&](std::size_t row) {
+    const int b = static_cast<int>(row);
     for (int a = 0; a < lattice.width; ++a) {
       const std::size_t at = lattice.index(a, b);
       free[at] = site.lowest_tip(at) <= height && reachable({lattice.u(a), lattice.v(b), height});
     }
+  });
   return free;
 }
 
@@ -98,7 +100,7 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vecto
 LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
                          const Helpers& helpers) {
   const CellsToClear cells =
-      find_cells_to_clear(level.tool.cutter, level.height, cusp_m(level.tool), level.wanted, surface.map());
+      find_cells_to_clear(level.tool.cutter, level.height, cusp_m(level.tool), level.wanted, surface.map(), helpers);
   if (cells.volume_m3 < min_pass_m3(level.tool)) return {};
   constexpr std::array layouts{RowLayout::around, RowLayout::along_u, RowLayout::along_v};
   std::vector<StockTop> left(layouts.size(), surface);

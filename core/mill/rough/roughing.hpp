@@ -30,11 +30,11 @@ struct RoughLevel {
   double seam_m = 0;                 ///< as `ClearingTask`
 };
 
-/// Where the robot can hold the tip (tool frame).
+/// Where the robot can hold the tip (tool frame). Any thread.
 using IsReachable = std::function<bool(const Vec3& tip)>;
 
 /// The cells at which the tip may be at a height.
-std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable);
+std::vector<char> free_cells(const Site& site, double height, const IsReachable& reachable, const Helpers& helpers);
 
 /// How the strokes of a level are joined.
 struct LevelWays {

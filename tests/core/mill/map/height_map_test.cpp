@@ -36,6 +36,7 @@ TEST(HeightMap, NoPointOfATriangleIsHigherThanItsCell) {
 }
 
 TEST(HeightMap, NoPointOfAStandingVoxelIsHigherThanItsCell) {
+  const Helpers helpers(3);
   for (const int n : {8, 64}) {
     const Grid grid{n, 0.08 / n, Vec3(-0.04, -0.03, 0.01)};
     for (std::size_t which = 0; which < directions.size(); ++which) {
@@ -48,7 +49,8 @@ TEST(HeightMap, NoPointOfAStandingVoxelIsHigherThanItsCell) {
                          static_cast<int>(random.next() % static_cast<unsigned>(n))});
       const ToolFrame frame(directions[which]);
       const Vec3 low = grid.origin_m, high = low + Vec3::Constant(0.08);
-      const HeightMap map = heights_of(standing, grid, frame, lattice_over(frame, low, high, 0.001, 0.0015));
+      const HeightMap map = heights_of(standing, grid, frame, lattice_over(frame, low, high, 0.001, 0.0015), helpers);
+      EXPECT_EQ(heights_of(standing, grid, frame, map.lattice, Helpers(1)).heights, map.heights);
       for_each_voxel(standing, [&](Voxel v) {
         for (int corner = 0; corner < 8; ++corner) {
           const Vec3 off((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);

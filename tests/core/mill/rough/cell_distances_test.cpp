@@ -12,6 +12,7 @@ int whole(Random& random, int low, int high) {
 }
 
 TEST(CellDistances, AreThoseOfBruteForce) {
+  const Helpers helpers(3);
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Random random(seed);
     const Lattice lattice{0, 0, 0.5, whole(random, 2, 41), whole(random, 2, 41)};
@@ -19,6 +20,7 @@ TEST(CellDistances, AreThoseOfBruteForce) {
     for (int n = whole(random, 1, 12); n > 0; --n)
       marked[static_cast<std::size_t>(whole(random, 0, static_cast<int>(lattice.size()) - 1))] = 1;
     const std::vector<float> found = distances_to(marked, lattice);
+    ASSERT_EQ(distances_to(marked, lattice, &helpers), found) << "seed " << seed << ": on three threads";
     for (int b = 0; b < lattice.height; ++b)
       for (int a = 0; a < lattice.width; ++a) {
         double nearest = HUGE_VAL;

@@ -23,7 +23,7 @@ TEST(CellsToClear, AreThoseThatTheCutterLeavesLowerFromSomewhere) {
       tops.heights[at] = static_cast<float>(random.between(0, 0.06));
     }
     const Cutter cutter{CutterKind::ball, 0.006, 0.006, 0.03};
-    const CellsToClear found = find_cells_to_clear(cutter, level_m, cusp_m, is_free, tops);
+    const CellsToClear found = find_cells_to_clear(cutter, level_m, cusp_m, is_free, tops, Helpers(2));
     double volume_m3 = 0;
     const Lattice& cells = tops.lattice;
     for (int b = 0; b < cells.height; ++b)
@@ -48,7 +48,7 @@ TEST(CellsToClear, AreNoneWhereNothingStandsHigherThanACusp) {
   HeightMap tops(Lattice{0, 0, 1e-3, 9, 9});
   for (float& height : tops.heights) height = static_cast<float>(level_m + 0.9 * cusp_m);
   const CellsToClear found = find_cells_to_clear({CutterKind::flat, 0.006, 0, 0.03}, level_m, cusp_m,
-                                                 std::vector<char>(tops.lattice.size(), 1), tops);
+                                                 std::vector<char>(tops.lattice.size(), 1), tops, Helpers(1));
   EXPECT_EQ(std::ranges::count(found.marked, 0), static_cast<std::ptrdiff_t>(tops.lattice.size()));
   EXPECT_EQ(found.volume_m3, 0);
 }

@@ -69,7 +69,7 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
                     const std::vector<char>& free, RowLayout layout) {
   Cleared cleared;
   const double cusp_m = 0.35 * tool.max_depth_m;
-  const CellsToClear cells = find_cells_to_clear(tool.cutter, height, cusp_m, free, surface.map());
+  const CellsToClear cells = find_cells_to_clear(tool.cutter, height, cusp_m, free, surface.map(), Helpers(1));
   Clearing clearing({tool, height, cusp_m, free, cells.marked, 0, [](const Vec3&) { return 0.0; }}, layout, surface);
   Vec3 at(-0.075, -0.075, 0);
   bool is_down = false;
@@ -88,8 +88,7 @@ Cleared clear_level(const MillTool& tool, StockTop& surface, StockTop& measured,
       double volume = 0;
       for (int bit = 0; bit < bits; ++bit) {
         const Vec3 begin = from + (to - from) * bit / bits, end = from + (to - from) * (bit + 1) / bits;
-        const double more = measured.volume(begin, end);
-        measured.cut(begin, end, [](std::size_t, float) {});
+        const double more = measured.cut(begin, end);
         engagement.add(more, length / bits);
         volume += more;
       }
