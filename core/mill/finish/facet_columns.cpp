@@ -26,26 +26,28 @@ bool covers(const std::array<Vec3, 3>& t, double u, double v) {
   return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
 }
 
-/// Height of a ball's middle over (u, v) that rests on a point.
-double over_corner(const Vec3& corner, double u, double v, double r2) {
+/// Height of a ball's middle over (u, v) that rests on a point; `height` where that is higher.
+double over_corner(const Vec3& corner, double u, double v, double r2, double height) {
   const double left = r2 - (u - corner.x()) * (u - corner.x()) - (v - corner.y()) * (v - corner.y());
-  return left < 0 ? -infinity : corner.z() + std::sqrt(left);
+  const double above = height - corner.z();
+  return left < 0 || (above > 0 && above * above >= left) ? height : std::max(height, corner.z() + std::sqrt(left));
 }
 
 /// The same on an edge, between its ends.
-double over_edge(const Vec3& a, const Vec3& b, double u, double v, double r2) {
+double over_edge(const Vec3& a, const Vec3& b, double u, double v, double r2, double height) {
   const Vec3 way = b - a;
   const double length2 = way.squaredNorm();
-  if (length2 <= 0) return -infinity;
   const double mu = u - a.x(), mv = v - a.y(), along = mu * way.x() + mv * way.y();
   // Distance from the edge's line of (mu, mv, z): length2 (mu^2 + mv^2 + z^2) - (along + z way.z)^2 = length2 r2.
   const double c2 = length2 - way.z() * way.z(), c1 = along * way.z(),
                c0 = length2 * (mu * mu + mv * mv - r2) - along * along;
-  if (c2 <= upright * length2) return -infinity;
+  if (c2 <= upright * length2) return height;
+  const double above = height - a.z();
+  if (c2 * above > c1 && (c2 * above - 2 * c1) * above + c0 >= 0) return height;  // above both roots
   const double root = c1 * c1 - c2 * c0;
-  if (root < 0) return -infinity;
+  if (root < 0) return height;
   const double z = (c1 + std::sqrt(root)) / c2, share = along + z * way.z();
-  return share < 0 || share > length2 ? -infinity : a.z() + z;
+  return share < 0 || share > length2 ? height : std::max(height, a.z() + z);
 }
 
 double segment_distance2(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
@@ -216,8 +218,8 @@ double FacetColumns::rest_on(const Facet& facet, double u, double v, double radi
     if (covers(t, u - radius * n.x(), v - radius * n.y())) return z;
   }
   for (std::size_t edge = 0; edge < 3; ++edge) {
-    height = std::max(height, over_corner(t[edge], u, v, radius * radius));
-    height = std::max(height, over_edge(t[edge], t[(edge + 1) % 3], u, v, radius * radius));
+    height = over_corner(t[edge], u, v, radius * radius, height);
+    height = over_edge(t[edge], t[(edge + 1) % 3], u, v, radius * radius, height);
   }
   return height;
 }

@@ -161,8 +161,12 @@ HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& ring
     for (std::size_t number = 0; number < rings.size(); ++number) offset(number);
   HeightMap limit(lattice);
   for (const auto& [factor, disc] : discs)
-    for (int b = 0; b < lattice.height; ++b)
-      for (int a = 0; a < lattice.width; ++a) limit.raise(a, b, disc.at(a / factor, b / factor));
+    for (int b = 0; b < lattice.height; ++b) {
+      const float* from = &disc.heights[disc.lattice.index(0, b / factor)];
+      float* to = &limit.heights[lattice.index(0, b)];
+      for (int a = 0; a < lattice.width; a += factor, ++from)
+        for (int fine = a; fine < std::min(a + factor, lattice.width); ++fine) to[fine] = std::max(to[fine], *from);
+    }
   return limit;
 }
 
