@@ -22,8 +22,8 @@ struct FollowedMill {
   }
 };
 
-/// How far the body above the cutter may stray: maps grow it by so much.
-inline constexpr double body_stray_m = 2e-4;
+/// How far the body above the cutter may stray, and how far maps keep it off.
+inline constexpr double body_stray_m = 2e-4, body_margin_m = body_stray_m + 1e-4;
 
 /// From where the tip is at `from`. `direction`: the number of the field's direction in the plan. Depends on its
 /// arguments only; any thread.

@@ -12,8 +12,6 @@ namespace {
 
 /// Lattices for what is above the cutter: cells of its radius, and no finer than this.
 constexpr double reach_cells_a_radius = 8, finest_reach_cell_m = 8e-4;
-/// The body keeps that much more off than it may stray.
-constexpr double body_room_m = 1e-4;
 /// Of the tolerance: a nail counts as reached where the cutter would leave no more, the allowance aside.
 constexpr double reached_share = 1.0 / 3;
 /// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
@@ -54,9 +52,8 @@ NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, const
 
 Site& NailReach::site(std::size_t direction) {
   if (!sites_[direction])
-    sites_[direction] =
-        carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_stray_m + body_room_m},
-                          std::max(finest_reach_cell_m, radius_m_ / reach_cells_a_radius));
+    sites_[direction] = carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_margin_m},
+                                          std::max(finest_reach_cell_m, radius_m_ / reach_cells_a_radius));
   return *sites_[direction];
 }
 

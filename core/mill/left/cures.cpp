@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/material/resolution.hpp"
 #include "core/mill/map/assembly.hpp"
@@ -30,6 +31,7 @@ constexpr int turns = 6;
 struct TriedTool {
   double radius_m = 0;
   std::vector<Ring> rings;  ///< what the tool has that is thicker than the cutter; empty: whatever is needed
+  std::vector<Ring> body;   ///< the same, and a neck no thicker than the cutter
   double holder_m = 0;      ///< radius of the thickest part of its own
 };
 
@@ -84,6 +86,14 @@ std::vector<Vec3> tips_at(const Sight& view, const Vec3& point, double radius_m,
   return tips;
 }
 
+/// The same, exactly against the part, of a body so much thicker.
+bool is_clear_by(const Sight& view, const TriedTool& tool, const Vec3& tip, double more_m) {
+  return std::ranges::all_of(tool.body, [&](const Ring& ring) {
+    const double radius = ring.radius_m + more_m, middle = tip.z() + ring.height_m + radius;
+    return view.part->rest_height(tip.x(), tip.y(), radius, middle, middle) <= middle;
+  });
+}
+
 class CureSearch {
  public:
   CureSearch(const MillJob& job, PartViews& views, const RunContext& run) : job_(job), run_(run) {
@@ -94,7 +104,8 @@ class CureSearch {
     });
     for (auto& view : made) views_.push_back(std::move(*view));
     for (const MillTool& tool : job.tools) {
-      TriedTool own{tool.cutter.radius_m, make_assembly(job.cell, tool).rings, tool.cutter.radius_m};
+      TriedTool own{tool.cutter.radius_m, make_assembly(job.cell, tool).rings, {}, tool.cutter.radius_m};
+      own.body = own.rings;
       // What is no thicker than the cutter goes where that does.
       std::erase_if(own.rings, [&](const Ring& ring) { return ring.radius_m <= tool.cutter.radius_m; });
       for (const HolderSection& section : tool.body)
@@ -103,7 +114,7 @@ class CureSearch {
     }
     std::ranges::stable_sort(own_, std::ranges::greater{}, &TriedTool::radius_m);
     for (const double diameter : thinner_m)
-      if (diameter < 2 * own_.back().radius_m) thinner_.push_back({diameter / 2, {}, own_.back().holder_m});
+      if (diameter < 2 * own_.back().radius_m) thinner_.push_back({diameter / 2, {}, {}, own_.back().holder_m});
   }
 
   Cure cure_of(Voxel voxel) const {
@@ -125,16 +136,33 @@ class CureSearch {
   }
 
  private:
-  /// With the least length that it needs to be free; nothing where the ball cannot be.
+  /// With the least length that it needs to be free, or the least resolution where its own is enough; nothing where the
+  /// ball cannot be.
   std::optional<Cure> try_tool(const TriedTool& tool, const Vec3& centre) const {
     std::optional<Cure> best;
     for (const Sight& view : views_)
       for (const Vec3& tip : tips_at(view, view.frame.of(centre), tool.radius_m, job_.wishes.allowance_m)) {
-        if (!tool.rings.empty() && has_room(view, tool, tip)) return Cure{Obstacle::way, 2 * tool.radius_m, 0, 0};
-        const double free = std::max(0.0, top_within(view.solid, tip, tool.holder_m) - tip.z());
-        if (!best || free < best->free_m) best = Cure{Obstacle::length, 2 * tool.radius_m, free, 0};
+        Cure cure{Obstacle::way, 2 * tool.radius_m};
+        if (!tool.rings.empty() && has_room(view, tool, tip))
+          cure.resolution = resolution_for(view, tool, tip);
+        else
+          cure.obstacle = Obstacle::length,
+          cure.free_m = std::max(0.0, top_within(view.solid, tip, tool.holder_m) - tip.z());
+        const auto rank = [](const Cure& each) { return std::tuple(each.obstacle, each.resolution, each.free_m); };
+        if (!best || rank(cure) < rank(*best)) best = cure;
+        if (rank(*best) == std::tuple(Obstacle::way, job_.grid.n, 0.0)) return best;
       }
     return best;
+  }
+
+  /// The least resolution at which the tool may go there. With two voxels in the cutter's radius its passes take whole
+  /// ones (of a bust D20 had room at 67 % of what was left at 32^3, at 1 % at 64^3); and as what is not wholly taken
+  /// stands, its body keeps a voxel off the part.
+  int resolution_for(const Sight& view, const TriedTool& tool, const Vec3& tip) const {
+    int n = job_.grid.n;
+    for (double voxel_m = job_.grid.voxel_m; n <= max_resolution; voxel_m /= 2, n *= 2)
+      if (2 * voxel_m <= tool.radius_m && is_clear_by(view, tool, tip, voxel_m)) break;
+    return n;
   }
 
   const MillJob& job_;
@@ -142,19 +170,6 @@ class CureSearch {
   std::vector<Sight> views_;
   std::vector<TriedTool> own_, thinner_;  ///< thick ones first
 };
-
-/// The least resolution with two voxels in the cutter's radius, so that its passes take whole ones: what is not wholly
-/// taken stands, and keeps its body off (of a bust D20 had room at 67 % of what was left at 32^3, at 1 % at 64^3).
-/// 0: that of the grid, or there is none.
-int finer_resolution(const Grid& grid, double radius_m) {
-  int n = grid.n;
-  double voxel_m = grid.voxel_m;
-  for (; 2 * voxel_m > radius_m; voxel_m /= 2) {
-    n *= 2;
-    if (n > max_resolution) return 0;
-  }
-  return n == grid.n ? 0 : n;
-}
 
 std::vector<Voxel> chosen_of(const VoxelSet& left) {
   std::vector<Voxel> all, chosen;
@@ -172,17 +187,18 @@ std::vector<Cure> find_cures(const MillJob& job, const VoxelSet& left, PartViews
   const CureSearch search(job, views, run);
   std::vector<Cure> found(chosen.size());
   run.helpers.for_each_index(chosen.size(), [&](std::size_t at) { found[at] = search.cure_of(chosen[at]); });
-  // Of each kind one that is long enough for all of it.
-  std::map<std::pair<Obstacle, double>, Cure> kinds;
-  for (const Cure& cure : found) {
-    Cure& kind = kinds.try_emplace({cure.obstacle, cure.diameter_m}, cure).first->second;
+  // Of each kind one that is long and fine enough for all of it.
+  std::map<std::tuple<Obstacle, double, bool>, Cure> kinds;
+  for (Cure cure : found) {
+    if (cure.resolution == job.grid.n || cure.resolution > max_resolution) cure.resolution = 0;
+    Cure& kind = kinds.try_emplace({cure.obstacle, cure.diameter_m, cure.resolution > 0}, cure).first->second;
     kind.free_m = std::max(kind.free_m, cure.free_m);
+    kind.resolution = std::max(kind.resolution, cure.resolution);
     kind.share += 1 / static_cast<double>(chosen.size());
   }
   std::vector<Cure> cures;
   for (auto& [key, cure] : kinds) {
     cure.free_m = std::ceil(1e3 * cure.free_m) / 1e3;
-    if (cure.obstacle == Obstacle::way) cure.resolution = finer_resolution(job.grid, cure.diameter_m / 2);
     cures.push_back(cure);
   }
   std::ranges::stable_sort(cures, std::ranges::greater{}, &Cure::share);

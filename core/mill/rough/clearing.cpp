@@ -147,13 +147,12 @@ LevelWay Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) 
   return best;
 }
 
-/// The highest place that the cutter meets along it.
+/// The highest place that the cutter takes off along it.
 double Clearing::top_along(const LevelRow& row) const {
-  float top = static_cast<float>(task_.height);
+  double top = task_.height;
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at)
-    for_each_cell_near(lattice_, at_level(row.points[at]), at_level(row.points[at + 1]), task_.tool.cutter.radius_m,
-                       [&](int a, int b) { top = std::max(top, surface_.map().at(a, b)); });
-  return static_cast<double>(top);
+    top = std::max(top, surface_.highest(at_level(row.points[at]), at_level(row.points[at + 1])).value_or(top));
+  return top;
 }
 
 /// Where nothing is open: from the top of what stands down along it, as deep each time as a slot may be.

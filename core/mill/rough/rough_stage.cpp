@@ -7,14 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "core/mill/drive/hop.hpp"
+#include "core/mill/drive/mill_follow.hpp"
 #include "core/mill/rough/roughing.hpp"
 
 namespace sculpt {
 namespace {
 
 /// Lattices: cells of a cutter's radius, and no finer than this.
-constexpr double cells_a_radius = 12, finest_cell_m = 4e-4;
+constexpr double cells_a_radius = 12, finest_cell_m = 2.5e-4;
 /// Of a cutter's radius, left by roughing.
 constexpr double rough_share = 0.03;
 /// A direction is worth its while from this share of the stock's volume on; to a ball, which takes off less than that
@@ -25,6 +25,8 @@ constexpr int samples_along = 64;
 constexpr int max_failures = 12;
 /// What is less uneven is flat.
 constexpr double flat_m = 1e-4;
+/// Of depth times width of cut, what a level must give: where no other tool comes after this one, and at most.
+constexpr double least_engagement = 0.1, most_engagement = 0.3;
 /// Of rows over one level: a rib that is left stands the higher the deeper the levels beside it, until no row may take
 /// it off any more.
 constexpr int max_rounds = 3;
@@ -46,7 +48,15 @@ class RoughStage {
   const MillTool& tool() const { return carver_.tool(); }
   double stray_m() const { return job_.wishes.stray_m(); }
   double step_m() const { return std::max(finest_cell_m, tool().cutter.radius_m / cells_a_radius); }
-  SiteMargins margins() const { return {rough_share * tool().cutter.radius_m + stray_m(), air_clearance_m / 2}; }
+  /// What a later tool would take off in the same time, if it had as much before it as it may take.
+  double min_engagement() const {
+    const auto rate = [](const MillTool& each) { return each.max_depth_m * each.max_width_m * each.feed_m_s; };
+    double later = 0;
+    for (auto each = job_.tools.rbegin(); each != job_.tools.rend() && each->name != tool().name; ++each)
+      later = std::max(later, rate(*each));
+    return std::clamp(later / rate(tool()), least_engagement, most_engagement);
+  }
+  SiteMargins margins() const { return {rough_share * tool().cutter.radius_m + stray_m(), body_margin_m}; }
 
   /// Of each direction which of some voxels that are to be removed the tool comes to.
   void find_prospects() {
@@ -164,9 +174,9 @@ class RoughStage {
     std::array min_heights{height, carver_.hub().z()};
     bool is_drawn_back = false;
     for (int rounds = 0, failures = 0; rounds < max_rounds && failures < max_failures;) {
-      const auto [strokes, is_cut_off] =
-          rough_level(site, {tool(), height, free, wanted, cube_margin_m(stray_m(), job_.grid.voxel_m)},
-                      {carver_.tip(site), min_heights, stray_m(), reachable}, surface, run_.helpers);
+      const auto [strokes, is_cut_off] = rough_level(
+          site, {tool(), height, free, wanted, cube_margin_m(stray_m(), job_.grid.voxel_m), min_engagement()},
+          {carver_.tip(site), min_heights, stray_m(), reachable}, surface, run_.helpers);
       if (strokes.empty()) {
         if (!is_cut_off || std::exchange(is_drawn_back, true)) return;
         carver_.draw_back(site);  // from above everything it may come there

@@ -14,8 +14,6 @@ namespace {
 
 /// What a way through the air costs beside one that cuts.
 constexpr double air_share = 0.5;
-/// Of depth times width of cut, by the length of all ways: a level that takes off less is left.
-constexpr double min_engagement = 0.3;
 
 }  // namespace
 
@@ -95,6 +93,18 @@ LevelPlan plan_level(const Site& site, const RoughLevel& level, const std::vecto
   return plan;
 }
 
+/// Of the places where the tip would take something off at a level: at how many does it go deeper afterwards? What is
+/// left there keeps it from all that is below.
+double lid_share(const Site& site, const RoughLevel& level, const std::vector<char>& stands) {
+  int all = 0, lids = 0;
+  for (std::size_t at = 0; at < stands.size(); ++at) {
+    if (!stands[at] || !level.wanted[at]) continue;
+    ++all;
+    lids += site.lowest_tip(at) <= level.height - level.tool.max_depth_m;
+  }
+  return all > 0 ? static_cast<double>(lids) / all : 0;
+}
+
 }  // namespace
 
 LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelWays& ways, StockTop& surface,
@@ -110,7 +120,8 @@ LevelStrokes rough_level(const Site& site, const RoughLevel& level, const LevelW
   });
   const auto best = std::ranges::max_element(
       plans, {}, [](const LevelPlan& plan) { return plan.strokes.empty() ? 0 : plan.taken_m3 / plan.length_m; });
-  if (best->taken_m3 < min_engagement * level.tool.max_depth_m * level.tool.max_width_m * best->length_m)
+  const double enough = (1 - lid_share(site, level, cells.marked)) * level.min_engagement;
+  if (best->taken_m3 < enough * level.tool.max_depth_m * level.tool.max_width_m * best->length_m)
     return {{}, best->is_cut_off};
   surface = std::move(left[static_cast<std::size_t>(best - plans.begin())]);
   return {std::move(best->strokes), best->is_cut_off};

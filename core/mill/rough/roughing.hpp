@@ -28,6 +28,7 @@ struct RoughLevel {
   const std::vector<char>& is_free;  ///< by cell: may the tip be there?
   const std::vector<char>& wanted;   ///< those of them where it is to take off what it can
   double seam_m = 0;                 ///< as `ClearingTask`
+  double min_engagement = 0;         ///< of depth times width of cut, by the length of all ways: else it is left
 };
 
 /// Where the robot can hold the tip (tool frame). Any thread.

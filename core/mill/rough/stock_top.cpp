@@ -71,6 +71,16 @@ double StockTop::volume(const Vec3& from, const Vec3& to) const {
   return heights * map_.lattice.step * map_.lattice.step;
 }
 
+std::optional<double> StockTop::highest(const Vec3& from, const Vec3& to) const {
+  float highest = no_height;
+  for_each_row(from, to, [&](std::size_t at, const Eigen::ArrayXf& left) {
+    for (Eigen::Index cell = 0; cell < left.size(); ++cell)
+      if (const float top = map_.heights[at + static_cast<std::size_t>(cell)]; top > left[cell])
+        highest = std::max(highest, top);
+  });
+  return highest > no_height ? std::optional(static_cast<double>(highest)) : std::nullopt;
+}
+
 double StockTop::cut(const Vec3& from, const Vec3& to) {
   double heights = 0;
   for_each_row(from, to, [&](std::size_t at, const Eigen::ArrayXf& left) {

@@ -1,6 +1,8 @@
 // The stock from above as roughing planner sees it, and what a straight motion of a cutter takes off it.
 #pragma once
 
+#include <optional>
+
 #include "core/cell/milling/mill_tool.hpp"
 #include "core/mill/map/height_map.hpp"
 
@@ -20,6 +22,8 @@ class StockTop {
 
   /// Volume (m^3) that the cutter takes off on the way from one tip to the other (tool frame).
   double volume(const Vec3& from, const Vec3& to) const;
+  /// The highest place that it takes off there; nothing where that is none.
+  std::optional<double> highest(const Vec3& from, const Vec3& to) const;
   /// Takes it off, and says how much it was (m^3).
   double cut(const Vec3& from, const Vec3& to);
 

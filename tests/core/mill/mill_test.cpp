@@ -10,13 +10,17 @@
 #include "core/trajectory/reader.hpp"
 #include "core/trajectory/writer.hpp"
 #include "tests/core/mill/milled_plan.hpp"
+#include "tests/core/mill/solids.hpp"
 
 namespace sculpt {
 namespace {
 
 namespace fs = std::filesystem;
 
+using milled::height_field;
+using milled::lines_with_steps;
 using milled::make_job;
+using milled::make_job_of;
 using milled::read;
 using milled::scratch;
 
@@ -160,58 +164,19 @@ TEST(MillReplay, AGougeIsFound) {
   EXPECT_FALSE(verdict.clean);
 }
 
-/// A block of 50 mm with one height over each square of an uneven grid, as binary STL.
-std::string make_steps(const std::vector<float>& at, const std::function<float(float, float)>& height) {
-  std::string bytes(84, '\0');
-  const auto add = [&](const std::array<std::array<float, 3>, 3>& corners) {
-    bytes.append(12, '\0');
-    for (const auto& corner : corners) bytes.append(reinterpret_cast<const char*>(corner.data()), 12);
-    bytes.append(2, '\0');
-  };
-  const std::size_t last = at.size() - 1;
-  const auto top = [&](std::size_t i, std::size_t j) { return std::array{at[i], at[j], height(at[i], at[j])}; };
-  const auto low = [&](std::size_t i, std::size_t j) { return std::array{at[i], at[j], 0.0F}; };
-  for (std::size_t i = 0; i < last; ++i) {
-    for (std::size_t j = 0; j < last; ++j) {
-      add({top(i, j), top(i + 1, j), top(i + 1, j + 1)});
-      add({top(i, j), top(i + 1, j + 1), top(i, j + 1)});
-      add({low(i, j), low(i + 1, j + 1), low(i + 1, j)});
-      add({low(i, j), low(i, j + 1), low(i + 1, j + 1)});
-    }
-    add({low(i, 0), low(i + 1, 0), top(i + 1, 0)});
-    add({low(i, 0), top(i + 1, 0), top(i, 0)});
-    add({low(i + 1, last), low(i, last), top(i, last)});
-    add({low(i + 1, last), top(i, last), top(i + 1, last)});
-    add({low(0, i + 1), low(0, i), top(0, i)});
-    add({low(0, i + 1), top(0, i), top(0, i + 1)});
-    add({low(last, i), low(last, i + 1), top(last, i + 1)});
-    add({low(last, i), top(last, i + 1), top(last, i)});
-  }
-  const auto count = static_cast<std::uint32_t>((bytes.size() - 84) / 50);
-  std::memcpy(bytes.data() + 80, &count, 4);
-  return bytes;
-}
-
 TEST(Mill, UprightWallsAreNotCut) {
   // A slot of 8 mm (a path of the D6 once lay just between two rows of cells, which nobody looked at); two pockets with
   // 1 mm between them, where a row over a floor once took too much at a time.
-  const auto slot = [](float x, float) { return std::abs(x - 25) > 4 ? 50.0F : 20.0F; };
-  const auto pockets = [](float x, float y) {
-    const bool inside = std::abs(y - 25) < 15 && (std::abs(x - 12.5F) < 8 || std::abs(x - 30) < 8.5F);
-    return inside ? 30.0F : 50.0F;
+  const auto slot = [](double x, double) { return std::abs(x - 25) > 4 ? 50.0 : 20.0; };
+  const auto pockets = [](double x, double y) {
+    const bool inside = std::abs(y - 25) < 15 && (std::abs(x - 12.5) < 8 || std::abs(x - 30) < 8.5);
+    return inside ? 30.0 : 50.0;
   };
-  const auto grid = [](std::vector<float> steps) {
-    std::vector<float> at{0, 50};
-    for (const float step : steps) at.insert(at.end(), {step - 1e-3F, step + 1e-3F});
-    for (int line = 1; line < 25; ++line) at.push_back(2.0F * static_cast<float>(line) + 0.1F);
-    std::ranges::sort(at);
-    return at;
-  };
-  for (const auto& [name, bytes] : {std::pair{"slot", make_steps(grid({21, 29}), slot)},
-                                    std::pair{"pockets", make_steps(grid({4.5, 20.5, 21.5, 38.5, 10, 40}), pockets)}}) {
+  for (const auto& [name, bytes] :
+       {std::pair{"slot", height_field(lines_with_steps(50, {21, 29}), slot)},
+        std::pair{"pockets", height_field(lines_with_steps(50, {4.5, 20.5, 21.5, 38.5, 10, 40}), pockets)}}) {
     SCOPED_TRACE(name);
-    Job job = make_job("bust", 64, {"D12", "D6"});
-    job.mesh = {bytes, "stl", std::string(name) + ".stl"};
+    const Job job = make_job_of(bytes, 64, {"D12", "D6"});
     const fs::path file = scratch(name);
     const JobResult result = run_job(job, file, {});
     fs::remove(file);
@@ -226,17 +191,9 @@ TEST(Mill, UprightWallsAreNotCut) {
 TEST(Mill, AFlatCutterRoughsPocketsAndWhatIsFlat) {
   // A plate of 34 mm, between two levels, with a pocket that is open above only. Where two rows met nothing was swept
   // whole by one of them, and counted as standing for ever; the neck kept off it.
-  const auto plate = [](float x, float y) { return std::abs(x - 25) < 15 && std::abs(y - 25) < 12 ? 20.0F : 34.0F; };
-  std::vector<float> lines{0, 50};
-  for (const float step : {10.0F, 13.0F, 37.0F, 40.0F}) lines.insert(lines.end(), {step - 1e-3F, step + 1e-3F});
-  for (int line = 1; line < 25; ++line) lines.push_back(2.0F * static_cast<float>(line) + 0.1F);
-  std::ranges::sort(lines);
-  Job job = make_job("bust", 32, {"D12"});
-  job.mesh = {make_steps(lines, plate), "stl", "plate.stl"};
-  auto library = nlohmann::json::parse(job.mill->library.json);
-  for (auto& tool : library["tools"])
-    if (tool["name"] == "D12") tool["cutter"]["kind"] = "flat";
-  job.mill->library.json = library.dump();
+  const auto plate = [](double x, double y) { return std::abs(x - 25) < 15 && std::abs(y - 25) < 12 ? 20.0 : 34.0; };
+  Job job = make_job_of(height_field(lines_with_steps(50, {10, 13, 37, 40}), plate), 32, {"D12"});
+  milled::change_tool(job, "D12", R"({"cutter": {"kind": "flat"}})");
   const fs::path file = scratch("flat");
   const JobResult result = run_job(job, file, {});
   fs::remove(file);

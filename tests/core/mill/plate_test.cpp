@@ -10,22 +10,19 @@
 //   +--------------------+
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <numbers>
 
-#include "core/plan/intake.hpp"
-#include "core/verify/mill/machined_surface.hpp"
 #include "tests/core/mill/milled_plan.hpp"
+#include "tests/core/mill/solids.hpp"
 
 namespace sculpt {
 namespace {
 
-namespace fs = std::filesystem;
+using milled::Milled;
+using milled::Moved;
+using milled::share_within;
 
 constexpr double side_mm = 50, top_mm = 40, cells_a_mm = 2, radius_mm = 3, tolerance_mm = 0.3;
 constexpr double bowl_x = 13, bowl_y = 36, bowl_mm = 10, groove_x = 37, groove_depth_mm = 6;
@@ -44,97 +41,23 @@ double height(double x, double y) {
   return in_pockets || in_slot ? top_mm - pocket_depth_mm : top_mm;
 }
 
-/// As a binary STL, mm: the top over a lattice, sides and bottom plain.
-std::string plate() {
-  std::string triangles;
-  std::uint32_t count = 0;
-  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    std::array<float, 12> numbers{};
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        numbers[3 + 3 * corner + axis] = static_cast<float>((corner == 0   ? a
-                                                             : corner == 1 ? b
-                                                                           : c)[static_cast<int>(axis)]);
-    triangles.append(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers));
-    triangles.append(2, '\0');
-    ++count;
-  };
-  const int n = static_cast<int>(side_mm * cells_a_mm);
-  const auto top = [&](int i, int j) {
-    const double x = i / cells_a_mm, y = j / cells_a_mm;
-    return Vec3(x, y, height(x, y));
-  };
-  const auto floor = [&](int i, int j) { return Vec3(i / cells_a_mm, j / cells_a_mm, 0); };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      add(top(i, j), top(i + 1, j), top(i + 1, j + 1));
-      add(top(i, j), top(i + 1, j + 1), top(i, j + 1));
-      add(floor(i, j), floor(i + 1, j + 1), floor(i + 1, j));
-      add(floor(i, j), floor(i, j + 1), floor(i + 1, j + 1));
-    }
-  for (int at = 0; at < n; ++at)
-    for (const auto& [a, b] : {std::pair{std::array{at, 0}, std::array{at + 1, 0}},
-                               {std::array{n, at}, {n, at + 1}},
-                               {std::array{at + 1, n}, {at, n}},
-                               {std::array{0, at + 1}, {0, at}}}) {
-      add(floor(a[0], a[1]), floor(b[0], b[1]), top(b[0], b[1]));
-      add(floor(a[0], a[1]), top(b[0], b[1]), top(a[0], a[1]));
-    }
-  std::string stl(80, ' ');
-  stl.append(reinterpret_cast<const char*>(&count), sizeof(count));
-  return stl + triangles;
-}
-
-struct Milled {
-  Job job;
-  JobResult result;
-  MachinedSurface surface;
-};
-const Milled& milled() {
-  static const Milled milled = [] {
-    Milled made{milled::make_job("bust", 32, {"D6"}), {}, {}};
-    made.job.mesh = {plate(), "stl", "plate.stl"};
-    made.job.mill->tolerance_m = tolerance_mm / 1000;
-    made.job.threads = 2;
-    const fs::path file = milled::scratch("plate.ndjson");
-    made.result = run_job(made.job, file, {});
-    const Grid grid = parse_cell(made.job.cell).grid(made.job.resolution);
-    JobShapes shapes(made.job);
-    Mesh part = shapes.place_part(grid, {});
-    std::ifstream plan(file, std::ios::binary);
-    made.surface = machined_surface(plan, std::move(part), std::move(shapes).take_voxels(grid, {}), grid, {});
-    fs::remove(file);
-    return made;
+const Milled& plate() {
+  static const Milled plate = [] {
+    Job job =
+        milled::make_job_of(milled::height_field(side_mm, static_cast<int>(side_mm * cells_a_mm), height), 32, {"D6"});
+    job.mill->tolerance_m = tolerance_mm / 1000;
+    return milled::mill(std::move(job));
   }();
-  return milled;
+  return plate;
 }
 
-/// Where a vertex was moved to, and how far (mm, from the block's corner).
-struct Moved {
-  double x, y, z, excess;
-};
 /// What stands above those vertices that are meant, at the top of the plate.
 std::vector<double> excess_at(const std::function<bool(const Moved&)>& is_meant) {
-  const MachinedSurface& surface = milled().surface;
-  const Vec3 corner = parse_cell(milled().job.cell).grid(32).origin_m;
-  std::vector<double> found;
-  for (std::size_t vertex = 0; vertex < surface.excess_m.size(); ++vertex) {
-    const Vec3 at = 1000 * (surface.mesh.vertices[vertex] - corner);
-    const Moved moved{at.x(), at.y(), at.z(), 1000 * surface.excess_m[vertex]};
-    if (moved.z > top_mm / 2 && is_meant(moved)) found.push_back(moved.excess);
-  }
-  std::ranges::sort(found);
-  return found;
-}
-
-double share_within(const std::vector<double>& excess_mm, double most_mm) {
-  return static_cast<double>(std::ranges::upper_bound(excess_mm, most_mm) - excess_mm.begin()) /
-         static_cast<double>(excess_mm.size());
+  return milled::excess_at(plate(), [&](const Moved& at) { return at.z > top_mm / 2 && is_meant(at); });
 }
 
 TEST(Plate, IsCleanAndNothingIsCutTooDeep) {
-  const Report& report = milled().result.report;
-  for (const std::string& finding : report.findings) std::cout << finding << "\n";
+  const Report& report = plate().result.report;
   EXPECT_TRUE(report.verify.clean);
   ASSERT_TRUE(report.surface);
   EXPECT_EQ(report.surface->gouged_points, 0u);
@@ -188,7 +111,7 @@ TEST(Plate, TheSlotThatIsTooThinIsLeftAndTheReportNamesTheCutter) {
   ASSERT_GT(slot.size(), 20u);
   EXPECT_GT(slot.front(), left_mm - 0.002) << "the ball does not go in";
   EXPECT_LT(slot.back(), left_mm + tolerance_mm + voxel_mm) << "but as deep as it can";
-  const auto& cures = milled().result.report.cures;
+  const auto& cures = plate().result.report.cures;
   EXPECT_TRUE(std::ranges::any_of(
       cures, [](const Cure& cure) { return cure.obstacle == Obstacle::radius && cure.diameter_m < 2e-3 * radius_mm; }));
 }

@@ -63,13 +63,13 @@ TEST(Cures, AToolThatFitsHadNoWay) {
   ASSERT_EQ(cures.size(), 1U);
   EXPECT_EQ(cures[0].obstacle, Obstacle::way);
   EXPECT_DOUBLE_EQ(cures[0].diameter_m, 0.006);
-  // A radius of 3 mm has fewer than two voxels of 100 / 64 mm.
-  EXPECT_EQ(cures[0].resolution, 128);
-  EXPECT_NE(cures[0].sentence().find("a resolution of 128 or more"), std::string::npos) << cures[0].sentence();
+  // Its shank has 1 mm of room on each side, less where it does not go just in the middle, and keeps a voxel off.
+  EXPECT_EQ(cures[0].resolution, 256);
+  EXPECT_NE(cures[0].sentence().find("a resolution of 256 or more"), std::string::npos) << cures[0].sentence();
 }
 
 TEST(Cures, NoFinerVoxelsAreAskedForWhereTheyAreFineEnough) {
-  const std::vector<Cure> cures = cures_in(slotted(0.024, false), {"D20", "D12"});
+  const std::vector<Cure> cures = cures_in(slotted(0.024, false), {"D12"});
   ASSERT_EQ(cures.size(), 1U);
   EXPECT_EQ(cures[0].obstacle, Obstacle::way);
   EXPECT_EQ(cures[0].resolution, 0);
