@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mill/finish/curtain.hpp"
+#include "core/mill/finish/seen_from_above.hpp"
 #include "core/mill/map/float_bound.hpp"
 
 namespace sculpt {
@@ -12,19 +14,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells: about so many facets each, and at most so many along a side.
 constexpr double facets_a_cell = 4, max_along = 1024;
-constexpr double upright = 1e-9;
 /// More than coordinates of a stock are rounded by.
 constexpr double rounding_m = 1e-9;
-
-double turn(const Vec3& a, const Vec3& b, double u, double v) {
-  return (b.x() - a.x()) * (v - a.y()) - (b.y() - a.y()) * (u - a.x());
-}
-
-/// In plan: is (u, v) inside of the triangle?
-bool covers(const std::array<Vec3, 3>& t, double u, double v) {
-  const double x = turn(t[0], t[1], u, v), y = turn(t[1], t[2], u, v), z = turn(t[2], t[0], u, v);
-  return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
-}
 
 /// Height of a ball's middle over (u, v) that rests on a point; `height` where that is higher.
 double over_corner(const Vec3& corner, double u, double v, double r2, double height) {
@@ -50,92 +41,10 @@ double over_edge(const Vec3& a, const Vec3& b, double u, double v, double r2, do
   return share < 0 || share > length2 ? height : std::max(height, a.z() + z);
 }
 
-double segment_distance2(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
-  const Vec3 r = p - q;
-  const double a = d.squaredNorm(), b = e.squaredNorm(), c = d.dot(r), f = e.dot(r), g = d.dot(e);
-  double s = 0;
-  if (a > 0) {
-    const double denominator = a * b - g * g;
-    s = denominator > 1e-15 * a * b ? std::clamp((g * f - c * b) / denominator, 0.0, 1.0) : 0;
-  }
-  const double t = b > 0 ? std::clamp((g * s + f) / b, 0.0, 1.0) : 0;
-  if (a > 0) s = std::clamp((g * t - c) / a, 0.0, 1.0);
-  return (r + s * d - t * e).squaredNorm();
-}
-
 /// How far a value is outside of a range.
 double outside(double value, double low, double high) {
   return std::max({0.0, low - value, value - high});
 }
-
-/// Between two points in plan.
-double plan_distance2(const Vec3& a, const Vec3& b) {
-  return (a - b).head<2>().squaredNorm();
-}
-
-/// From the upright ray that begins at `from` to an edge, where the edge is higher than that.
-double ray_distance2(const Vec3& from, const Vec3& a, const Vec3& b) {
-  const double du = b.x() - a.x(), dv = b.y() - a.y(), length2 = du * du + dv * dv;
-  const double t =
-      length2 > 0 ? std::clamp(((from.x() - a.x()) * du + (from.y() - a.y()) * dv) / length2, 0.0, 1.0) : 1;
-  const Vec3 at = a + t * (b - a);
-  return at.z() >= from.z() ? plan_distance2(at, from) : infinity;
-}
-
-/// What is above a straight way: all points (from + t way) + (0, 0, s), s >= 0.
-class Curtain {
- public:
-  Curtain(const Vec3& from, const Vec3& to) : from_(from), way_(to - from), plan2_(way_.head<2>().squaredNorm()) {
-    if (plan2_ < 1e-20) {  // upright: the ray from its lower end
-      if (way_.z() < 0) from_ = to;
-      way_.setZero();
-      plan2_ = 0;
-    }
-  }
-
-  bool is_nearer(const std::array<Vec3, 3>& t, const Vec3& normal, double distance2) const {
-    const Vec3 to = from_ + way_;
-    for (std::size_t at = 0; at < 3; ++at) {
-      const Vec3 &a = t[at], &b = t[(at + 1) % 3];
-      if (segment_distance2(from_, way_, a, b - a) < distance2) return true;
-      if (ray_distance2(from_, a, b) < distance2 || above_distance2(a) < distance2) return true;
-      if (plan2_ > 0 && (ray_distance2(to, a, b) < distance2 || crosses(a, b))) return true;
-    }
-    return is_near_inside(from_, t, normal, distance2) || (plan2_ > 0 && is_near_inside(to, t, normal, distance2));
-  }
-
- private:
-  /// Straight across, of a point that is above the way.
-  double above_distance2(const Vec3& point) const {
-    if (plan2_ == 0) return infinity;
-    const double du = point.x() - from_.x(), dv = point.y() - from_.y();
-    const double along = du * way_.x() + dv * way_.y();
-    if (along < 0 || along > plan2_ || (point.z() - from_.z()) * plan2_ < along * way_.z()) return infinity;
-    const double side = du * way_.y() - dv * way_.x();
-    return side * side / plan2_;
-  }
-  bool crosses(const Vec3& a, const Vec3& b) const {
-    const auto side = [&](const Vec3& p) { return (p.x() - from_.x()) * way_.y() - (p.y() - from_.y()) * way_.x(); };
-    const double first = side(a), second = side(b);
-    if ((first > 0) == (second > 0)) return false;
-    return above_distance2(a + (b - a) * (first / (first - second))) < infinity;
-  }
-  /// From an end, straight onto the inside of the triangle; or the triangle is above the end.
-  bool is_near_inside(const Vec3& end, const std::array<Vec3, 3>& t, const Vec3& normal, double distance2) const {
-    const double off = normal.dot(end - t[0]);
-    if (off * off < distance2) {
-      const Vec3 foot = end - off * normal;
-      bool inside = true;
-      for (std::size_t at = 0; at < 3 && inside; ++at)
-        inside = (t[(at + 1) % 3] - t[at]).cross(foot - t[at]).dot((t[1] - t[0]).cross(t[2] - t[0])) >= 0;
-      if (inside) return true;
-    }
-    return normal.z() > upright && off <= 0 && covers(t, end.x(), end.y());
-  }
-
-  Vec3 from_, way_;
-  double plan2_;
-};
 
 }  // namespace
 
@@ -247,47 +156,64 @@ double FacetColumns::rest_height(double u, double v, double radius, double from,
   return height;
 }
 
+/// A straight way as seen from above.
+class FacetColumns::PlanWay {
+ public:
+  /// Coordinates of the first cell's corner.
+  PlanWay(const Vec3& from, const Vec3& to) : low_(from.cwiseMin(to).head<2>()), high_(from.cwiseMax(to).head<2>()) {
+    const Point2 way = (to - from).head<2>();
+    if (const double length = way.norm(); length > 0) across_ = Point2(-way.y(), way.x()) / length;
+    begin_ = across_.dot(from.head<2>());
+  }
+
+  /// Of the box around a facet: no farther than this (m^2).
+  double distance2(const Listed& facet) const {
+    const double off_u = std::max({0.0, facet.low_u - high_.x(), low_.x() - facet.high_u}),
+                 off_v = std::max({0.0, facet.low_v - high_.y(), low_.y() - facet.high_v});
+    const double middle =
+                     across_.x() * (facet.low_u + facet.high_u) / 2 + across_.y() * (facet.low_v + facet.high_v) / 2,
+                 half = std::abs(across_.x()) * (facet.high_u - facet.low_u) / 2 +
+                        std::abs(across_.y()) * (facet.high_v - facet.low_v) / 2;
+    const double aside = std::max(0.0, std::abs(middle - begin_) - half);
+    return std::max(off_u * off_u + off_v * off_v, aside * aside);
+  }
+
+ private:
+  Point2 low_, high_, across_ = Point2::Zero();
+  double begin_ = 0;  ///< across the way, where that is
+};
+
 bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) const {
   const Curtain curtain(from, to);
+  const PlanWay plan(from - Vec3(low_u_, low_v_, 0), to - Vec3(low_u_, low_v_, 0));
   const double r2 = radius * radius, lowest = std::min(from.z(), to.z());
-  const double low_u = std::min(from.x(), to.x()), high_u = std::max(from.x(), to.x());
-  const double low_v = std::min(from.y(), to.y()), high_v = std::max(from.y(), to.y());
   const double beyond = radius + rounding_m, beyond2 = beyond * beyond;
-  const auto lower_of = [](const Vec3& n, const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b) ? a : b; };
-  const Vec3 way = to - from;
-  const double length = way.head<2>().norm();
-  const Point2 across = length > 0 ? Point2(-way.y() / length, way.x() / length) : Point2::Zero();
-  const double begin_across = across.dot(from.head<2>() - Point2(low_u_, low_v_));
-  // In plan, of the box around a facet from the way: no farther than this.
-  const auto plan_off2 = [&](const Listed& facet) {
-    const double off_u = std::max({0.0, facet.low_u - (high_u - low_u_), low_u - low_u_ - facet.high_u}),
-                 off_v = std::max({0.0, facet.low_v - (high_v - low_v_), low_v - low_v_ - facet.high_v});
-    const double middle = across.x() * (facet.low_u + facet.high_u) / 2 + across.y() * (facet.low_v + facet.high_v) / 2,
-                 half = std::abs(across.x()) * (facet.high_u - facet.low_u) / 2 +
-                        std::abs(across.y()) * (facet.high_v - facet.low_v) / 2;
-    const double aside = std::max(0.0, std::abs(middle - begin_across) - half);
-    return std::max(off_u * off_u + off_v * off_v, aside * aside);
+  const auto is_far = [&](const Listed& listed) {
+    const double off2 = plan.distance2(listed);
+    return off2 > beyond2 || (lowest > listed.top && (lowest - listed.top) * (lowest - listed.top) + off2 > beyond2);
+  };
+  // All of the way is above the facet's plane, and farther from it: normals look upwards.
+  const auto is_below = [&](const Facet& facet) {
+    const Vec3& n = facet.normal;
+    return std::min(n.dot(from), n.dot(to)) - n.dot(facet.corners[0]) > beyond;
   };
   bool clear = true;
+  const auto look = [&](std::size_t cell, double lift) {
+    for (std::uint32_t at = begin_[cell]; clear && at < begin_[cell + 1]; ++at) {
+      const Listed& listed = listed_[at];
+      if (listed.top + lift <= lowest) return;
+      const Facet& facet = facets_[listed.facet];
+      clear = is_far(listed) || is_below(facet) || !curtain.is_nearer(facet.corners, facet.normal, r2);
+    }
+  };
+  const double low_u = std::min(from.x(), to.x()), high_u = std::max(from.x(), to.x());
+  const double low_v = std::min(from.y(), to.y()), high_v = std::max(from.y(), to.y());
   for_each_cell(low_u - radius, high_u + radius, low_v - radius, high_v + radius,
                 [&](std::size_t cell, double cell_u, double cell_v) {
                   const double du = std::max({0.0, cell_u - high_u, low_u - cell_u - step_}),
                                dv = std::max({0.0, cell_v - high_v, low_v - cell_v - step_}),
                                left = r2 - du * du - dv * dv;
-                  if (left <= 0) return;
-                  const double lift = std::sqrt(left);
-                  for (std::uint32_t at = begin_[cell]; clear && at < begin_[cell + 1]; ++at) {
-                    const Listed& listed = listed_[at];
-                    if (listed.top + lift <= lowest) return;
-                    const double off2 = plan_off2(listed);
-                    if (off2 > beyond2) continue;
-                    if (lowest > listed.top && (lowest - listed.top) * (lowest - listed.top) + off2 > beyond2) continue;
-                    const Facet& facet = facets_[listed.facet];
-                    // All of it is above the facet's plane, and farther from it: normals look upwards.
-                    const Vec3& n = facet.normal;
-                    if (n.dot(lower_of(n, from, to) - facet.corners[0]) > beyond) continue;
-                    clear = !curtain.is_nearer(facet.corners, facet.normal, r2);
-                  }
+                  if (left > 0) look(cell, std::sqrt(left));
                 });
   return clear;
 }

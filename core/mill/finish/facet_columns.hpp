@@ -37,6 +37,7 @@ class FacetColumns {
     double top;
     std::uint32_t facet;
   };
+  class PlanWay;
   Listed listed(std::uint32_t facet) const;
   static double rest_on(const Facet& facet, double u, double v, double radius, double height);
   template <typename Visit>
