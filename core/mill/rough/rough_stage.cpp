@@ -26,7 +26,7 @@ constexpr int max_failures = 12;
 /// What is less uneven is flat.
 constexpr double flat_m = 1e-4;
 /// Of depth times width of cut, what a level must give: where no other tool comes after this one, and at most.
-constexpr double least_engagement = 0.1, most_engagement = 0.3;
+constexpr double least_engagement = 0.15, most_engagement = 0.3;
 /// Of rows over one level: a rib that is left stands the higher the deeper the levels beside it, until no row may take
 /// it off any more.
 constexpr int max_rounds = 3;
