@@ -75,9 +75,11 @@ FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
   low_v_ = all.min().y();
   width_ = static_cast<int>(u / step_) + 1;
   height_ = static_cast<int>(v / step_) + 1;
-  std::vector<std::uint32_t> order(facets_.size());
-  for (std::uint32_t at = 0; at < order.size(); ++at) order[at] = at;
-  std::ranges::stable_sort(order, std::ranges::greater{}, [this](std::uint32_t at) { return facets_[at].top; });
+  list_facets();
+}
+
+/// In each cell that they may be over, the highest first.
+void FacetColumns::list_facets() {
   begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
   const auto visit_cells = [&](const Facet& facet, const auto& visit) {
     const auto& c = facet.corners;
@@ -89,10 +91,13 @@ FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   listed_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (const std::uint32_t number : order) {
+  for (std::uint32_t number = 0; number < facets_.size(); ++number) {
     const Listed facet = listed(number);
     visit_cells(facets_[number], [&](std::size_t cell) { listed_[next[cell]++] = facet; });
   }
+  for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell)
+    std::sort(listed_.begin() + begin_[cell], listed_.begin() + begin_[cell + 1],
+              [](const Listed& a, const Listed& b) { return a.top != b.top ? a.top > b.top : a.facet < b.facet; });
 }
 
 FacetColumns::Listed FacetColumns::listed(std::uint32_t facet) const {

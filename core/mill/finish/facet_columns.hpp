@@ -38,6 +38,7 @@ class FacetColumns {
     std::uint32_t facet;
   };
   class PlanWay;
+  void list_facets();
   Listed listed(std::uint32_t facet) const;
   static double rest_on(const Facet& facet, double u, double v, double radius, double height);
   template <typename Visit>

@@ -94,15 +94,19 @@ bool is_clear_by(const Sight& view, const TriedTool& tool, const Vec3& tip, doub
   });
 }
 
+/// Whoever comes there at all, at a coarser resolution or shorter, before others.
+auto rank(const Cure& cure) {
+  return std::tuple(cure.obstacle, cure.resolution, cure.free_m);
+}
+
+void keep_better(std::optional<Cure>& best, const std::optional<Cure>& other) {
+  if (other && (!best || rank(*other) < rank(*best))) best = other;
+}
+
 class CureSearch {
  public:
-  CureSearch(const MillJob& job, PartViews& views, const RunContext& run) : job_(job), run_(run) {
-    const Mesh fixtures = fixture_mesh(job.cell);
-    std::vector<std::optional<Sight>> made(mill_directions().size());
-    run.helpers.for_each_index(made.size(), [&](std::size_t direction) {
-      made[direction].emplace(make_sight(job, direction, fixtures, views));
-    });
-    for (auto& view : made) views_.push_back(std::move(*view));
+  CureSearch(const MillJob& job, PartViews& views, const RunContext& run)
+      : job_(job), parts_(views), run_(run), fixtures_(fixture_mesh(job.cell)) {
     for (const MillTool& tool : job.tools) {
       TriedTool own{tool.cutter.radius_m, make_assembly(job.cell, tool).rings, {}, tool.cutter.radius_m};
       own.body = own.rings;
@@ -117,41 +121,76 @@ class CureSearch {
       if (diameter < 2 * own_.back().radius_m) thinner_.push_back({diameter / 2, {}, {}, own_.back().holder_m});
   }
 
-  Cure cure_of(Voxel voxel) const {
-    if (run_.watch.stop.stop_requested()) throw Cancelled{};
-    const Vec3 centre = job_.grid.centre(voxel);
-    std::optional<Cure> longer;
-    for (const TriedTool& tool : own_) {
-      const std::optional<Cure> cure = try_tool(tool, centre);
-      if (cure && cure->obstacle == Obstacle::way) return *cure;
-      if (cure && !longer) longer = cure;
-    }
-    if (longer) return *longer;
-    for (const TriedTool& tool : thinner_)
-      if (std::optional<Cure> cure = try_tool(tool, centre)) {
-        cure->obstacle = Obstacle::radius;
-        return *cure;
+  std::vector<Cure> cures_of(const std::vector<Voxel>& voxels) const {
+    std::vector<Cure> cures(voxels.size());
+    std::vector<Voxel> too_narrow;
+    std::vector<std::size_t> numbers;
+    const Found by_own = try_tools(own_, voxels);
+    for (std::size_t at = 0; at < voxels.size(); ++at) {
+      if (const auto cure = best_of_own(by_own[at])) {
+        cures[at] = *cure;
+      } else {
+        too_narrow.push_back(voxels[at]);
+        numbers.push_back(at);
       }
-    return {};
+    }
+    const Found by_thinner = try_tools(thinner_, too_narrow);
+    for (std::size_t at = 0; at < too_narrow.size(); ++at)
+      if (const auto cure = std::ranges::find_if(by_thinner[at], &std::optional<Cure>::has_value);
+          cure != by_thinner[at].end()) {
+        cures[numbers[at]] = **cure;
+        cures[numbers[at]].obstacle = Obstacle::radius;
+      }
+    return cures;
   }
 
  private:
+  /// Of each voxel, of each tool.
+  using Found = std::vector<std::vector<std::optional<Cure>>>;
+
+  /// The thickest that needs no other length, or else the thickest.
+  static std::optional<Cure> best_of_own(const std::vector<std::optional<Cure>>& by_tool) {
+    std::optional<Cure> longer;
+    for (const std::optional<Cure>& cure : by_tool) {
+      if (cure && cure->obstacle == Obstacle::way) return cure;
+      if (cure && !longer) longer = cure;
+    }
+    return longer;
+  }
+
+  /// The best along all directions. Of a part of millions of triangles only few can be looked at along at a time.
+  Found try_tools(const std::vector<TriedTool>& tools, const std::vector<Voxel>& voxels) const {
+    const Found none(voxels.size(), std::vector<std::optional<Cure>>(tools.size()));
+    std::vector<Found> along(voxels.empty() ? 0 : mill_directions().size(), none);
+    run_.helpers.for_each_index(along.size(), [&](std::size_t direction) {
+      const Sight view = make_sight(job_, direction, fixtures_, parts_);
+      for (std::size_t at = 0; at < voxels.size(); ++at) {
+        if (run_.watch.stop.stop_requested()) throw Cancelled{};
+        for (std::size_t tool = 0; tool < tools.size(); ++tool)
+          along[direction][at][tool] = try_tool(view, tools[tool], job_.grid.centre(voxels[at]));
+      }
+    });
+    Found best = none;
+    for (const Found& found : along)
+      for (std::size_t at = 0; at < voxels.size(); ++at)
+        for (std::size_t tool = 0; tool < tools.size(); ++tool) keep_better(best[at][tool], found[at][tool]);
+    return best;
+  }
+
   /// With the least length that it needs to be free, or the least resolution where its own is enough; nothing where the
   /// ball cannot be.
-  std::optional<Cure> try_tool(const TriedTool& tool, const Vec3& centre) const {
+  std::optional<Cure> try_tool(const Sight& view, const TriedTool& tool, const Vec3& centre) const {
     std::optional<Cure> best;
-    for (const Sight& view : views_)
-      for (const Vec3& tip : tips_at(view, view.frame.of(centre), tool.radius_m, job_.wishes.allowance_m)) {
-        Cure cure{Obstacle::way, 2 * tool.radius_m};
-        if (!tool.rings.empty() && has_room(view, tool, tip))
-          cure.resolution = resolution_for(view, tool, tip);
-        else
-          cure.obstacle = Obstacle::length,
-          cure.free_m = std::max(0.0, top_within(view.solid, tip, tool.holder_m) - tip.z());
-        const auto rank = [](const Cure& each) { return std::tuple(each.obstacle, each.resolution, each.free_m); };
-        if (!best || rank(cure) < rank(*best)) best = cure;
-        if (rank(*best) == std::tuple(Obstacle::way, job_.grid.n, 0.0)) return best;
+    for (const Vec3& tip : tips_at(view, view.frame.of(centre), tool.radius_m, job_.wishes.allowance_m)) {
+      Cure cure{Obstacle::way, 2 * tool.radius_m};
+      if (!tool.rings.empty() && has_room(view, tool, tip)) {
+        cure.resolution = resolution_for(view, tool, tip);
+      } else {
+        cure.obstacle = Obstacle::length;
+        cure.free_m = std::max(0.0, top_within(view.solid, tip, tool.holder_m) - tip.z());
       }
+      keep_better(best, cure);
+    }
     return best;
   }
 
@@ -166,8 +205,9 @@ class CureSearch {
   }
 
   const MillJob& job_;
+  PartViews& parts_;
   const RunContext& run_;
-  std::vector<Sight> views_;
+  Mesh fixtures_;
   std::vector<TriedTool> own_, thinner_;  ///< thick ones first
 };
 
@@ -184,9 +224,7 @@ std::vector<Voxel> chosen_of(const VoxelSet& left) {
 std::vector<Cure> find_cures(const MillJob& job, const VoxelSet& left, PartViews& views, const RunContext& run) {
   const std::vector<Voxel> chosen = chosen_of(left);
   if (chosen.empty()) return {};
-  const CureSearch search(job, views, run);
-  std::vector<Cure> found(chosen.size());
-  run.helpers.for_each_index(chosen.size(), [&](std::size_t at) { found[at] = search.cure_of(chosen[at]); });
+  const std::vector<Cure> found = CureSearch(job, views, run).cures_of(chosen);
   // Of each kind one that is long and fine enough for all of it.
   std::map<std::tuple<Obstacle, double, bool>, Cure> kinds;
   for (Cure cure : found) {
