@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/mill/finish/curtain.hpp"
 #include "core/mill/finish/seen_from_above.hpp"
@@ -11,7 +10,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells: about so many facets each, and at most so many along a side.
 constexpr double facets_a_cell = 4, max_along = 1024;
 /// More than coordinates of a stock are rounded by.

@@ -52,7 +52,7 @@ class WindowMaxima {
     if (width_ <= 0) return;
     // Rows with so much air on both sides that a window may go beyond them.
     room_ = widest;
-    stride_ = static_cast<std::size_t>(width_ + 2 * room_);
+    stride_ = static_cast<std::size_t>(width_) + 2 * static_cast<std::size_t>(room_);
     std::vector<float> all(stride_ * static_cast<std::size_t>(rows), no_height);
     for (int b = 0; b < rows; ++b)
       std::copy_n(&map.heights[map.lattice.index(filled_.first_a, b + filled_.first_b)], width_,
@@ -126,6 +126,16 @@ HeightMap coarser(const HeightMap& map, int factor) {
   return coarse;
 }
 
+/// By one with cells so many times as large.
+void raise_by_coarser(HeightMap& map, const HeightMap& coarse, int factor) {
+  for (int b = 0; b < map.lattice.height; ++b) {
+    const float* from = &coarse.heights[coarse.lattice.index(0, b / factor)];
+    float* to = &map.heights[map.lattice.index(0, b)];
+    for (int a = 0; a < map.lattice.width; a += factor, ++from)
+      for (int fine = a; fine < std::min(a + factor, map.lattice.width); ++fine) to[fine] = std::max(to[fine], *from);
+  }
+}
+
 HeightMap offset_by_disc(const HeightMap& stands, const Ring& ring, double more_m) {
   const Lattice& lattice = stands.lattice;
   HeightMap limit(lattice);
@@ -160,13 +170,7 @@ HeightMap offset_by_rings(const HeightMap& stands, const std::vector<Ring>& ring
   else
     for (std::size_t number = 0; number < rings.size(); ++number) offset(number);
   HeightMap limit(lattice);
-  for (const auto& [factor, disc] : discs)
-    for (int b = 0; b < lattice.height; ++b) {
-      const float* from = &disc.heights[disc.lattice.index(0, b / factor)];
-      float* to = &limit.heights[lattice.index(0, b)];
-      for (int a = 0; a < lattice.width; a += factor, ++from)
-        for (int fine = a; fine < std::min(a + factor, lattice.width); ++fine) to[fine] = std::max(to[fine], *from);
-    }
+  for (const auto& [factor, disc] : discs) raise_by_coarser(limit, disc, factor);
   return limit;
 }
 
