@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/material/voxel_rows.hpp"
+#include "core/mill/map/cell_box.hpp"
 #include "core/mill/map/float_bound.hpp"
 
 namespace sculpt {
@@ -42,24 +43,6 @@ std::uint64_t upper_voxels(const VoxelSet& standing, const VoxelRows& rows, cons
     if (covered != 0) covered &= stands_beside(standing, rows, step, j, k, chunk);
   return here & ~covered;
 }
-
-/// The cells of a lattice over a box.
-struct CellBox {
-  int first_a, last_a, first_b, last_b;
-
-  CellBox(const Lattice& lattice, double low_u, double high_u, double low_v, double high_v)
-      : first_a(std::max(0, lattice.cell_u(low_u - 1e-9))),
-        last_a(std::min(lattice.width - 1, lattice.cell_u(high_u + 1e-9))),
-        first_b(std::max(0, lattice.cell_v(low_v - 1e-9))),
-        last_b(std::min(lattice.height - 1, lattice.cell_v(high_v + 1e-9))) {}
-
-  bool is_empty() const { return first_a > last_a || first_b > last_b; }
-  template <typename Visit>
-  void for_each(const Visit& visit) const {
-    for (int b = first_b; b <= last_b; ++b)
-      for (int a = first_a; a <= last_a; ++a) visit(a, b);
-  }
-};
 
 /// A triangle seen along the axis, and the plane that it lies in.
 class FlatTriangle {
@@ -123,8 +106,8 @@ Lattice lattice_over(const ToolFrame& frame, const Vec3& low, const Vec3& high, 
 
 /// In each cell the highest point of the plane over the cell, where that is lower than the triangle's top.
 void HeightMap::raise(const Vec3& p, const Vec3& q, const Vec3& r) {
-  const CellBox cells(lattice, std::min({p.x(), q.x(), r.x()}), std::max({p.x(), q.x(), r.x()}),
-                      std::min({p.y(), q.y(), r.y()}), std::max({p.y(), q.y(), r.y()}));
+  const CellBox cells = cells_over(lattice, std::min({p.x(), q.x(), r.x()}), std::max({p.x(), q.x(), r.x()}),
+                                   std::min({p.y(), q.y(), r.y()}), std::max({p.y(), q.y(), r.y()}));
   if (cells.is_empty()) return;
   const double top = std::max({p.z(), q.z(), r.z()});
   const float whole = above(top);
@@ -174,7 +157,7 @@ class CubeRaiser {
       if (lattice.contains(a, b) && at.z() < static_cast<double>(floor_->at(a, b))) return;
     }
     const float top = above(at.z() + half_.z());
-    CellBox(lattice, at.x() - half_.x(), at.x() + half_.x(), at.y() - half_.y(), at.y() + half_.y())
+    cells_over(lattice, at.x() - half_.x(), at.x() + half_.x(), at.y() - half_.y(), at.y() + half_.y())
         .for_each([&](int a, int b) { map.raise(a, b, top); });
   }
 

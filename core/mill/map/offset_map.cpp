@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mill/map/cell_box.hpp"
 #include "core/mill/map/float_bound.hpp"
 
 namespace sculpt {
@@ -17,13 +18,9 @@ double min_distance(int da, int db, double step) {
 }
 
 /// The cells in which something stands.
-struct Filled {
-  int first_a, last_a, first_b, last_b;
-};
-
-Filled filled_of(const HeightMap& map) {
+CellBox filled_of(const HeightMap& map) {
   const Lattice& lattice = map.lattice;
-  Filled filled{lattice.width, -1, lattice.height, -1};
+  CellBox filled{lattice.width, -1, lattice.height, -1};
   for (int b = 0; b < lattice.height; ++b) {
     const float* row = &map.heights[lattice.index(0, b)];
     const float* end = row + lattice.width;
@@ -38,7 +35,7 @@ Filled filled_of(const HeightMap& map) {
 }
 
 /// to[a] = max(to[a], from[a + da] - less), where something stands.
-void raise_row(float* to, const float* from, int width, const Filled& filled, int da, float less) {
+void raise_row(float* to, const float* from, int width, const CellBox& filled, int da, float less) {
   const int first = std::max(0, filled.first_a - da), last = std::min(width, filled.last_a + 1 - da);
   for (int a = first; a < last; ++a) to[a] = std::max(to[a], from[a + da] - less);
 }
@@ -66,7 +63,7 @@ class WindowMaxima {
     }
   }
 
-  const Filled& filled() const { return filled_; }
+  const CellBox& filled() const { return filled_; }
 
   /// to[a] = max(to[a], the maximum of row b over a - half .. a + half, less `less`), for a below `width`.
   void raise_row(float* to, int width, int b, int half, float less) const {
@@ -82,7 +79,7 @@ class WindowMaxima {
   }
 
  private:
-  Filled filled_;
+  CellBox filled_;
   int width_, room_ = 0;
   std::size_t stride_ = 0;
   std::vector<std::vector<float>> levels_;  ///< the window that begins at each cell
@@ -99,7 +96,7 @@ HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double
   Cutter grown = cutter;
   grown.radius_m += more_m;
   grown.corner_radius_m += more_m;
-  const Filled filled = filled_of(stands);
+  const CellBox filled = filled_of(stands);
   for (int db = -reach; db <= reach; ++db)
     for (int da = -reach; da <= reach; ++da) {
       const double r = min_distance(da, db, step);
@@ -147,7 +144,7 @@ HeightMap offset_by_disc(const HeightMap& stands, const Ring& ring, double more_
     int half = reach;
     while (half >= 0 && min_distance(half, db, step) > ring.radius_m + more_m) --half;
     if (half < 0) continue;
-    const Filled& filled = maxima.filled();
+    const CellBox& filled = maxima.filled();
     for (int b = std::max(0, filled.first_b - db); b < std::min(lattice.height, filled.last_b + 1 - db); ++b)
       maxima.raise_row(&limit.heights[lattice.index(0, b)], lattice.width, b + db, half, less);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/mill/map/cell_box.hpp"
 #include "core/mill/rough/cell_distances.hpp"
 
 namespace sculpt {
@@ -18,20 +19,6 @@ constexpr double around_share = 0.92, ring_share = 0.9;
 constexpr double bridged_radii = 3;
 /// How far edges leave out the corners of a curve (cells).
 constexpr double straight_cells = 0.4;
-
-/// A part of a lattice, in its cells.
-struct CellBox {
-  int first_a, last_a, first_b, last_b;
-
-  CellBox grown(int cells, const Lattice& all) const {
-    return {std::max(0, first_a - cells), std::min(all.width - 1, last_a + cells), std::max(0, first_b - cells),
-            std::min(all.height - 1, last_b + cells)};
-  }
-  Lattice of(const Lattice& all) const {
-    return {all.low_u + first_a * all.step, all.low_v + first_b * all.step, all.step, last_a - first_a + 1,
-            last_b - first_b + 1};
-  }
-};
 
 /// Of all marked cells.
 CellBox box_of(const std::vector<char>& marked, const Lattice& lattice) {
