@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/mill/map/height_map.hpp"
+#include "core/mill/map/lattice.hpp"
 
 namespace sculpt {
 

@@ -7,28 +7,12 @@
 #include "core/base/frame.hpp"
 #include "core/base/helpers.hpp"
 #include "core/material/voxel_set.hpp"
+#include "core/mill/map/lattice.hpp"
 #include "core/mill/map/tool_frame.hpp"
 
 namespace sculpt {
 
 inline constexpr float no_height = -std::numeric_limits<float>::infinity();
-
-/// Square cells of edge `step`, from (low_u, low_v) on.
-struct Lattice {
-  double low_u = 0, low_v = 0, step = 0;
-  int width = 0, height = 0;  ///< cells along u, along v
-
-  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  bool contains(int a, int b) const { return a >= 0 && b >= 0 && a < width && b < height; }
-  std::size_t index(int a, int b) const {
-    return static_cast<std::size_t>(b) * static_cast<std::size_t>(width) + static_cast<std::size_t>(a);
-  }
-  int cell_u(double u) const { return static_cast<int>(std::floor((u - low_u) / step)); }
-  int cell_v(double v) const { return static_cast<int>(std::floor((v - low_v) / step)); }
-  /// Middle of a cell.
-  double u(int a) const { return low_u + (a + 0.5) * step; }
-  double v(int b) const { return low_v + (b + 0.5) * step; }
-};
 
 /// A lattice over a box of the stock frame, seen along the frame's axis, and `margin_m` around it.
 Lattice lattice_over(const ToolFrame& frame, const Vec3& low, const Vec3& high, double margin_m, double step_m);
