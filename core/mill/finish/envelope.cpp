@@ -12,10 +12,10 @@ constexpr double look_share = 1.0 / 6, nearest_look_m = 4e-4, farthest_look_m = 
 /// Beside an upright wall the line is cut until its pieces are shorter than this, in plan; of a line that must be
 /// whole, which is a way and leaves nothing, sooner: up and over is no longer than such a wall.
 constexpr double finest_m = 4e-6, finest_whole_m = 6e-5;
-
 class Follower {
  public:
-  Follower(const EnvelopeTask& task, const Point2& from, const Point2& to) : task_(task), from_(from), way_(to - from) {
+  Follower(const EnvelopeTask& task, const Point2& from, const Point2& to, const std::vector<WallStop>& stops)
+      : task_(task), stops_(stops), from_(from), way_(to - from) {
     const double look = std::clamp(look_share * task.radius_m, nearest_look_m, farthest_look_m);
     pieces_ = static_cast<std::size_t>(std::max(1.0, std::ceil(way_.norm() / look)));
   }
@@ -30,8 +30,12 @@ class Follower {
       }
       std::size_t end = begin;
       while (end + 1 < looks_.size() && looks_[end + 1]) ++end;
-      contours_.push_back({*looks_[begin]});
+      if (begin > 0)
+        come_up(share_of(begin - 1), *looks_[begin], share_of(begin));
+      else
+        contours_.push_back({*looks_[begin]});
       go(begin, end);
+      if (end < pieces_) go_down(*looks_[end], share_of(end), share_of(end + 1));
       begin = end + 1;
     }
     std::erase_if(contours_, [](const Contour& contour) { return contour.size() < 2; });
@@ -50,6 +54,57 @@ class Follower {
   }
 
  private:
+  /// The edge of a wall and a place straight below it.
+  struct Drop {
+    Vec3 edge, low;
+    double share;
+  };
+
+  /// Between a place where it rests and one where it does not.
+  std::optional<Drop> find_drop(const Vec3& tip, double share, double off) const {
+    const double length = way_.norm(), beside = std::abs(off - share) * length;
+    Drop drop{tip, tip, share};
+    auto stop = std::ranges::lower_bound(stops_, std::min(share, off) * length - beside, {}, &WallStop::along_m);
+    double low = tip.z() - task_.radius_m;
+    bool is_wall = false;
+    for (; stop != stops_.end() && stop->along_m <= std::max(share, off) * length + beside; ++stop)
+      if (stop->height_m < low) low = stop->height_m, is_wall = true;
+    if (!is_wall) return std::nullopt;
+    while (std::abs(off - drop.share) * length > finest_m) {
+      const double middle = (off + drop.share) / 2;
+      if (const auto at = rest(middle))
+        drop.share = middle, drop.edge = *at;
+      else
+        off = middle;
+    }
+    drop.low.head<2>() = from_ + off * way_;
+    drop.low.z() = low;
+    if (is_proved(drop.edge, drop.low)) return drop;
+    double high = drop.edge.z();
+    while (high - low > nearest_look_m) {
+      drop.low.z() = (high + low) / 2;
+      (is_proved(drop.edge, drop.low) ? high : low) = drop.low.z();
+    }
+    drop.low.z() = high;
+    return drop.edge.z() - high > nearest_look_m ? std::optional(drop) : std::nullopt;
+  }
+
+  /// A contour that begins where it rests first, or at the foot of a wall before that.
+  void come_up(double off, const Vec3& tip, double share) {
+    const auto drop = find_drop(tip, share, off);
+    if (!drop) return contours_.push_back({tip});
+    contours_.push_back({drop->low, drop->edge});
+    join(drop->edge, drop->share, tip, share);
+  }
+
+  /// Where it rests last: as far as the foot of a wall after that.
+  void go_down(const Vec3& tip, double share, double off) {
+    const auto drop = find_drop(tip, share, off);
+    if (!drop) return;
+    join(tip, share, drop->edge, drop->share);
+    contours_.back().push_back(drop->low);
+  }
+
   /// Does it rest at all of these, no farther from the first to the last?
   bool look_along(std::size_t stride, double max_length_m) {
     double length = 0;
@@ -102,20 +157,25 @@ class Follower {
     divide(*looks_[from], share_of(from), *looks_[to], share_of(to));
   }
 
+  void join(const Vec3& a, double share_a, const Vec3& b, double share_b) {
+    if (is_proved(a, b)) return contours_.back().push_back(b);
+    divide(a, share_a, b, share_b);
+  }
+
   /// Of an edge that is not proved.
   void divide(const Vec3& a, double share_a, const Vec3& b, double share_b) {
     if (is_given_up()) return;
     if ((b - a).head<2>().norm() > (is_whole_ ? finest_whole_m : finest_m)) {
       const double share = (share_a + share_b) / 2;
-      if (const auto middle = rest(share)) {
+      const auto middle = rest(share);
+      if (middle) {
         for (const auto& [from, share_from, to, share_to] :
              {std::tuple{a, share_a, *middle, share}, std::tuple{*middle, share, b, share_b}})
-          if (is_proved(from, to))
-            contours_.back().push_back(to);
-          else
-            divide(from, share_from, to, share_to);
+          join(from, share_from, to, share_to);
         return;
       }
+      go_down(a, share_a, share);
+      return come_up(share, b, share_b);
     }
     contours_.push_back({b});
   }
@@ -123,6 +183,7 @@ class Follower {
   bool is_given_up() const { return is_whole_ && contours_.size() > 1; }
 
   const EnvelopeTask& task_;
+  const std::vector<WallStop>& stops_;
   bool is_whole_ = false;  ///< in one piece or not at all
   Point2 from_, way_;
   std::size_t pieces_ = 1;
@@ -132,12 +193,13 @@ class Follower {
 
 }  // namespace
 
-std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to) {
-  return Follower(task, from, to).run();
+std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to,
+                                     const std::vector<WallStop>& stops) {
+  return Follower(task, from, to, stops).run();
 }
 
 Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double max_length_m) {
-  return Follower(task, from, to).run_whole(max_length_m);
+  return Follower(task, from, to, {}).run_whole(max_length_m);
 }
 
 }  // namespace sculpt

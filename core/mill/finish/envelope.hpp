@@ -22,8 +22,16 @@ struct EnvelopeTask {
 /// Tips, in the tool's frame; each of its edges is proved.
 using Contour = std::vector<Vec3>;
 
-/// From one place in plan straight to another; in pieces where it cannot go through.
-std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to);
+/// Where the tip is beside a wall whose foot it does not come to.
+struct WallStop {
+  double along_m = 0;  ///< from where the line begins, in plan
+  double height_m = 0;
+};
+
+/// From one place in plan straight to another; in pieces where it cannot go through. Down a wall whose foot it may not
+/// come to it goes as low as the stops near there, or as it may. `stops`: ascending along the line.
+std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to,
+                                     const std::vector<WallStop>& stops = {});
 /// The same in one piece that is no longer than this, or nothing.
 Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double max_length_m);
 

@@ -108,12 +108,12 @@ class FinishStage {
       else
         balls.push_back({nail, middle});
     }
-    std::vector<Row> rows = find_rows({spacing_m_, round}, along.frame(), nails_, balls);
+    std::vector<Row> rows = find_rows({spacing_m_, round, radius_m_}, along.frame(), nails_, balls);
     std::ranges::move(pencil_rows(in_creases, link_spacings * spacing_m_, spacing_m_), std::back_inserter(rows));
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
-      found[row] = follow_envelope(task, rows[row].from, rows[row].to);
+      found[row] = follow_envelope(task, rows[row].from, rows[row].to, rows[row].stops);
     });
     std::vector<Contour> contours;
     for (auto& each : found) std::ranges::move(each, std::back_inserter(contours));

@@ -10,8 +10,8 @@
 namespace sculpt {
 namespace {
 
-/// Lattices for what is above the cutter: cells of its radius, and no finer than this.
-constexpr double reach_cells_a_radius = 8, finest_reach_cell_m = 8e-4;
+/// Lattices for what is above the cutter: cells of its radius, and of the block's side at most.
+constexpr double cells_a_radius = 16, cells_a_side = 300;
 /// Of the tolerance: a nail counts as reached where the cutter would leave no more, the allowance aside.
 constexpr double reached_share = 1.0 / 3;
 /// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
@@ -52,8 +52,9 @@ NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, const
 
 Site& NailReach::site(std::size_t direction) {
   if (!sites_[direction])
-    sites_[direction] = carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_margin_m},
-                                          std::max(finest_reach_cell_m, radius_m_ / reach_cells_a_radius));
+    sites_[direction] =
+        carver_.make_site(direction, {job_.wishes.allowance_m + job_.wishes.stray_m(), body_margin_m},
+                          std::max(job_.grid.n * job_.grid.voxel_m / cells_a_side, radius_m_ / cells_a_radius));
   return *sites_[direction];
 }
 

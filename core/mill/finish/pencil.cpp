@@ -23,7 +23,7 @@ class Chains {
     is_left_[end] = 0;
     std::size_t links = 0;
     for (auto next = nearest(end); next; next = nearest(end), ++links) {
-      rows.push_back({middles_[end].head<2>(), middles_[*next].head<2>()});
+      rows.push_back({middles_[end].head<2>(), middles_[*next].head<2>(), {}});
       end = *next;
       is_left_[end] = 0;
     }
@@ -62,7 +62,7 @@ std::vector<Row> pencil_rows(const std::vector<Vec3>& middles, double link_m, do
     if (!chains.is_left(begin)) continue;
     if (chains.grow(begin, rows) + chains.grow(begin, rows) > 0) continue;
     const Point2 at = middles[begin].head<2>();
-    rows.push_back({at, at + Point2(short_m, 0)});
+    rows.push_back({at, at + Point2(short_m, 0), {}});
   }
   return rows;
 }

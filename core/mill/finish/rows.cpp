@@ -20,11 +20,19 @@ constexpr int finest = 3;
 constexpr double generous = 1.15;
 /// Rows go on over gaps of so many spacings.
 constexpr double bridged_spacings = 8;
+/// What leans less from the axis is a wall. Sine.
+constexpr double wall_sine = 0.1;
 
 struct Place {
   int heading;
   std::int64_t number;  ///< of the row, in the finest spacing
   bool operator<(const Place& other) const { return std::tie(heading, number) < std::tie(other.heading, other.number); }
+};
+
+/// Of a row, what a nail needs (m).
+struct Need {
+  double along, height;  ///< of the ball's middle
+  bool is_wall;
 };
 
 Point2 way_of(int heading) {
@@ -51,7 +59,7 @@ Vec3 mean_normal(const Nails& nails, std::uint32_t number, double reach_m) {
 
 std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
                            const std::vector<RestingBall>& balls) {
-  std::map<Place, std::vector<std::array<double, 2>>> needs;
+  std::map<Place, std::vector<Need>> needs;
   const double around = std::sqrt(nails.area_m2()), step = task.spacing_m / (1 << (finest + task.finer));
   for (const auto& [number, middle] : balls) {
     const Vec3 normal = frame.of(nails[number].normal);
@@ -63,18 +71,25 @@ std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Na
     const std::int64_t stride = std::int64_t{1} << (finest - halved);
     const double rows = y / (step * static_cast<double>(stride));
     // The row nearest to a nail is enough for it.
-    needs[{heading, std::llround(rows) * stride}].push_back({x - around, x + around});
+    needs[{heading, std::llround(rows) * stride}].push_back({x, middle.z(), normal.z() < wall_sine});
   }
   std::vector<Row> rows;
-  for (auto& [place, spans] : needs) {
-    std::ranges::sort(spans);
+  for (auto& [place, of_row] : needs) {
+    std::ranges::sort(of_row, {}, [](const Need& need) { return std::tie(need.along, need.height); });
     const Point2 way = way_of(place.heading), across(-way.y(), way.x());
     const Point2 begin = static_cast<double>(place.number) * step * across;
-    for (std::size_t at = 0; at < spans.size();) {
-      auto [low, high] = spans[at];
-      for (++at; at < spans.size() && spans[at][0] <= high + bridged_spacings * task.spacing_m; ++at)
-        high = std::max(high, spans[at][1]);
-      rows.push_back({begin + low * way, begin + high * way});
+    for (std::size_t at = 0; at < of_row.size();) {
+      const double low = of_row[at].along - around, bridged = 2 * around + bridged_spacings * task.spacing_m;
+      Row row;
+      double last = 0;
+      for (bool is_first = true; at < of_row.size() && (is_first || of_row[at].along <= last + bridged); ++at) {
+        is_first = false;
+        last = of_row[at].along;
+        if (of_row[at].is_wall) row.stops.push_back({last - low, of_row[at].height - task.radius_m});
+      }
+      row.from = begin + low * way;
+      row.to = begin + (last + around) * way;
+      rows.push_back(std::move(row));
     }
   }
   return rows;

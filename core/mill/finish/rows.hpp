@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/mill/finish/envelope.hpp"
 #include "core/mill/finish/nails.hpp"
 #include "core/mill/map/tool_frame.hpp"
 
@@ -11,11 +12,13 @@ namespace sculpt {
 /// In plan, m.
 struct Row {
   Point2 from, to;
+  std::vector<WallStop> stops;  ///< beside upright surface: the tips of balls that rest there
 };
 
 struct RowTask {
   double spacing_m = 0;  ///< of rows where the surface is level across them
   int finer = 0;         ///< so many times rows are twice as near
+  double radius_m = 0;   ///< of the ball
 };
 
 struct RestingBall {

@@ -1,6 +1,7 @@
 #include "core/mill/rough/clearing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/mill/rough/ramp.hpp"
@@ -23,8 +24,8 @@ constexpr double min_share = 0.15;
 constexpr double linked_radii = 12;
 /// How often half a width is laid before a place that would take off too much.
 constexpr int max_tries = 3;
-/// Of what may be taken off: by ramps.
-constexpr double ramp_share = 0.9;
+/// Of what may be taken off: by ramps; less where they turn in a narrow place.
+constexpr std::array ramp_shares{0.9, 0.65, 0.45};
 /// How far a row may give way to take off as much as it may (steps, of which so many are a width of cut), and of what
 /// may be taken off: where less stands beside it, it goes on straight.
 constexpr int steps_a_width = 10, max_steps_in = 6, max_steps_out = 6;
@@ -157,9 +158,17 @@ double Clearing::top_along(const LevelRow& row) const {
 
 /// Where nothing is open: from the top of what stands down along it, as deep each time as a slot may be.
 LevelPass Clearing::enter_by_ramp(const LevelRow& row) {
-  const double slot_m = ramp_share * cap_m2_ / (2 * task_.tool.cutter.radius_m);
-  LevelPass pass = ramp_along(row.points, row.is_closed, top_along(row), task_.height, slot_m);
-  if (pass.empty() || !task_.way_over_m(pass.front())) return {};
+  const double top = top_along(row), slot_m = cap_m2_ / (2 * task_.tool.cutter.radius_m);
+  for (const double share : ramp_shares) {
+    LevelPass pass = ramp_along(row.points, row.is_closed, top, task_.height, share * slot_m);
+    if (pass.empty() || !task_.way_over_m(pass.front())) return {};
+    if (go_down(pass)) return pass;
+  }
+  return {};
+}
+
+/// All of it, or nothing where it takes off too much.
+bool Clearing::go_down(const LevelPass& pass) {
   const StockTop before = surface_;
   const double taken_before = taken_m3_;
   ChipLoad load = no_load();
@@ -171,9 +180,9 @@ LevelPass Clearing::enter_by_ramp(const LevelRow& row) {
     }
     surface_ = before;
     taken_m3_ = taken_before;
-    return {};
+    return false;
   }
-  return pass;
+  return true;
 }
 
 /// What would take off too much comes once more, after a row that is farther out.

@@ -70,6 +70,7 @@ class Clearing {
   LevelWay enter(const LevelRow& row, const std::optional<Point2>& tip) const;
   double top_along(const LevelRow& row) const;
   LevelPass enter_by_ramp(const LevelRow& row);
+  bool go_down(const LevelPass& pass);
   std::optional<Point2> keep_engagement(const Point2& from, const Point2& to, const RowField& field,
                                         ChipLoad& load) const;
   LevelPass follow(std::size_t number, const std::optional<Point2>& tip);

@@ -12,6 +12,9 @@ namespace {
 
 /// The last row is so far from where the tip may not be (cells), the one before it so much nearer than others are.
 constexpr double last_row_cells = 1.2, last_share = 0.7;
+/// Where that leaves it no room: so far, and no place with room is so near (cells).
+constexpr double narrow_row_cells = 0.9;
+constexpr int narrow_cells = 2;
 /// Of the width of cut: from one curve around to the next, for in hollow corners each finds more than the distance
 /// before it; and what straight rows leave for the last one around.
 constexpr double around_share = 0.92, ring_share = 0.9;
@@ -131,7 +134,7 @@ void LevelRows::lay_around(double farthest) {
                first = last + (last_share - 1) * width, cleared = task_.cleared_m, outside = width - cleared;
   const int count = static_cast<int>(std::ceil((farthest + cleared - first) / width));
   for (int number = count; number > 0; --number) lay(field, 2 * number, first + number * width, cleared, outside);
-  lay(field, -1, last, task_.radius_m, outside);
+  lay_ring(outside);
   // Along ridges of the field, between two rows of which the outer one does not come there.
   for (const LevelRow& row : rows_) clear_beside(row);
   for (int number = count; number > 0; --number)
@@ -149,7 +152,27 @@ void LevelRows::lay_straight(double farthest, bool any) {
   for (int number = count; number > 0; --number) lay(field, number, last + number * all / count, cleared, outside);
   lay(field, 0, last, task_.radius_m, outside);
   stands_ = task_.stands;
-  if (any) lay(*fields_.front(), -1, last, task_.radius_m, cleared);
+  if (any) lay_ring(cleared);
+}
+
+/// Around where the tip may not be, the last one; once more through passages that it has no room in.
+void LevelRows::lay_ring(double outside) {
+  const RowField& to_shut = *fields_.front();
+  const double step = task_.lattice.step;
+  lay(to_shut, -1, last_row_cells * step, task_.radius_m, outside);
+  lay(to_shut, -1, narrow_row_cells * step,
+      [&](const Point2& p) { return is_narrow(p) && is_needed(to_shut, p, task_.radius_m, outside); });
+}
+
+bool LevelRows::is_narrow(const Point2& p) const {
+  const RowField& to_shut = *fields_.front();
+  bool narrow = true;
+  for_each_cell_near(to_shut.lattice, {p.x(), p.y(), 0}, {p.x(), p.y(), 0}, narrow_cells * to_shut.lattice.step,
+                     [&](int a, int b) {
+                       const auto far = static_cast<double>(to_shut.values[to_shut.lattice.index(a, b)]);
+                       narrow = narrow && far < last_row_cells * to_shut.lattice.step;
+                     });
+  return narrow;
 }
 
 /// Rows need not come so near to where the tip may not be: the ring around it would have nothing to take off.
@@ -186,24 +209,37 @@ bool LevelRows::is_needed(const RowField& field, const Point2& p, double inside,
 }
 
 void LevelRows::lay(const RowField& field, int rank, double value, double inside, double outside) {
+  lay(field, rank, value, [&](const Point2& p) { return is_needed(field, p, inside, outside); });
+}
+
+void LevelRows::lay(const RowField& field, int rank, double value,
+                    const std::function<bool(const Point2&)>& is_wanted) {
   for (const Curve& curve : level_curves(field.values, field.lattice, value)) {
     std::vector<char> needed;
-    for (const Point2& p : curve) needed.push_back(is_needed(field, p, inside, outside) ? 1 : 0);
-    const bool is_ring = (curve.front() - curve.back()).norm() == 0;
-    if (!is_ring) {
+    for (const Point2& p : curve) needed.push_back(is_wanted(p) ? 1 : 0);
+    if ((curve.front() - curve.back()).norm() != 0) {
       add_stretches({&field, {}, false, rank}, curve, needed);
-    } else if (std::ranges::count(needed, 1) == std::ranges::ssize(needed)) {
-      rows_.push_back({&field, straightened(curve), true, rank});
-    } else {
-      // A ring is begun where nothing is to come off.
-      Curve points(curve.begin(), curve.end() - 1);
-      needed.pop_back();
-      const auto begin = std::ranges::find(needed, 0) - needed.begin();
-      std::rotate(points.begin(), points.begin() + begin, points.end());
-      std::rotate(needed.begin(), needed.begin() + begin, needed.end());
-      add_stretches({&field, {}, false, rank}, points, needed);
+      continue;
     }
+    Curve ring(curve.begin(), curve.end() - 1);
+    needed.pop_back();
+    if (turn_to_gap(ring, needed))
+      add_stretches({&field, {}, false, rank}, ring, needed);
+    else
+      rows_.push_back({&field, straightened(curve), true, rank});
   }
+}
+
+/// A ring is begun where nothing is to come off, or where it does not go through; false if there is no such place.
+bool LevelRows::turn_to_gap(Curve& ring, std::vector<char>& needed) const {
+  for (std::size_t at = 0; at < ring.size(); ++at) {
+    const Point2& before = at > 0 ? ring[at - 1] : ring.back();
+    if (needed[at] && edge_is_free(before, ring[at])) continue;
+    std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(at), ring.end());
+    std::rotate(needed.begin(), needed.begin() + static_cast<std::ptrdiff_t>(at), needed.end());
+    return true;
+  }
+  return false;
 }
 
 /// The last place of a stretch that begins at one where something is to come off.
@@ -254,6 +290,7 @@ Curve LevelRows::straightened(const Curve& curve) const {
       if (length > 0 && !std::all_of(curve.begin() + static_cast<std::ptrdiff_t>(at) + 1,
                                      curve.begin() + static_cast<std::ptrdiff_t>(to), is_near))
         break;
+      if (!edge_is_free(curve[at], curve[to])) break;
       next = to;
     }
     straight.push_back(curve[next]);

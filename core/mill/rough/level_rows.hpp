@@ -12,6 +12,7 @@
 // straight rows, from both sides to the middle, and one last row around @; without one from one side to the other.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -71,6 +72,10 @@ class LevelRows {
   void lay_straight(double farthest, bool any);
   void leave_for_ring();
   void lay(const RowField& field, int rank, double value, double inside, double outside);
+  void lay(const RowField& field, int rank, double value, const std::function<bool(const Point2&)>& is_wanted);
+  bool is_narrow(const Point2& p) const;
+  void lay_ring(double outside);
+  bool turn_to_gap(Curve& ring, std::vector<char>& needed) const;
   std::size_t end_of_stretch(const Curve& curve, const std::vector<char>& needed, std::size_t begin) const;
   void add_stretches(LevelRow row, const Curve& curve, const std::vector<char>& needed);
   Curve straightened(const Curve& curve) const;

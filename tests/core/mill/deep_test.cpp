@@ -24,7 +24,7 @@ using milled::excess_at;
 using milled::Milled;
 using milled::Moved;
 
-/// Between sides of voxels, for a neck keeps off voxels that are not gone as a whole.
+/// Between sides of voxels, for a neck keeps off voxels that are not gone as a whole (slot_test: the neck in a slot).
 constexpr double side_mm = 90, voxel_mm = side_mm / 64, slot_x = 12 * voxel_mm, slot_width_mm = 6 * voxel_mm,
                  slot_mm = 60, well_x = 36, well_y = 24, well_radius_mm = 13, well_mm = 55, cone_x = 60, cone_y = 62,
                  cone_floor_mm = 4, cone_mm = 55, tolerance_mm = 0.3;

@@ -48,11 +48,18 @@ TEST(Envelope, GoesDownIntoAGrooveAsFarAsTheBallFits) {
   EXPECT_LT(contours[0].size(), 40U);
 }
 
-TEST(Envelope, GoesDownAnUprightWall) {
+constexpr double wall_m = 0.02;
+
+/// Along y, its foot at the origin.
+Mesh wall() {
   const double w = 0.03;
-  const Mesh mesh = make_mesh({{Vec3(-w, -w, 0.02), Vec3(0, -w, 0.02), Vec3(0, w, 0.02), Vec3(-w, w, 0.02)},
-                               {Vec3(0, -w, 0.02), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(0, w, 0.02)},
-                               {Vec3(0, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(0, w, 0)}});
+  return make_mesh({{Vec3(-w, -w, wall_m), Vec3(0, -w, wall_m), Vec3(0, w, wall_m), Vec3(-w, w, wall_m)},
+                    {Vec3(0, -w, wall_m), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(0, w, wall_m)},
+                    {Vec3(0, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(0, w, 0)}});
+}
+
+TEST(Envelope, GoesDownAnUprightWall) {
+  const Mesh mesh = wall();
   const ToolFrame frame({0, 0, 1});
   const FacetColumns columns(mesh, frame);
   const Vec3 from = frame.of({-0.01, 0, 0}), to = frame.of({0.01, 0, 0});
@@ -66,6 +73,35 @@ TEST(Envelope, GoesDownAnUprightWall) {
       longest = std::max(longest, std::abs(a.z() - b.z()));
   }
   EXPECT_GT(longest, 0.012);
+}
+
+/// How low the tip comes on ways over the wall, from both sides and wherever looks fall beside it, where it may not be
+/// lower than `floor_m` and balls rest beside the wall at these heights.
+std::vector<double> lowest_beside_wall(double floor_m, const std::vector<double>& stops_m) {
+  const Mesh mesh = wall();
+  const ToolFrame frame({0, 0, 1});
+  const FacetColumns columns(mesh, frame);
+  EnvelopeTask task = make_task(columns);
+  task.is_allowed = [&](const Vec3& a, const Vec3& b) { return std::min(a.z(), b.z()) >= floor_m; };
+  std::vector<double> lowest;
+  for (double shift = 0; shift < 1e-3; shift += 1e-4)
+    for (const double way : {1.0, -1.0}) {
+      const double begin = shift - 0.01 * way, end = shift + 0.01 * way;
+      std::vector<WallStop> stops;
+      for (const double height : stops_m) stops.push_back({(radius - begin) * way, height});
+      const auto contours =
+          follow_envelope(task, frame.of({begin, 0, 0}).head<2>(), frame.of({end, 0, 0}).head<2>(), stops);
+      EXPECT_EQ(contours.size(), 1U);
+      lowest.push_back(1);
+      for (const Vec3& tip : contours.at(0)) lowest.back() = std::min(lowest.back(), tip.z());
+    }
+  return lowest;
+}
+
+TEST(Envelope, GoesDownAWallAsLowAsTheStopsBesideIt) {
+  for (const double low : lowest_beside_wall(0.005, {0.012, 0.018})) EXPECT_DOUBLE_EQ(low, 0.012);
+  for (const double low : lowest_beside_wall(0.009, {0.004, 0.012, 0.018})) EXPECT_NEAR(low, 0.009, 5e-4);
+  for (const double low : lowest_beside_wall(0.005, {})) EXPECT_GT(low, wall_m - radius);
 }
 
 TEST(Envelope, BreaksOffWhereItMayNotGo) {

@@ -140,5 +140,35 @@ TEST(LevelRows, StraightOnesLeaveSomethingForTheRingAroundThePart) {
   EXPECT_GT(ring, 2 * std::numbers::pi * disc);
 }
 
+/// A slot through which the tip may go in a passage of so many cells, here and there one to the side.
+Level passage(int cells) {
+  Level level({});
+  const Lattice& all = level.lattice;
+  for (int b = 0; b < all.height; ++b)
+    for (int a = 0; a < all.width; ++a) {
+      const int shift = a < 80 ? 0 : 1;
+      level.is_free[all.index(a, b)] = a > 40 && a < 140 && b >= 90 + shift && b < 90 + shift + cells ? 1 : 0;
+      level.stands[all.index(a, b)] = a > 38 && a < 142 && b > 86 && b < 96 ? 1 : 0;
+    }
+  return level;
+}
+
+TEST(LevelRows, GoThroughPassagesOfAFewCells) {
+  for (const RowLayout layout : {RowLayout::around, RowLayout::along_u, RowLayout::along_v})
+    for (const int cells : {2, 3, 4, 5}) {
+      const Level level = passage(cells);
+      const LevelRows laid(level.task(), layout);
+      double first = 1, last = -1;
+      for (const LevelRow& row : laid.rows())
+        for (std::size_t at = 0; at < row.points.size(); ++at) {
+          EXPECT_TRUE(edge_is_free(level.lattice, level.is_free, row.points[at > 0 ? at - 1 : 0], row.points[at]));
+          first = std::min(first, row.points[at].x());
+          last = std::max(last, row.points[at].x());
+        }
+      EXPECT_LT(first, level.lattice.u(44)) << cells;
+      EXPECT_GT(last, level.lattice.u(136)) << cells;
+    }
+}
+
 }  // namespace
 }  // namespace sculpt
