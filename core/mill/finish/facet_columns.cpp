@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 /// Cells: about so many facets each, and at most so many along a side.
-constexpr double facets_a_cell = 4, max_along = 1024;
+constexpr double facets_a_cell = 16, max_along = 1024;
 /// More than coordinates of a stock are rounded by.
 constexpr double rounding_m = 1e-9;
 
@@ -46,29 +46,25 @@ double outside(double value, double low, double high) {
 
 }  // namespace
 
-FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
+FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) : part_(part) {
+  vertices_.reserve(part.vertices.size());
+  for (const Vec3& vertex : part.vertices) vertices_.push_back(frame.of(vertex));
   Eigen::AlignedBox3d all;
-  std::vector<Vec3> corners;
-  corners.reserve(part.vertices.size());
-  for (const Vec3& vertex : part.vertices) corners.push_back(frame.of(vertex));
-  facets_.reserve(part.triangles.size());
-  for (const auto& t : part.triangles) {
-    Facet facet{{corners[t[0]], corners[t[1]], corners[t[2]]}, Vec3::Zero(), 0};
-    facet.normal = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
-    const double area = facet.normal.norm();
-    if (area > 0) facet.normal /= area;
-    if (facet.normal.z() < 0) facet.normal = -facet.normal;
-    facet.top = std::max({facet.corners[0].z(), facet.corners[1].z(), facet.corners[2].z()});
-    for (const Vec3& corner : facet.corners) all.extend(corner);
-    facets_.push_back(facet);
+  normals_.reserve(part.triangles.size());
+  for (std::uint32_t facet = 0; facet < part.triangles.size(); ++facet) {
+    const Triangle t = corners(facet);
+    for (const Vec3& corner : t) all.extend(corner);
+    Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (const double area = normal.norm(); area > 0) normal /= area;
+    normals_.emplace_back(normal.z() < 0 ? -normal : normal);
   }
-  if (facets_.empty()) {
+  if (normals_.empty()) {
     begin_.assign(1, 0);
     return;
   }
   const double u = all.sizes().x(), v = all.sizes().y();
   step_ = std::max(
-      {std::sqrt(facets_a_cell * u * v / static_cast<double>(facets_.size())), std::max(u, v) / max_along, 1e-6});
+      {std::sqrt(facets_a_cell * u * v / static_cast<double>(normals_.size())), std::max(u, v) / max_along, 1e-6});
   low_u_ = all.min().x();
   low_v_ = all.min().y();
   width_ = static_cast<int>(u / step_) + 1;
@@ -79,19 +75,21 @@ FacetColumns::FacetColumns(const Mesh& part, const ToolFrame& frame) {
 /// In each cell that they may be over, the highest first.
 void FacetColumns::list_facets() {
   begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
-  const auto visit_cells = [&](const Facet& facet, const auto& visit) {
-    const auto& c = facet.corners;
-    for_each_cell(std::min({c[0].x(), c[1].x(), c[2].x()}), std::max({c[0].x(), c[1].x(), c[2].x()}),
-                  std::min({c[0].y(), c[1].y(), c[2].y()}), std::max({c[0].y(), c[1].y(), c[2].y()}),
-                  [&](std::size_t cell, double, double) { visit(cell); });
+  const auto visit_cells = [&](std::uint32_t facet, const auto& visit) {
+    const auto [a, b, c] = corners(facet);
+    const auto [low_u, high_u] = std::minmax({a.x(), b.x(), c.x()});
+    const auto [low_v, high_v] = std::minmax({a.y(), b.y(), c.y()});
+    for_each_cell(low_u, high_u, low_v, high_v, [&](std::size_t cell, double, double) { visit(cell); });
   };
-  for (const Facet& facet : facets_) visit_cells(facet, [&](std::size_t cell) { ++begin_[cell + 1]; });
+  const auto count = static_cast<std::uint32_t>(normals_.size());
+  for (std::uint32_t facet = 0; facet < count; ++facet)
+    visit_cells(facet, [&](std::size_t cell) { ++begin_[cell + 1]; });
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   listed_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t number = 0; number < facets_.size(); ++number) {
-    const Listed facet = listed(number);
-    visit_cells(facets_[number], [&](std::size_t cell) { listed_[next[cell]++] = facet; });
+  for (std::uint32_t facet = 0; facet < count; ++facet) {
+    const Listed entry = listed(facet);
+    visit_cells(facet, [&](std::size_t cell) { listed_[next[cell]++] = entry; });
   }
   for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell)
     std::sort(listed_.begin() + begin_[cell], listed_.begin() + begin_[cell + 1],
@@ -99,13 +97,20 @@ void FacetColumns::list_facets() {
 }
 
 FacetColumns::Listed FacetColumns::listed(std::uint32_t facet) const {
-  const auto& c = facets_[facet].corners;
-  return {below(std::min({c[0].x(), c[1].x(), c[2].x()}) - low_u_),
-          above(std::max({c[0].x(), c[1].x(), c[2].x()}) - low_u_),
-          below(std::min({c[0].y(), c[1].y(), c[2].y()}) - low_v_),
-          above(std::max({c[0].y(), c[1].y(), c[2].y()}) - low_v_),
-          facets_[facet].top,
+  const auto [a, b, c] = corners(facet);
+  const auto [low_u, high_u] = std::minmax({a.x(), b.x(), c.x()});
+  const auto [low_v, high_v] = std::minmax({a.y(), b.y(), c.y()});
+  return {below(low_u - low_u_),
+          above(high_u - low_u_),
+          below(low_v - low_v_),
+          above(high_v - low_v_),
+          above(std::max({a.z(), b.z(), c.z()})),
           facet};
+}
+
+std::size_t FacetColumns::bytes() const {
+  return (vertices_.capacity() + normals_.capacity()) * sizeof(Vec3) + begin_.capacity() * sizeof(begin_[0]) +
+         listed_.capacity() * sizeof(Listed);
 }
 
 /// Calls `visit(cell, low u, low v)`.
@@ -121,9 +126,9 @@ void FacetColumns::for_each_cell(double low_u, double high_u, double low_v, doub
 }
 
 /// The lowest that a ball may be over one facet; `height` where that is higher.
-double FacetColumns::rest_on(const Facet& facet, double u, double v, double radius, double height) {
-  const auto& t = facet.corners;
-  const Vec3& n = facet.normal;
+double FacetColumns::rest_on(std::uint32_t facet, double u, double v, double radius, double height) const {
+  const Triangle t = corners(facet);
+  const Vec3& n = normals_[facet];
   if (n.z() > upright) {
     const double z = t[0].z() + (radius - n.x() * (u - t[0].x()) - n.y() * (v - t[0].y())) / n.z();
     if (z <= height) return height;  // the plane is the higher bound
@@ -142,11 +147,12 @@ double FacetColumns::rest_height(double u, double v, double radius, double from,
   const auto look = [&](std::size_t cell, double lift) {
     for (std::uint32_t at = begin_[cell]; at < begin_[cell + 1]; ++at) {
       const Listed& facet = listed_[at];
-      if (facet.top + lift <= height) return;
+      const auto top = static_cast<double>(facet.top);
+      if (top + lift <= height) return;
       const double off_u = outside(from_u, facet.low_u, facet.high_u),
                    off_v = outside(from_v, facet.low_v, facet.high_v), left = r2 - off_u * off_u - off_v * off_v;
-      if (left < 0 || (height > facet.top && (height - facet.top) * (height - facet.top) >= left)) continue;
-      height = rest_on(facets_[facet.facet], u, v, radius, height);
+      if (left < 0 || (height > top && (height - top) * (height - top) >= left)) continue;
+      height = rest_on(facet.facet, u, v, radius, height);
     }
   };
   for_each_cell(u, u, v, v, [&](std::size_t cell, double, double) { look(cell, radius); });
@@ -192,21 +198,22 @@ bool FacetColumns::is_clear(const Vec3& from, const Vec3& to, double radius) con
   const double r2 = radius * radius, lowest = std::min(from.z(), to.z());
   const double beyond = radius + rounding_m, beyond2 = beyond * beyond;
   const auto is_far = [&](const Listed& listed) {
-    const double off2 = plan.distance2(listed);
-    return off2 > beyond2 || (lowest > listed.top && (lowest - listed.top) * (lowest - listed.top) + off2 > beyond2);
+    const double off2 = plan.distance2(listed), above = lowest - static_cast<double>(listed.top);
+    return off2 > beyond2 || (above > 0 && above * above + off2 > beyond2);
   };
   // All of the way is above the facet's plane, and farther from it: normals look upwards.
-  const auto is_below = [&](const Facet& facet) {
-    const Vec3& n = facet.normal;
-    return std::min(n.dot(from), n.dot(to)) - n.dot(facet.corners[0]) > beyond;
+  const auto is_below = [&](const Vec3& n, const Vec3& corner) {
+    return std::min(n.dot(from), n.dot(to)) - n.dot(corner) > beyond;
   };
   bool clear = true;
   const auto look = [&](std::size_t cell, double lift) {
     for (std::uint32_t at = begin_[cell]; clear && at < begin_[cell + 1]; ++at) {
       const Listed& listed = listed_[at];
-      if (listed.top + lift <= lowest) return;
-      const Facet& facet = facets_[listed.facet];
-      clear = is_far(listed) || is_below(facet) || !curtain.is_nearer(facet.corners, facet.normal, r2);
+      if (static_cast<double>(listed.top) + lift <= lowest) return;
+      if (is_far(listed)) continue;
+      const Triangle t = corners(listed.facet);
+      const Vec3& normal = normals_[listed.facet];
+      clear = is_below(normal, t[0]) || !curtain.is_nearer(t, normal, r2);
     }
   };
   const double low_u = std::min(from.x(), to.x()), high_u = std::max(from.x(), to.x());

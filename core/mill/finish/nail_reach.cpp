@@ -64,24 +64,45 @@ Vec3 NailReach::middle_at(const Place& place, const ToolFrame& frame) const {
 }
 
 void NailReach::find(double below, double from) {
+  std::vector<Place> places;
+  for (std::size_t nail = 0; nail < nails_.size(); ++nail)
+    if (is_open(nail)) places.push_back({nail, Vec3::Zero(), 0});
   const double most_m = job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
-  std::vector<std::vector<char>> found(frames_.size());
-  run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
-    const Site& here = site(direction);
-    const auto columns = views_.along(direction, frames_[direction]);
-    found[direction].resize(nails_.size());
-    for (std::size_t nail = 0; nail < nails_.size(); ++nail) {
-      const double along = cosine(nail, direction);
-      if (along < below && along >= from && is_open(nail))
-        found[direction][nail] = leaves_no_more(most_m, {nail, Vec3::Zero(), 0}, here, *columns);
-      if (nail % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
-    }
-  });
-  for (std::size_t nail = 0; nail < nails_.size(); ++nail) {
-    for (std::size_t direction = 0; direction < found.size(); ++direction)
-      along_[nail] |= static_cast<std::uint32_t>(found[direction][nail]) << direction;
+  const std::vector<std::uint32_t> found =
+      look_along_all(places, most_m, [&](double cosine) { return cosine < below && cosine >= from; });
+  for (std::size_t at = 0; at < places.size(); ++at) {
+    const std::size_t nail = places[at].nail;
+    along_[nail] |= found[at];
     if (along_[nail] != 0) carver_.mark_reachable(nail);
   }
+}
+
+/// Of each place along which directions that are asked for, by their cosines with its nail's normal, the cutter comes
+/// to it and leaves no more than `most_m`: a bit each.
+std::vector<std::uint32_t> NailReach::look_along_all(const std::vector<Place>& places, double most_m,
+                                                     const std::function<bool(double cosine)>& is_asked) {
+  std::vector<std::vector<std::uint32_t>> found(frames_.size());
+  run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
+    for (std::uint32_t at = 0; at < places.size(); ++at)
+      if (is_asked(cosine(places[at].nail, direction))) found[direction].push_back(at);
+    keep_reached(found[direction], places, most_m, direction);
+  });
+  std::vector<std::uint32_t> along(places.size());
+  for (std::size_t direction = 0; direction < found.size(); ++direction)
+    for (const std::uint32_t at : found[direction]) along[at] |= std::uint32_t{1} << direction;
+  return along;
+}
+
+void NailReach::keep_reached(std::vector<std::uint32_t>& asked, const std::vector<Place>& places, double most_m,
+                             std::size_t direction) {
+  if (asked.empty()) return;
+  const Site& here = site(direction);
+  const auto columns = views_.along(direction, frames_[direction]);
+  std::size_t looked_at = 0;
+  std::erase_if(asked, [&](std::uint32_t at) {
+    if (looked_at++ % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
+    return !leaves_no_more(most_m, places[at], here, *columns);
+  });
 }
 
 /// Does a cutter at rest leave no more of what stands on a nail? No where it may not be.
@@ -111,25 +132,13 @@ double NailReach::highest_above(double aside, double most_m, double cosine) cons
 void NailReach::find_beside(double from) {
   const std::vector<Place> places = free_places();
   const double most_m = beside_tolerance_share * job_.wishes.tolerance_m;
-  std::vector<std::vector<char>> found(frames_.size());
-  run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
-    const Site& here = site(direction);
-    const auto columns = views_.along(direction, frames_[direction]);
-    found[direction].resize(places.size());
-    for (std::size_t at = 0; at < places.size(); ++at) {
-      if (cosine(places[at].nail, direction) >= from)
-        found[direction][at] = leaves_no_more(most_m, places[at], here, *columns);
-      if (at % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
-    }
-  });
+  const std::vector<std::uint32_t> found =
+      look_along_all(places, most_m, [&](double cosine) { return cosine >= from; });
   // Of a nail's places the one that it is come to along most directions.
   for (std::size_t at = 0; at < places.size(); ++at) {
     const auto& [nail, aside, leaves] = places[at];
-    std::uint32_t along = 0;
-    for (std::size_t direction = 0; direction < found.size(); ++direction)
-      along |= static_cast<std::uint32_t>(found[direction][at]) << direction;
-    if (std::popcount(along) <= std::popcount(along_[nail])) continue;
-    along_[nail] = along;
+    if (std::popcount(found[at]) <= std::popcount(along_[nail])) continue;
+    along_[nail] = found[at];
     aside_[nail] = aside.cast<float>();
     leaves_[nail] = leaves + static_cast<float>(gain_m);
   }

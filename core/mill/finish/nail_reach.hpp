@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -56,6 +57,10 @@ class NailReach {
     float leaves;  ///< above the nail (m), where the ball gets there
   };
 
+  std::vector<std::uint32_t> look_along_all(const std::vector<Place>& places, double most_m,
+                                            const std::function<bool(double cosine)>& is_asked);
+  void keep_reached(std::vector<std::uint32_t>& asked, const std::vector<Place>& places, double most_m,
+                    std::size_t direction);
   Vec3 middle_at(const Place& place, const ToolFrame& frame) const;
   bool leaves_no_more(double most_m, const Place& place, const Site& site, const FacetColumns& columns) const;
   double highest_above(double aside, double most_m, double cosine) const;

@@ -9,7 +9,8 @@
 
 namespace sculpt {
 
-/// Made when first asked for; of small parts they are kept. Any thread.
+/// Made when first asked for, and kept while there is room: directions are gone through again and again, so which of a
+/// fine mesh are kept does not matter. Any thread.
 class PartViews {
  public:
   /// `part` must outlive the object. `count`: of directions.
@@ -22,17 +23,21 @@ class PartViews {
     }
     auto made = std::make_shared<const FacetColumns>(part_, frame);
     const std::lock_guard lock(mutex_);
-    if (part_.triangles.size() <= max_kept) kept_[direction] = made;
+    if (const std::size_t size = made->bytes(); !kept_[direction] && bytes_ + size <= max_bytes) {
+      kept_[direction] = made;
+      bytes_ += size;
+    }
     return made;
   }
 
  private:
-  /// Triangles; each takes about 150 bytes a direction.
-  static constexpr std::size_t max_kept = 100000;
+  /// Of a part of 100 000 triangles all are kept.
+  static constexpr std::size_t max_bytes = std::size_t{400} << 20;
 
   const Mesh& part_;
   std::mutex mutex_;
   std::vector<std::shared_ptr<const FacetColumns>> kept_;
+  std::size_t bytes_ = 0;  ///< of those
 };
 
 }  // namespace sculpt

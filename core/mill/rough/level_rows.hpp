@@ -17,24 +17,11 @@
 #include <vector>
 
 #include "core/cell/milling/mill_tool.hpp"
-#include "core/mill/rough/level_curves.hpp"
-#include "core/mill/rough/row_field.hpp"
+#include "core/mill/rough/level_row.hpp"
 
 namespace sculpt {
 
 enum class RowLayout { around, along_u, along_v };
-
-struct LevelRow {
-  const RowField* field = nullptr;  ///< that it is a level curve of
-  Curve points;
-  bool is_closed = false;
-  int rank = 0;  ///< those of larger rank come before those near them
-};
-
-/// Do two rows have places so near to each other?
-bool are_near(const LevelRow& one, const LevelRow& other, double near_m);
-/// Begins with the end that is nearer, a ring with its nearest place.
-void turn_towards(LevelRow& row, const Point2& at);
 
 /// May the tip go straight from one place to the other? `is_free`: by cell of the lattice.
 bool edge_is_free(const Lattice& lattice, const std::vector<char>& is_free, const Point2& from, const Point2& to);

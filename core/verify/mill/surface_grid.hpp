@@ -23,8 +23,10 @@ class SurfaceGrid {
  private:
   using Corners = std::array<Vec3, 3>;
   /// Numbers of those whose boxes meet this one, each once.
-  const std::vector<std::uint32_t>& within(const Vec3& low, const Vec3& high);
+  const std::vector<std::uint32_t>& within(const Eigen::AlignedBox3d& around);
   std::array<int, 3> box_of(const Vec3& point) const;
+  template <typename Visit>
+  void for_each_box(const Eigen::AlignedBox3d& around, const Visit& visit) const;
 
   /// Around a triangle.
   struct Ball {
