@@ -12,6 +12,7 @@ constexpr double look_share = 1.0 / 6, nearest_look_m = 4e-4, farthest_look_m = 
 /// Beside an upright wall the line is cut until its pieces are shorter than this, in plan; of a line that must be
 /// whole, which is a way and leaves nothing, sooner: up and over is no longer than such a wall.
 constexpr double finest_m = 4e-6, finest_whole_m = 6e-5;
+
 class Follower {
  public:
   Follower(const EnvelopeTask& task, const Point2& from, const Point2& to, const std::vector<WallStop>& stops)
