@@ -146,8 +146,8 @@ class Climb {
     EdgePlaces places;
     places.begin.put(tool_.rates, start);
     const Configuration one = Configuration::Ones(start.size());
-    const EdgeBow bow = bow_of(tool_.rates, make_edge(tool_.rates, {one, one}, start, end, places), places);
-    return std::max(bow.ball, bow.top) + bow.more;
+    const EdgeSagitta sagitta = sagitta_of(tool_.rates, make_edge(tool_.rates, {one, one}, start, end, places), places);
+    return std::max(sagitta.ball, sagitta.top) + sagitta.more;
   }
 
   const PathTool& tool_;

@@ -80,25 +80,25 @@ class CornerFinder {
     to.edge.cut = edge.cut;
     to.edge.feed_m_s = demands_.feeds.of(edge, tool);
     to.edge.cap = 1 / std::max(to.edge.joint_rate, to.edge.ball / to.edge.feed_m_s);
-    const EdgeBow bow = bow_of(tool.rates, to.edge, places_at_);
-    to.room = rooms_ ? rooms_->go_to(point, bow, places_at_) : room_of(edge, tool.room, bow);
+    const EdgeSagitta sagitta = sagitta_of(tool.rates, to.edge, places_at_);
+    to.room = rooms_ ? rooms_->go_to(point, sagitta, places_at_) : room_of(edge, tool.room, sagitta);
     to.rest = edge.rest;
-    if (lowest_on_edge(bow) < path_.header().grid.origin_m.z()) last_low_ = point;
+    if (lowest_on_edge(sagitta) < path_.header().grid.origin_m.z()) last_low_ = point;
   }
 
   /// Of ball and shank, in the stock's frame.
-  double lowest_on_edge(const EdgeBow& bow) const {
+  double lowest_on_edge(const EdgeSagitta& sagitta) const {
     const Tool& tool = path_.header().tool;
     const auto lowest = [&](const ToolPlace& place) {
       return place.pose.ball_m.z() + std::min(0.0, tool.stickout_m * place.pose.axis.z());
     };
-    return std::min(lowest(places_at_.begin), lowest(places_at_.end)) - std::max(bow.ball, bow.top) - bow.more -
-           std::max(tool.ball_radius_m, tool.shank_radius_m);
+    return std::min(lowest(places_at_.begin), lowest(places_at_.end)) - std::max(sagitta.ball, sagitta.top) -
+           sagitta.more - std::max(tool.ball_radius_m, tool.shank_radius_m);
   }
 
   /// Of a milling tool: what its strokes are certified with, less what they use of it themselves.
-  static EdgeRoom room_of(const PlanPath::Edge& edge, const MillRoom& room, const EdgeBow& bow) {
-    if (edge.cut) return {true, {room.cut_m, bow.ball, bow.more}, {room.cut_m, bow.top, bow.more}};
+  static EdgeRoom room_of(const PlanPath::Edge& edge, const MillRoom& room, const EdgeSagitta& sagitta) {
+    if (edge.cut) return {true, {room.cut_m, sagitta.ball, sagitta.more}, {room.cut_m, sagitta.top, sagitta.more}};
     return {true, {room.beside(edge), 0, 0}, {room.beside(edge), 0, 0}};
   }
 

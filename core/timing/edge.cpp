@@ -55,15 +55,15 @@ PathEdge make_edge(const ToolRates& rates, const JointRates& joints, const Confi
   return edge;
 }
 
-EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places) {
+EdgeSagitta sagitta_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places) {
   const ToolPose &begin = places.begin.pose, &end = places.end.pose;
   const Vec3 line = end.ball_m - begin.ball_m, top_line = line + rates.stickout_m * (end.axis - begin.axis);
   // With the derivatives a and b of the deviation at its ends the cubic is a t (1 - t)^2 - b t^2 (1 - t).
-  const auto bow = [&](const Vec3& at_begin, const Vec3& at_end, const Vec3& straight) {
+  const auto sagitta = [&](const Vec3& at_begin, const Vec3& at_end, const Vec3& straight) {
     return std::max((edge.length * at_begin - straight).norm(), (edge.length * at_end - straight).norm()) / 4;
   };
   const double turned = edge.turn * edge.length;
-  return {bow(edge.begin.ball, edge.end.ball, line), bow(edge.begin.top, edge.end.top, top_line),
+  return {sagitta(edge.begin.ball, edge.end.ball, line), sagitta(edge.begin.top, edge.end.top, top_line),
           rates.orders(4) * turned * turned * turned * edge.travel * edge.length / 384};
 }
 

@@ -55,12 +55,12 @@ struct EdgePlaces {
 };
 
 /// How far ball and shank's end leave the straight line between where an edge begins and ends (m): at a share t of it
-/// by no more than 4 bow t (1 - t) + 16 more t^2 (1 - t)^2. By the cubic through the ends with the derivatives there,
-/// and what it leaves out, a bound of the fourth derivative over 384.
-struct EdgeBow {
+/// by no more than 4 sagitta t (1 - t) + 16 more t^2 (1 - t)^2. By the cubic through the ends with the derivatives
+/// there, and what it leaves out, a bound of the fourth derivative over 384.
+struct EdgeSagitta {
   double ball = 0, top = 0, more = 0;
 };
-EdgeBow bow_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places);
+EdgeSagitta sagitta_of(const ToolRates& rates, const PathEdge& edge, const EdgePlaces& places);
 
 /// What the joints may do, as edges are measured by.
 struct JointRates {

@@ -155,13 +155,13 @@ class MillFollower {
     Stop next = stop_of(lane, piece.tip, piece.cell);
     if (next.tip_off > close_m) return false;
     const double more = derivative_bounds(chain_, turn_[lane], travel_[lane]).fourth_m / 384;
-    const auto stray_of = [&](double off, double second, double third) {
+    const auto deviation_of = [&](double off, double second, double third) {
       return off + second / 8 + third / (72 * std::numbers::sqrt3) + more;
     };
-    const double tip = stray_of(std::max(here_.tip_off, next.tip_off), edges_.ball_second_derivative[lane],
-                                edges_.ball_third_derivative[lane]);
-    const double top = stray_of(std::max(here_.top_off, next.top_off), edges_.top_second_derivative[lane],
-                                edges_.top_third_derivative[lane]);
+    const double tip = deviation_of(std::max(here_.tip_off, next.tip_off), edges_.ball_second_derivative[lane],
+                                    edges_.ball_third_derivative[lane]);
+    const double top = deviation_of(std::max(here_.top_off, next.top_off), edges_.top_second_derivative[lane],
+                                    edges_.top_third_derivative[lane]);
     const double cutter = tip + cutter_lever_ * (tip + top), body = std::max(tip, top) + body_lever_ * (tip + top);
     const double length = (next.tip - here_.tip).norm();
     if (length > 0)

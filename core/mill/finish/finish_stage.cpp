@@ -194,15 +194,15 @@ class FinishStage {
       contours = carry_out(site, task, std::move(contours), min_height);
   }
 
-  struct Followed {
+  struct BatchesDone {
     Batch batch, ahead;    ///< the last one that the arm began with, and the one after it
     std::size_t done = 0;  ///< strokes of the last one
   };
 
   /// Until all is laid, or the arm does not come to the end of a batch.
-  Followed follow_batches(const Site& site, double min_height, std::vector<Contour>& contours, ContourStrokes& laid,
-                          std::vector<Contour>& apart) {
-    Followed last{{}, lay_batch(site, min_height, contours, laid), 0};
+  BatchesDone follow_batches(const Site& site, double min_height, std::vector<Contour>& contours, ContourStrokes& laid,
+                             std::vector<Contour>& apart) {
+    BatchesDone last{{}, lay_batch(site, min_height, contours, laid), 0};
     while (!last.ahead.contours.empty() && last.done == last.batch.strokes.size()) {
       last.batch = std::exchange(last.ahead, {});
       std::ranges::move(last.batch.apart, std::back_inserter(apart));

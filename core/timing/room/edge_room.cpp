@@ -16,7 +16,7 @@ constexpr double max_off = 0.02;     // of the middle of a cell
 constexpr double hover = 0.4;        // room above all that stands
 constexpr int max_columns = 1024;    // that a way above all is looked for over
 constexpr double touching_m = 1e-6;  // the table touches the stock
-constexpr double max_stray = 0.04;   // off the line, bow included
+constexpr double max_stray = 0.04;   // off the line, sagitta included
 
 Voxel cell_of(const Vec3& point) {
   return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y())),
@@ -53,7 +53,7 @@ double highest_beside(const Cell& cell, const Chain& chain, const Configuration&
 struct EdgeRoomFinder::Ends {
   std::array<Vec3, 2> ball, top;
   std::size_t direction;
-  EdgeBow bow;  ///< m
+  EdgeSagitta sagitta;  ///< m
 };
 
 EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m)
@@ -67,7 +67,7 @@ EdgeRoomFinder::EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Cha
       all_below_(highest_beside(cell, chain, path.configuration(0)) <= grid_.origin_m.z() + touching_m),
       columns_(grid_.n) {}
 
-EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeBow& bow, const EdgePlaces& places) {
+EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeSagitta& sagitta, const EdgePlaces& places) {
   if (!all_below_) return {};
   Ends ends;
   for (std::size_t at = 0; at < 2; ++at) {
@@ -76,7 +76,7 @@ EdgeRoom EdgeRoomFinder::go_to(std::size_t point, const EdgeBow& bow, const Edge
     ends.top[at] = ends.ball[at] + stickout_m_ / grid_.voxel_m * pose.axis;
   }
   ends.direction = nearest_direction(places.begin.pose.axis + places.end.pose.axis);
-  ends.bow = bow;
+  ends.sagitta = sagitta;
   const int voxels = path_.edge_to(point).voxels;
   EdgeRoom room;
   if (face_steps[ends.direction].k >= 0) {
@@ -108,11 +108,11 @@ EdgeRoom EdgeRoomFinder::in_columns(int voxels, const Ends& ends) {
   for (int at = 0; at <= cells; ++at)
     if (!columns_.is_open(from + step * at, ends.direction, at > cells - voxels)) return {};
   const double h = grid_.voxel_m;
-  const auto room = [&](double radius, double off, double most, double bow) {
-    return EndRoom{h * (std::min(most, 0.5 - radius - margin) - off - reserve_), bow, ends.bow.more};
+  const auto room = [&](double radius, double off, double most, double sagitta) {
+    return EndRoom{h * (std::min(most, 0.5 - radius - margin) - off - reserve_), sagitta, ends.sagitta.more};
   };
-  return {true, room(ball_radius_, ball_off, tolerance_, ends.bow.ball),
-          room(shank_radius_, std::max(ball_off, top_off), 0.5, ends.bow.top)};
+  return {true, room(ball_radius_, ball_off, tolerance_, ends.sagitta.ball),
+          room(shank_radius_, std::max(ball_off, top_off), 0.5, ends.sagitta.top)};
 }
 
 EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) {
@@ -122,10 +122,10 @@ EdgeRoom EdgeRoomFinder::above_all(const Ends& ends) {
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
     }
-  const double bow = (std::max(ends.bow.ball, ends.bow.top) + ends.bow.more) / grid_.voxel_m;
+  const double sagitta = (std::max(ends.sagitta.ball, ends.sagitta.top) + ends.sagitta.more) / grid_.voxel_m;
   const Voxel axis = face_steps[ends.direction];
   const Vec3 along(axis.i, axis.j, axis.k);
-  const double around = std::max(ball_radius_, shank_radius_) + hover + margin + reserve_ + bow;
+  const double around = std::max(ball_radius_, shank_radius_) + hover + margin + reserve_ + sagitta;
   low.array() -= around;
   high.array() += around;
   if (low.z() < 0) return {};

@@ -4,9 +4,9 @@
 // A tool whose axis goes along one of the grid's, with ball and shank's end within o of the middle of a column of
 // cells, stays in that column if it strays by less than 0.5 voxel - radius - o; so it touches nothing if nothing stands
 // in the column from the ball's cell on, but for the voxel that is being cut. An edge from the middle of one cell to
-// that of another in line with it goes through the cells between, and may leave the line by its bow b: at a share t of
-// it by 4 b t (1 - t) and what the fourth derivative adds. All this is above the stock's bottom, so what stands still
-// in the stock's frame must be below that, else nothing is said.
+// that of another in line with it goes through the cells between, and may leave the line by its sagitta b: at a share t
+// of it by 4 b t (1 - t) and what the fourth derivative adds. All this is above the stock's bottom, so what stands
+// still in the stock's frame must be below that, else nothing is said.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@ namespace sculpt {
 
 /// Of an edge, for one end of the tool; m.
 struct EndRoom {
-  double room = 0;  ///< where the edge begins and ends
-  double bow = 0;   ///< less in its middle
-  double more = 0;  ///< less there, by the square of how near it is
+  double room = 0;     ///< where the edge begins and ends
+  double sagitta = 0;  ///< less in its middle
+  double more = 0;     ///< less there, by the square of how near it is
 
   /// Up to a share of the edge from either end.
   double up_to(double share) const {
     const double part = std::min(share, 0.5), in = 4 * part * (1 - part);
-    return room - bow * in - more * in * in;
+    return room - sagitta * in - more * in * in;
   }
 };
 
@@ -42,7 +42,7 @@ class EdgeRoomFinder {
   EdgeRoomFinder(const PlanPath& path, const Cell& cell, const Chain& chain, double reserve_m);
 
   /// Of the edge to this point, the next one.
-  EdgeRoom go_to(std::size_t point, const EdgeBow& bow, const EdgePlaces& places);
+  EdgeRoom go_to(std::size_t point, const EdgeSagitta& sagitta, const EdgePlaces& places);
 
  private:
   struct Ends;
