@@ -168,8 +168,7 @@ class Follower {
     if (is_given_up()) return;
     if ((b - a).head<2>().norm() > (is_whole_ ? finest_whole_m : finest_m)) {
       const double share = (share_a + share_b) / 2;
-      const auto middle = rest(share);
-      if (middle) {
+      if (const auto middle = rest(share)) {
         for (const auto& [from, share_from, to, share_to] :
              {std::tuple{a, share_a, *middle, share}, std::tuple{*middle, share, b, share_b}})
           join(from, share_from, to, share_to);

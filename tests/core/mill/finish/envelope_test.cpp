@@ -5,22 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/core/mill/finish/quads.hpp"
+
 namespace sculpt {
 namespace {
 
 constexpr double radius = 3e-3, allowance = 3e-5, clear = 2.1e-5, chord = 2e-5;
-
-/// Quadrilaterals as two triangles each.
-Mesh make_mesh(const std::vector<std::array<Vec3, 4>>& faces) {
-  Mesh mesh;
-  for (const auto& face : faces) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), face.begin(), face.end());
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-  }
-  return mesh;
-}
 
 EnvelopeTask make_task(const FacetColumns& columns) {
   return {columns, radius, allowance, clear, chord, -0.1, [](const Vec3&, const Vec3&) { return true; }};
@@ -29,8 +19,8 @@ EnvelopeTask make_task(const FacetColumns& columns) {
 /// A groove of 90 degrees along y, its crease at the origin.
 Mesh groove() {
   const double w = 0.02;
-  return make_mesh({{Vec3(-w, -w, w), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(-w, w, w)},
-                    {Vec3(0, -w, 0), Vec3(w, -w, w), Vec3(w, w, w), Vec3(0, w, 0)}});
+  return quads({{Vec3(-w, -w, w), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(-w, w, w)},
+                {Vec3(0, -w, 0), Vec3(w, -w, w), Vec3(w, w, w), Vec3(0, w, 0)}});
 }
 
 TEST(Envelope, GoesDownIntoAGrooveAsFarAsTheBallFits) {
@@ -53,9 +43,9 @@ constexpr double wall_m = 0.02;
 /// Along y, its foot at the origin.
 Mesh wall() {
   const double w = 0.03;
-  return make_mesh({{Vec3(-w, -w, wall_m), Vec3(0, -w, wall_m), Vec3(0, w, wall_m), Vec3(-w, w, wall_m)},
-                    {Vec3(0, -w, wall_m), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(0, w, wall_m)},
-                    {Vec3(0, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(0, w, 0)}});
+  return quads({{Vec3(-w, -w, wall_m), Vec3(0, -w, wall_m), Vec3(0, w, wall_m), Vec3(-w, w, wall_m)},
+                {Vec3(0, -w, wall_m), Vec3(0, -w, 0), Vec3(0, w, 0), Vec3(0, w, wall_m)},
+                {Vec3(0, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(0, w, 0)}});
 }
 
 TEST(Envelope, GoesDownAnUprightWall) {

@@ -4,36 +4,27 @@
 
 #include <cmath>
 
+#include "tests/core/mill/finish/quads.hpp"
+
 namespace sculpt {
 namespace {
 
 constexpr double edge = 0.02, radius = 3e-3;
 
 /// A box that fills the lower half of a grid.
-struct Slab {
-  Slab() : voxels{VoxelSet(32, true), VoxelSet(32)} {
-    for (int k = 0; k < 16; ++k)
-      for (int j = 0; j < 32; ++j)
-        for (int i = 0; i < 32; ++i) voxels.keep.insert({i, j, k});
-    for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7})
-      mesh.vertices.push_back({corner & 1 ? edge : 0.0, corner & 2 ? edge : 0.0, corner & 4 ? edge / 2 : 0.0});
-    const std::array<std::array<std::uint32_t, 4>, 6> faces{
-        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-    for (const auto& f : faces) {
-      mesh.triangles.push_back({f[0], f[1], f[2]});
-      mesh.triangles.push_back({f[0], f[2], f[3]});
-    }
-    grid.n = 32;
-    grid.voxel_m = edge / 32;
-    grid.origin_m = Vec3::Zero();
-  }
-  Mesh mesh;
-  VoxelGrid voxels;
-  Grid grid;
-};
+PartInGrid make_slab() {
+  const auto corner = [](int number) {
+    return Vec3(number & 1 ? edge : 0.0, number & 2 ? edge : 0.0, number & 4 ? edge / 2 : 0.0);
+  };
+  std::vector<std::array<Vec3, 4>> faces;
+  for (const auto& [a, b, c, d] : std::array<std::array<int, 4>, 6>{
+           {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}})
+    faces.push_back({corner(a), corner(b), corner(c), corner(d)});
+  return in_grid(quads(faces), edge, [](const Voxel& voxel) { return voxel.k < 16; });
+}
 
 TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
-  Slab slab;
+  PartInGrid slab = make_slab();
   for (const bool turned : {false, true}) {
     if (turned)
       for (auto& t : slab.mesh.triangles) std::swap(t[1], t[2]);
@@ -46,7 +37,7 @@ TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
 }
 
 TEST(Nails, RowsLeaveTheScallopsOfTheirSpacing) {
-  const Slab slab;
+  const PartInGrid slab = make_slab();
   Nails nails(slab.mesh, slab.voxels, slab.grid, 5000, 8);
   const double spacing = 1e-3, off = 4e-5;
   for (double y = -2 * spacing; y < edge + 2 * spacing; y += spacing)
@@ -66,7 +57,7 @@ TEST(Nails, RowsLeaveTheScallopsOfTheirSpacing) {
 }
 
 TEST(Nails, WhatABallDoesNotTouchStays) {
-  const Slab slab;
+  const PartInGrid slab = make_slab();
   Nails nails(slab.mesh, slab.voxels, slab.grid, 1000, 9);
   // Below the slab, and high above it.
   nails.cut({0, edge / 2, -radius - 0.002}, {edge, edge / 2, -radius - 0.002}, radius);

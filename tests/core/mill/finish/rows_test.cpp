@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "tests/core/mill/finish/quads.hpp"
 
 namespace sculpt {
 namespace {
@@ -10,32 +10,17 @@ namespace {
 constexpr double edge = 0.032, wall_x = 0.016, radius = 3e-3, spacing = 1e-3;
 
 /// Two steps with an upright wall between them, low where x is larger.
-struct Steps {
-  Steps() : voxels{VoxelSet(32, true), VoxelSet(32)} {
-    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.insert(mesh.vertices.end(), {a, b, c, d});
-      mesh.triangles.push_back({first, first + 1, first + 2});
-      mesh.triangles.push_back({first, first + 2, first + 3});
-    };
-    const double high = 0.024, low = 0.008;
-    add({0, 0, high}, {wall_x, 0, high}, {wall_x, edge, high}, {0, edge, high});
-    add({wall_x, 0, high}, {wall_x, 0, low}, {wall_x, edge, low}, {wall_x, edge, high});
-    add({wall_x, 0, low}, {edge, 0, low}, {edge, edge, low}, {wall_x, edge, low});
-    for (int k = 0; k < 24; ++k)
-      for (int j = 0; j < 32; ++j)
-        for (int i = 0; i < (k < 8 ? 32 : 16); ++i) voxels.keep.insert({i, j, k});
-    grid.n = 32;
-    grid.voxel_m = edge / 32;
-    grid.origin_m = Vec3::Zero();
-  }
-  Mesh mesh;
-  VoxelGrid voxels;
-  Grid grid;
-};
+PartInGrid make_steps() {
+  const double high = 0.024, low = 0.008;
+  return in_grid(
+      quads({{Vec3(0, 0, high), Vec3(wall_x, 0, high), Vec3(wall_x, edge, high), Vec3(0, edge, high)},
+             {Vec3(wall_x, 0, high), Vec3(wall_x, 0, low), Vec3(wall_x, edge, low), Vec3(wall_x, edge, high)},
+             {Vec3(wall_x, 0, low), Vec3(edge, 0, low), Vec3(edge, edge, low), Vec3(wall_x, edge, low)}}),
+      edge, [](const Voxel& voxel) { return voxel.k < 8 || (voxel.k < 24 && voxel.i < 16); });
+}
 
 TEST(Rows, HaveStopsWhereBallsRestBesideAWall) {
-  const Steps steps;
+  const PartInGrid steps = make_steps();
   const Nails nails(steps.mesh, steps.voxels, steps.grid, 4000, 3);
   const ToolFrame frame({0, 0, 1});
   std::vector<RestingBall> balls;
