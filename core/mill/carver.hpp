@@ -38,7 +38,7 @@ class Carver {
   const SweptSet& left() const { return stock_.left(); }
   /// Those in which something may stand.
   const VoxelSet& standing();
-  /// As they are now whenever the tip is at the hub.
+  /// As they are now whenever the tip is at the hub, or once the carver has settled.
   const Nails& nails() const { return nails_; }
   void mark_reachable(std::size_t nail) { nails_.mark_reachable(nail); }
   /// Of the wishes.
@@ -62,12 +62,13 @@ class Carver {
   std::size_t carry_out(const std::vector<MillStroke>& strokes);
   /// Up from where the tip is and over to the hub; where that is not possible, from a place where the tip was before.
   void draw_back(const Site& site);
+  /// What stands and the nails lose all that was cut.
+  void settle();
 
  private:
   void count(const std::vector<Keyframe>& keyframes);
   void go(FollowedMill followed);
   void remove(FollowedMill& followed);
-  void settle();
   void clear_due();
   void cut_nails_due();
   bool hold(std::size_t direction, const Site& site, const PostureField& field);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/cell/cell.hpp"
@@ -20,6 +21,8 @@ struct MillWishes {
 
   /// How far the cutter may stray from a straight way while it cuts.
   double stray_m() const { return std::min(2e-5, 2 * allowance_m / 3); }
+  /// Between rows of a ball over a plane, which leave the scallop: r - sqrt(r^2 - s^2 / 4), nearly.
+  double stepover_m(double radius_m) const { return std::sqrt(8 * scallop_m * radius_m); }
   /// How far an edge may be above what it should follow.
   double chord_m() const { return std::max(0.1 * tolerance_m, tolerance_m - scallop_m - allowance_m - stray_m()); }
 };

@@ -46,7 +46,7 @@ struct MillOrder {
   double tolerance_m = 1e-4;  ///< what may stand above the surface where the tools come to it
   std::optional<double> scallop_m = {}, allowance_m = {};  ///< of it; by default these shares
 
-  static constexpr double scallop_share = 0.35, allowance_share = 0.15;
+  static constexpr double scallop_share = 0.35, allowance_share = 0.1;
   double scallop() const { return scallop_m.value_or(scallop_share * tolerance_m); }
   double allowance() const { return allowance_m.value_or(allowance_share * tolerance_m); }
 };

@@ -95,6 +95,7 @@ std::string report_json(const Report& report) {
   if (const auto& surface = report.surface) {
     json["surface"] = json_of(surface->all);
     json["surface"]["reachable"] = json_of(surface->reachable);
+    json["surface"]["base_points"] = surface->base_points;
     json["surface"]["gouged_points"] = surface->gouged_points;
     json["surface"]["gouge_m"] = surface->gouge_m;
   }

@@ -24,8 +24,9 @@ struct ExcessFigures {
 
 /// Of a job with milling tools.
 struct SurfaceFigures {
-  ExcessFigures all;        ///< as the replay measures it
-  ExcessFigures reachable;  ///< of what the given tools can come to, as the planner knows it
+  ExcessFigures all;              ///< as the replay measures it, but for the face that the part stands on
+  ExcessFigures reachable;        ///< of what the given tools can come to, as the planner knows it
+  std::uint64_t base_points = 0;  ///< of that face
   std::uint64_t gouged_points = 0;
   double gouge_m = 0;
 };

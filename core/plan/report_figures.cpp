@@ -75,7 +75,7 @@ void count_replay(Report& report, const Verdict& verdict) {
 void count_surface(Report& report, const SurfaceVerdict& surface, const std::vector<double>& reachable,
                    double tolerance_m) {
   report.surface = {excess_figures(surface.excess_m, tolerance_m), excess_figures(reachable, tolerance_m),
-                    surface.gouged_points, surface.gouge_m};
+                    surface.base_points, surface.gouged_points, surface.gouge_m};
 }
 
 }  // namespace sculpt

@@ -14,14 +14,14 @@
 namespace sculpt {
 namespace {
 
-/// Angle classes: the axis is first tried near the normal. Cosines.
-constexpr std::array classes{0.64, 0.34, -0.02};
-/// How often all directions are gone through, each time with rows twice as near.
+/// How often the last ball cutter goes through all directions, each time with rows twice as near.
 constexpr int rounds = 3;
-/// Of all nails: a direction is entered for so many, and in the last class for fewer.
+/// Of the nails that are asked for: a direction is entered for so many, and with the last ball cutter for fewer.
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
-/// From place to place in creases (row spacings).
-constexpr double link_spacings = 4;
+/// Rows that do less for their length are not laid: `RowTask::least_worth`.
+constexpr double least_worth = 0.5;
+/// From place to place where no rows are (row spacings).
+constexpr double link_spacings = 5;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
 constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
@@ -36,49 +36,41 @@ class FinishStage {
         run_(run),
         nails_(carver.nails()),
         radius_m_(carver.tool().cutter.radius_m),
-        spacing_m_(std::sqrt(8 * job.wishes.scallop_m * radius_m_)),
+        spacing_m_(job.wishes.stepover_m(radius_m_)),
         reach_(job, views, carver, run) {}
 
   void run(bool is_last) {
-    for (int round = 0; round < (is_last ? rounds : 1); ++round) {
-      if (round == 1) reach_.find_beside(classes.back());
-      go_through(round, is_last);
-    }
+    reach_.find();
+    if (is_last) reach_.find_beside();
+    for (int round = 0; round < (is_last ? rounds : 1); ++round) go_through(round, is_last);
   }
 
  private:
-  /// All directions, those near the nails' normals first.
+  /// All directions, the one that serves most first.
   void go_through(int round, bool is_last) {
     std::vector<std::uint32_t> tried(nails_.size());
-    for (std::size_t angle = 0; angle < classes.size(); ++angle) {
-      if (round == 0) reach_.find(angle == 0 ? 2.0 : classes[angle - 1], classes[angle]);
-      const bool is_rest = is_last && (round > 0 || angle + 1 == classes.size());
-      const double worth = (is_rest ? last_worth_share : worth_share) * static_cast<double>(nails_.size());
-      while (const auto best = best_direction(classes[angle], tried, worth))
-        machine(*best, classes[angle], round, tried);
-    }
+    const double worth = (is_last ? last_worth_share : worth_share) * static_cast<double>(reach_.asked());
+    while (const auto best = best_direction(tried, worth)) machine(*best, round, tried);
   }
 
-  bool is_wanted(std::size_t nail, std::size_t direction, double from, const std::vector<std::uint32_t>& tried) const {
-    return reach_.comes_along(nail, direction) && (tried[nail] >> direction & 1) == 0 && reach_.is_open(nail) &&
-           reach_.cosine(nail, direction) >= from;
+  bool is_wanted(std::size_t nail, std::size_t direction, const std::vector<std::uint32_t>& tried) const {
+    return reach_.comes_along(nail, direction) && (tried[nail] >> direction & 1) == 0 && reach_.is_open(nail);
   }
 
-  std::optional<std::size_t> best_direction(double from, const std::vector<std::uint32_t>& tried, double worth) const {
+  std::optional<std::size_t> best_direction(const std::vector<std::uint32_t>& tried, double worth) const {
     std::vector<std::size_t> counts(reach_.directions());
     run_.helpers.for_each_index(counts.size(), [&](std::size_t direction) {
-      for (std::size_t nail = 0; nail < nails_.size(); ++nail)
-        counts[direction] += is_wanted(nail, direction, from, tried);
+      for (std::size_t nail = 0; nail < nails_.size(); ++nail) counts[direction] += is_wanted(nail, direction, tried);
     });
     const auto most = std::ranges::max_element(counts);
     if (*most == 0 || static_cast<double>(*most) < worth) return std::nullopt;
     return static_cast<std::size_t>(most - counts.begin());
   }
 
-  void machine(std::size_t direction, double from, int round, std::vector<std::uint32_t>& tried) {
+  void machine(std::size_t direction, int round, std::vector<std::uint32_t>& tried) {
     std::vector<std::uint32_t> wanted;
     for (std::uint32_t nail = 0; nail < nails_.size(); ++nail)
-      if (is_wanted(nail, direction, from, tried)) {
+      if (is_wanted(nail, direction, tried)) {
         wanted.push_back(nail);
         tried[nail] |= std::uint32_t{1} << direction;
       }
@@ -86,10 +78,10 @@ class FinishStage {
     along.see(carver_.standing(), job_.grid, run_.helpers);
     std::erase_if(wanted,
                   [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
-    std::vector<Vec3> places;
-    places.reserve(wanted.size());
-    for (const std::uint32_t nail : wanted) places.push_back(along.frame().point(reach_.tip_at(nail, along.frame())));
-    if (!carver_.enter(direction, along, places)) return;
+    std::vector<Vec3> tips;
+    tips.reserve(wanted.size());
+    for (const std::uint32_t nail : wanted) tips.push_back(along.frame().point(reach_.tip_at(nail, along.frame())));
+    if (!carver_.enter(direction, along, tips)) return;
     // The robot may come to the others in another way.
     std::erase_if(wanted, [&](std::uint32_t nail) {
       const bool comes = carver_.reach().allows(reach_.tip_at(nail, along.frame()));
@@ -99,17 +91,19 @@ class FinishStage {
     const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
     std::vector<RestingBall> balls;
-    balls.reserve(wanted.size());
-    std::vector<Vec3> in_creases;
-    for (const std::uint32_t nail : wanted) {
-      const Vec3 middle = reach_.middle_over(nail, along.frame());
-      if (reach_.is_beside(nail))
-        in_creases.push_back(middle);
-      else
-        balls.push_back({nail, middle});
-    }
-    std::vector<Row> rows = find_rows({spacing_m_, round, radius_m_}, along.frame(), nails_, balls);
-    std::ranges::move(pencil_rows(in_creases, link_spacings * spacing_m_, spacing_m_), std::back_inserter(rows));
+    for (const std::uint32_t nail : wanted)
+      if (!reach_.is_beside(nail)) balls.push_back({nail, reach_.middle_over(nail, along.frame())});
+    const RowTask rows{spacing_m_, round, radius_m_, reach_.area_m2(), least_worth};
+    follow_rows(along, task, find_rows(rows, along.frame(), nails_, balls));
+    // In creases, and where no rows are worth it.
+    std::vector<Vec3> places;
+    for (const std::uint32_t nail : wanted)
+      if (reach_.is_open(nail)) places.push_back(reach_.middle_over(nail, along.frame()));
+    follow_rows(along, task, pencil_rows(places, link_spacings * spacing_m_, spacing_m_));
+    carver_.draw_back(along);
+  }
+
+  void follow_rows(const Site& site, const EnvelopeTask& task, const std::vector<Row>& rows) {
     std::vector<std::vector<Contour>> found(rows.size());
     run_.helpers.for_each_index(rows.size(), [&](std::size_t row) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
@@ -117,8 +111,8 @@ class FinishStage {
     });
     std::vector<Contour> contours;
     for (auto& each : found) std::ranges::move(each, std::back_inserter(contours));
-    carry_out(along, task, std::move(contours));
-    carver_.draw_back(along);
+    carry_out(site, task, std::move(contours));
+    carver_.settle();
   }
 
   EnvelopeTask make_task(const Site& site, const FacetColumns& columns) const {

@@ -28,6 +28,13 @@ constexpr double gain_m = 5e-6;
 /// Places no farther apart than this are one.
 constexpr double same_place_m = 3e-5;
 constexpr std::size_t nails_a_batch = 512;
+/// A surface that looks away from a direction more than this (cosine) is not asked for along it.
+constexpr double least_cosine = -0.02;
+
+std::size_t stride_of(const MillJob& job, double radius_m, const Nails& nails) {
+  const double needed_m2 = std::pow(job.wishes.stepover_m(radius_m), 2) / Nails::a_stepover;
+  return std::max<std::size_t>(1, static_cast<std::size_t>(needed_m2 / nails.area_m2()));
+}
 
 }  // namespace
 
@@ -43,6 +50,7 @@ NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, const
       run_(run),
       nails_(carver.nails()),
       radius_m_(carver.tool().cutter.radius_m),
+      stride_(stride_of(job, radius_m_, nails_)),
       along_(nails_.size()),
       aside_(nails_.size(), Eigen::Vector3f::Zero()),
       leaves_(nails_.size()) {
@@ -63,13 +71,12 @@ Vec3 NailReach::middle_at(const Place& place, const ToolFrame& frame) const {
   return frame.of(nail.point + (radius_m_ + job_.wishes.allowance_m) * nail.normal + place.aside);
 }
 
-void NailReach::find(double below, double from) {
+void NailReach::find() {
   std::vector<Place> places;
-  for (std::size_t nail = 0; nail < nails_.size(); ++nail)
+  for (std::size_t nail = 0; nail < nails_.size(); nail += stride_)
     if (is_open(nail)) places.push_back({nail, Vec3::Zero(), 0});
-  const double most_m = job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
   const std::vector<std::uint32_t> found =
-      look_along_all(places, most_m, [&](double cosine) { return cosine < below && cosine >= from; });
+      look_along_all(places, job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m);
   for (std::size_t at = 0; at < places.size(); ++at) {
     const std::size_t nail = places[at].nail;
     along_[nail] |= found[at];
@@ -77,14 +84,12 @@ void NailReach::find(double below, double from) {
   }
 }
 
-/// Of each place along which directions that are asked for, by their cosines with its nail's normal, the cutter comes
-/// to it and leaves no more than `most_m`: a bit each.
-std::vector<std::uint32_t> NailReach::look_along_all(const std::vector<Place>& places, double most_m,
-                                                     const std::function<bool(double cosine)>& is_asked) {
+/// Of each place along which directions the cutter comes to it and leaves no more than `most_m`: a bit each.
+std::vector<std::uint32_t> NailReach::look_along_all(const std::vector<Place>& places, double most_m) {
   std::vector<std::vector<std::uint32_t>> found(frames_.size());
   run_.helpers.for_each_index(frames_.size(), [&](std::size_t direction) {
     for (std::uint32_t at = 0; at < places.size(); ++at)
-      if (is_asked(cosine(places[at].nail, direction))) found[direction].push_back(at);
+      if (cosine(places[at].nail, direction) >= least_cosine) found[direction].push_back(at);
     keep_reached(found[direction], places, most_m, direction);
   });
   std::vector<std::uint32_t> along(places.size());
@@ -129,18 +134,21 @@ double NailReach::highest_above(double aside, double most_m, double cosine) cons
   return root < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(root) - half;
 }
 
-void NailReach::find_beside(double from) {
+void NailReach::find_beside() {
   const std::vector<Place> places = free_places();
   const double most_m = beside_tolerance_share * job_.wishes.tolerance_m;
-  const std::vector<std::uint32_t> found =
-      look_along_all(places, most_m, [&](double cosine) { return cosine >= from; });
+  const std::vector<std::uint32_t> found = look_along_all(places, most_m);
   // Of a nail's places the one that it is come to along most directions.
   for (std::size_t at = 0; at < places.size(); ++at) {
     const auto& [nail, aside, leaves] = places[at];
-    if (std::popcount(found[at]) <= std::popcount(along_[nail])) continue;
+    const auto merit = [&](std::uint32_t along, double left) {
+      return std::pair(along != 0 && left <= job_.wishes.tolerance_m, std::popcount(along));
+    };
+    const float left = leaves + static_cast<float>(gain_m);
+    if (merit(found[at], leaves) <= merit(along_[nail], leaves_[nail] - gain_m)) continue;
     along_[nail] = found[at];
     aside_[nail] = aside.cast<float>();
-    leaves_[nail] = leaves + static_cast<float>(gain_m);
+    leaves_[nail] = left;
   }
 }
 
@@ -153,7 +161,7 @@ std::vector<NailReach::Place> NailReach::free_places() const {
     for (std::size_t nail = batch * nails_a_batch; nail < std::min(nails_.size(), (batch + 1) * nails_a_batch);
          ++nail) {
       if (run_.watch.stop.stop_requested()) throw Cancelled{};
-      if (is_open(nail) && along_[nail] == 0) add_free_places(nail, ball, found[batch]);
+      if (nail % stride_ == 0 && is_open(nail) && along_[nail] == 0) add_free_places(nail, ball, found[batch]);
     }
   });
   std::vector<Place> places;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,19 +16,23 @@ namespace sculpt {
 /// May the tip be there (tool frame), for what is above the cutter?
 bool is_above_floor(const Site& site, const Vec3& tip);
 
-/// For the tool that a carver holds. Not shared between threads.
+/// For the tool that a carver holds, and as many nails as its rows need: evenly some of them. Not shared between
+/// threads.
 class NailReach {
  public:
   /// All must outlive the object.
   NailReach(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run);
 
-  /// Of all open nails whose normals are that near to a direction (cosines): could the cutter come to them along it?
-  /// Those are marked as reachable. Throws Cancelled.
-  void find(double below, double from);
+  /// Of all open nails that face a direction: could the cutter come to them along it? Those are marked as reachable.
+  /// Throws Cancelled.
+  void find();
   /// In a crease the cutter cannot rest on a nail; beside it, perhaps, and still leave no more than the tolerance. Of
   /// open nails that nothing was found for. Throws Cancelled.
-  void find_beside(double from);
+  void find_beside();
 
+  /// How many nails these are, and how much of the surface there is for each.
+  std::size_t asked() const { return (nails_.size() + stride_ - 1) / stride_; }
+  double area_m2() const { return static_cast<double>(stride_) * nails_.area_m2(); }
   std::size_t directions() const { return frames_.size(); }
   /// Its maps; made when first asked for, of each direction one thread at a time.
   Site& site(std::size_t direction);
@@ -57,8 +60,7 @@ class NailReach {
     float leaves;  ///< above the nail (m), where the ball gets there
   };
 
-  std::vector<std::uint32_t> look_along_all(const std::vector<Place>& places, double most_m,
-                                            const std::function<bool(double cosine)>& is_asked);
+  std::vector<std::uint32_t> look_along_all(const std::vector<Place>& places, double most_m);
   void keep_reached(std::vector<std::uint32_t>& asked, const std::vector<Place>& places, double most_m,
                     std::size_t direction);
   Vec3 middle_at(const Place& place, const ToolFrame& frame) const;
@@ -73,6 +75,7 @@ class NailReach {
   const RunContext& run_;
   const Nails& nails_;
   double radius_m_;
+  std::size_t stride_;
   std::vector<ToolFrame> frames_;
   std::vector<std::unique_ptr<Site>> sites_;
   std::vector<std::uint32_t> along_;    ///< of each nail, a bit for each direction

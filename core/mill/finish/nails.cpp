@@ -12,6 +12,8 @@ constexpr double never_met = std::numeric_limits<double>::infinity();
 constexpr double nails_a_box = 6;
 /// How far from the surface it is found out what is inside (voxel edges).
 constexpr double look_voxels = 1.0;
+/// Surface that looks straight down, nearly, from so little above the bottom of the block is what the part stands on.
+constexpr double base_cosine = 0.9, base_m = 1e-3;
 
 double signed_volume(const Mesh& part) {
   double volume = 0;
@@ -34,6 +36,11 @@ std::optional<Vec3> outward(const Vec3& point, const Vec3& normal, const VoxelGr
       is_kept(voxels, grid, point - 2 * off * normal))
     return std::nullopt;
   return before && !behind ? Vec3(-normal) : normal;
+}
+
+/// Does the part stand on it?
+bool is_base(const Vec3& point, const Vec3& normal, const Grid& grid) {
+  return std::abs(normal.z()) > base_cosine && point.z() < grid.origin_m.z() + base_m;
 }
 
 /// From a point along a direction to the side of the block.
@@ -79,6 +86,7 @@ Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::s
     double x = random.unit(), y = random.unit();
     if (x + y > 1) x = 1 - x, y = 1 - y;
     const Vec3 point = part.vertices[t[0]] + x * e + y * f, normal = turn * e.cross(f).normalized();
+    if (is_base(point, normal, grid)) continue;
     if (const auto out = outward(point, normal, voxels, grid)) {
       found.push_back({point, *out});
       all.extend(point);

@@ -23,9 +23,13 @@ struct Nail {
 /// Not shared between threads while anything is cut.
 class Nails {
  public:
-  /// About `count` of them, spread evenly at random over the part's area; facets inside of the target have none.
+  /// About `count` of them, spread evenly at random over the part's area; facets inside of the target have none, nor has
+  /// the face that the part stands on.
   /// `part` in metres; its facets may be turned either way, all alike.
   Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed);
+
+  /// So many of them are wanted on a square of the stepover.
+  static constexpr double a_stepover = 2;
 
   std::size_t size() const { return nails_.size(); }
   const Nail& operator[](std::size_t at) const { return nails_[at]; }

@@ -19,6 +19,10 @@ struct RowTask {
   double spacing_m = 0;  ///< of rows where the surface is level across them
   int finer = 0;         ///< so many times rows are twice as near
   double radius_m = 0;   ///< of the ball
+  double area_m2 = 0;    ///< of the surface, for each ball
+  /// A row's length is at most so many times what it would be if it served as many balls without an end and none twice,
+  /// the way to the next one counted in: the inverse of that.
+  double least_worth = 0;
 };
 
 struct RestingBall {
@@ -26,8 +30,9 @@ struct RestingBall {
   Vec3 middle;             ///< tool frame
 };
 
-/// Rows run up and down the slope through where balls rest, in one of four headings, the nearer the steeper the surface
-/// is across them.
+/// Rows in one of four headings by where balls rest: along any where the surface is nearly level across it, else up and
+/// down the slope, the nearer the steeper it is across them. Balls that no row is worth it for are left out, beside
+/// walls none.
 std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
                            const std::vector<RestingBall>& balls);
 

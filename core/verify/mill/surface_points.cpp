@@ -12,6 +12,8 @@ constexpr double points_a_mm2 = 2;
 constexpr double fewest = 20000, most = 250000;
 constexpr double uncut = std::numeric_limits<double>::infinity();
 constexpr double gouge_mm = 1e-3;
+/// The part stands on what is no higher than this above the bottom of the block and steeper to the side than 1 in 2.
+constexpr double base_mm = 1, base_lean = 0.5;
 /// From a point to a segment, squared.
 double away2(const Vec3& point, const Vec3& from, const Vec3& way) {
   const double length2 = way.squaredNorm();
@@ -46,6 +48,11 @@ bool contains(const VoxelSet& voxels, const Grid& grid, const Vec3& at_mm) {
   return voxels.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
 }
 
+bool is_base(const Vec3& at_mm, const Vec3& normal, const Grid& grid) {
+  return at_mm.z() - 1000 * grid.origin_m.z() <= base_mm && normal.z() < 0 &&
+         normal.head<2>().norm() <= base_lean * -normal.z();
+}
+
 }  // namespace
 
 std::optional<Vec3> outward(const Vec3& at, const Vec3& normal, const VoxelGrid& voxels, const Grid& grid) {
@@ -77,7 +84,8 @@ std::vector<SurfacePoint> draw_points(const Mesh& part, const VoxelGrid& voxels,
     const double root = std::sqrt(unit()), share = unit();
     const Vec3 at = (1 - root) * a + root * ((1 - share) * b + share * c);
     const Vec3 normal = (b - a).cross(c - a).normalized();
-    if (const auto out = outward(at, volume < 0 ? Vec3(-normal) : normal, voxels, grid)) found.push_back({at, *out});
+    if (const auto out = outward(at, volume < 0 ? Vec3(-normal) : normal, voxels, grid))
+      found.push_back({at, *out, is_base(at, *out, grid)});
   }
   return found;
 }
@@ -100,7 +108,8 @@ SurfacePoints::SurfacePoints(const std::vector<SurfacePoint>& points, const Grid
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   points_.resize(points.size());
   for (std::size_t number = 0; number < points.size(); ++number)
-    points_[next[box_of(points[number].at)]++] = {points[number].at, points[number].normal, uncut, number};
+    points_[next[box_of(points[number].at)]++] = {points[number].at, points[number].normal, uncut,
+                                                  points[number].is_base, number};
 }
 
 std::size_t SurfacePoints::box_of(const Vec3& at) const {
@@ -147,14 +156,20 @@ SurfaceVerdict SurfacePoints::judge(const VoxelSet& standing) const {
   verdict.gouged_points = gouged_;
   verdict.gouge_m = deepest_ / 1000;
   const double coarse = 1000 * grid_.voxel_m / 4;
-  verdict.excess_m.resize(points_.size());
+  std::vector<std::optional<double>> excess_m(points_.size());
   for (const Point& point : points_) {
+    if (point.is_base) continue;
     double excess = point.excess;
     if (excess == uncut)
       for (excess = gouge_mm; contains(standing, grid_, point.at + excess * point.normal);)
         excess += std::min(coarse, 0.01 + excess / 4);
-    verdict.excess_m[point.number] = excess / 1000;
+    excess_m[point.number] = excess / 1000;
   }
+  for (const auto& excess : excess_m)
+    if (excess)
+      verdict.excess_m.push_back(*excess);
+    else
+      ++verdict.base_points;
   return verdict;
 }
 

@@ -15,6 +15,7 @@ namespace sculpt {
 /// A point of the part's surface and its outward normal, a unit vector.
 struct SurfacePoint {
   Vec3 at, normal;
+  bool is_base = false;  ///< of the face that the part stands on
 };
 
 /// Those at random on the part (metres), where not both sides of it are well inside of the target.
@@ -32,14 +33,15 @@ class SurfacePoints {
   /// A ball of `radius` cuts on its middle's way from one place to the other, and strays by up to `stray`.
   void cut(const Vec3& from, const Vec3& to, double radius, double stray);
 
-  /// In the order of the points. Above those near which no ball came counts what is in voxels that may hold something,
-  /// `standing`.
+  /// In the order of the points, but for those of the base. Above those near which no ball came counts what is in
+  /// voxels that may hold something, `standing`.
   SurfaceVerdict judge(const VoxelSet& standing) const;
 
  private:
   struct Point {
     Vec3 at, normal;
     double excess;
+    bool is_base;
     std::size_t number;  ///< as they were given
   };
   std::size_t box_of(const Vec3& at) const;

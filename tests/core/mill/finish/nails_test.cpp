@@ -29,7 +29,7 @@ TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
     if (turned)
       for (auto& t : slab.mesh.triangles) std::swap(t[1], t[2]);
     const Nails nails(slab.mesh, slab.voxels, slab.grid, 2000, 7);
-    EXPECT_EQ(nails.size(), 2000U);
+    EXPECT_EQ(nails.size(), 1500U);  // a quarter of it is what the slab stands on
     const Vec3 middle(edge / 2, edge / 2, edge / 4);
     for (std::size_t at = 0; at < nails.size(); ++at)
       EXPECT_GT(nails[at].normal.dot(nails[at].point - middle), 0) << nails[at].point.transpose();
