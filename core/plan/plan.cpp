@@ -12,7 +12,7 @@
 #include "core/material/octree.hpp"
 #include "core/motion/explain_residue.hpp"
 #include "core/plan/carve.hpp"
-#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/checkpoint/checkpoint_folder.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/job_key.hpp"
 #include "core/plan/mill_plan.hpp"

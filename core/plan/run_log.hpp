@@ -7,7 +7,7 @@
 #include "core/collision/scene.hpp"
 #include "core/motion/arm_carve.hpp"
 #include "core/motion/gantry/gantry.hpp"
-#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/checkpoint/checkpoint_folder.hpp"
 #include "core/plan/output/output.hpp"
 #include "core/plan/replay_beside.hpp"
 #include "core/sweep/sweep.hpp"

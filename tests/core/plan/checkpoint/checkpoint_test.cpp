@@ -1,5 +1,5 @@
 // What a checkpoint file says is read back, or refused: never half.
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.hpp"
+#include "core/plan/checkpoint/path_json.hpp"
 
 namespace sculpt {
 namespace {
 
 using Json = nlohmann::json;
-using Path = ArmMemory::Path;
 
 constexpr std::size_t hash_length = 64;
 
@@ -18,22 +18,6 @@ Json to_json(Voxel v) {
 
 Voxel voxel_of(const Json& json) {
   return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>()};
-}
-
-Json to_json(const Path& path) {
-  Json json = Json::array();
-  for (const Configuration& q : path) json.push_back(std::vector<double>(q.begin(), q.end()));
-  return json;
-}
-
-Path path_of(const Json& json) {
-  Path path;
-  for (const Json& values : json) {
-    Configuration q(static_cast<Eigen::Index>(values.size()));
-    for (std::size_t at = 0; at < values.size(); ++at) q[static_cast<Eigen::Index>(at)] = values[at].get<double>();
-    path.push_back(std::move(q));
-  }
-  return path;
 }
 
 Json to_json(const TrajectoryStart& file) {
@@ -97,7 +81,7 @@ Json to_json(const SweepMemory& sweeping) {
             {"cut_tilted", sweeping.cut_tilted},
             {"transits", sweeping.arm.transits},
             {"at", {at.x(), at.y(), at.z()}},
-            {"way_home", to_json(sweeping.arm.way_home)}};
+            {"way_home", path_json(sweeping.arm.way_home)}};
   for (const auto& [standing, wanted] : sweeping.openings)
     json["openings"].push_back({{"n", standing.n()}, {"standing", standing.words()}, {"wanted", wanted.words()}});
   if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
@@ -155,12 +139,12 @@ std::vector<BlockTrial> trials_of(const Json& json) {
 
 Json to_json(const ArmMemory& arm) {
   Json hubs = Json::array();
-  for (const auto& [axis, path] : arm.hubs) hubs.push_back({axis, to_json(path)});
+  for (const auto& [axis, path] : arm.hubs) hubs.push_back({axis, path_json(path)});
   return {{"axis", arm.axis},
           {"outside", arm.outside},
           {"last_outside", arm.last_outside},
           {"hubs", std::move(hubs)},
-          {"way_out", to_json(arm.way_out)},
+          {"way_out", path_json(arm.way_out)},
           {"queries", arm.queries},
           {"ompl_calls", arm.ompl_calls},
           {"ompl_solved", arm.ompl_solved},
