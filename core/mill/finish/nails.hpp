@@ -38,6 +38,8 @@ class Nails {
   /// Some tool could come to it.
   void mark_reachable(std::size_t at) { reachable_[at] = 1; }
   bool is_reachable(std::size_t at) const { return reachable_[at] != 0; }
+  /// Of each whether it is, as 1 or 0.
+  const std::vector<char>& reachable() const { return reachable_; }
   /// Of the surface, for each nail (m2).
   double area_m2() const { return area_m2_; }
 

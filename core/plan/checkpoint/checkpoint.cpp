@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.hpp"
+#include "core/plan/checkpoint/mill_json.hpp"
 #include "core/plan/checkpoint/path_json.hpp"
 
 namespace sculpt {
@@ -224,6 +225,8 @@ Checkpoint checkpoint_of(const Json& json) {
                         refusals_of(json.at("refusals")),
                         {},
                         replayed_of(json.at("replayed")),
+                        {},
+                        {},
                         {}};
   if (json.contains("sweeping")) checkpoint.sweeping = sweeping_of(json.at("sweeping"));
   if (json.contains("swept")) checkpoint.swept = swept_of(json.at("swept"));
@@ -232,6 +235,8 @@ Checkpoint checkpoint_of(const Json& json) {
     checkpoint.sweep_figures = {figures.at(0).get<std::uint64_t>(), figures.at(1).get<std::uint64_t>(),
                                 figures.at(2).get<std::uint64_t>()};
   }
+  if (json.contains("milling")) checkpoint.milling = milling_of(json.at("milling"));
+  if (json.contains("milled")) checkpoint.milled = milled_of(json.at("milled"));
   if (json.contains("residue")) checkpoint.residue = residue_of(json.at("residue"));
   return checkpoint;
 }
@@ -251,6 +256,8 @@ std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key
   if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);
   if (const auto& figures = checkpoint.sweep_figures)
     json["sweep_figures"] = {figures->cut, figures->left, figures->uncovered};
+  if (checkpoint.milling) json["milling"] = milling_json(*checkpoint.milling);
+  if (checkpoint.milled) json["milled"] = milled_json(*checkpoint.milled);
   if (checkpoint.residue) json["residue"] = to_json(*checkpoint.residue);
   const std::string body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
   return sha256_hex(body) + '\n' + body;
