@@ -98,6 +98,34 @@ TEST(ResumedMilling, GoesOnWithTheToolThatWasPutInLast) {
   EXPECT_EQ(std::ranges::find(told, Stage::plan, &Progress::stage)->done, tools.front().removed);
 }
 
+TEST(ResumedMilling, KnowsAtTheNextChangeWhatItWouldHaveKnown) {
+  Job job = two_tools(2);
+  job.mill->tools.push_back("D6");
+  const JobFolder whole(job), stopped(job);
+  const Outcome expected = whole.run();
+  ASSERT_TRUE(run_until(stopped, always, [&](const Progress&) { return fs::exists(stopped.slot(0)); }));
+  EXPECT_EQ(stopped.run(), expected);
+  for (const int slot : {0, 1}) EXPECT_TRUE(read_file(stopped.slot(slot)) == read_file(whole.slot(slot))) << slot;
+}
+
+// No file says where a tool would come to: the next one may be shorter.
+TEST(ResumedMilling, CountsAsReachableWhatToolsBeforeCameTo) {
+  const Job job = two_tools(2);
+  const JobFolder folder(job);
+  ASSERT_TRUE(run_until(folder, always, [&](const Progress&) { return fs::exists(folder.slot(0)); }));
+  CheckpointFolder kept(folder.folder(), folder.trajectory(), job_key(job), always);
+  auto checkpoint = kept.find_newest();
+  ASSERT_TRUE(checkpoint && checkpoint->milling);
+  std::vector<char>& reachable = checkpoint->milling->reachable;
+  const auto points = [](const Outcome& outcome) -> std::uint64_t {
+    return nlohmann::json::parse(outcome.report)["surface"]["reachable"]["points"];
+  };
+  EXPECT_LT(points(undisturbed(2).expected), reachable.size());
+  std::ranges::fill(reachable, char{1});
+  kept.save(*checkpoint);
+  EXPECT_EQ(points(folder.run()), reachable.size());
+}
+
 TEST(ResumedMilling, KilledAgainAndAgainEndsWithTheSameBytes) {
   const Undisturbed& run = undisturbed(1);
   const auto end = static_cast<std::uint64_t>(before_replay(run.told));
