@@ -16,13 +16,12 @@
 namespace sculpt {
 
 /// A stage is worked off in units: a batch of layers, a block, a keyframe of a gantry, a milling tool, a piece of the
-/// replay. When a
-/// unit is over, the checkpoint is brought up to date, and is true until the next unit is. It is kept in the folder
-/// when that is due. One call at a time, those of the listeners too. Throws InputError `file_unwritable`.
+/// replay. When a unit is over, the checkpoint is brought up to date, and is true until the next unit is. It is kept in
+/// the folder when that is due. One call at a time, those of the listeners too. Throws InputError `file_unwritable`.
 class RunLog {
  public:
-  /// All must outlive the object. `found`: the checkpoint that was found, or an empty one.
-  /// `replay`, `scene`: none of a plan with milling tools, which is replayed once it is whole.
+  /// All must outlive the object. `found`: the checkpoint that was found, or an empty one. `replay`, `scene`: none of a
+  /// plan with milling tools, which is replayed once it is whole.
   RunLog(CheckpointFolder& kept, Checkpoint& found, Output& to, const ReplayBeside* replay = nullptr,
          const Scene* scene = nullptr)
       : now_(found), output_(to), replay_(replay), kept_(kept), scene_(scene) {
