@@ -47,9 +47,9 @@ class CutAgain : public testing::Test {
   };
   Left cut(const std::vector<MillCuts>& cuts, int threads) const {
     const Helpers helpers(threads);
-    MillStock stock(slab_.voxels.stock, slab_.grid);
-    Nails nails(slab_.mesh, slab_.voxels, slab_.grid, 3000, 7);
-    cut_again(job_, cuts, stock, nails, {0, helpers, watch_});
+    MillStock stock(slab.voxels.stock, slab.grid);
+    Nails nails(slab.mesh, slab.voxels, slab.grid, 3000, 7);
+    cut_again(job, cuts, stock, nails, {0, helpers, watch});
     Left left{stock.left().voxels(), stock.standing(), {}};
     for (std::size_t at = 0; at < nails.size(); ++at) left.excess.push_back(nails.excess(at));
     return left;
@@ -66,29 +66,29 @@ class CutAgain : public testing::Test {
     return cuts;
   }
 
-  const PartInGrid slab_ = make_slab(edge_m);
-  const Cell cell_ = parse_cell(milled::make_job("bust", slab_.grid.n, {"D6"}).cell);
-  const std::vector<MillTool> tools_ =
+  const PartInGrid slab = make_slab(edge_m);
+  const Cell cell = parse_cell(milled::make_job("bust", slab.grid.n, {"D6"}).cell);
+  const std::vector<MillTool> tools =
       choose_tools(read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), {"D6", "D3"});
-  const MillJob job_{cell_, slab_.grid, slab_.voxels, slab_.mesh, tools_, {}, {}, {}};
-  Watch watch_;
+  const MillJob job{cell, slab.grid, slab.voxels, slab.mesh, tools, {}, {}, {}};
+  Watch watch;
 };
 
 TEST_F(CutAgain, GivesTheSameBitsInAnyOrder) {
   std::vector<MillCuts> cuts = random_cuts();
   const Left expected = cut(cuts, 1);
-  EXPECT_LT(expected.left.size(), slab_.voxels.stock.size());
-  EXPECT_LT(expected.standing.size(), slab_.voxels.stock.size());
+  EXPECT_LT(expected.left.size(), slab.voxels.stock.size());
+  EXPECT_LT(expected.standing.size(), slab.voxels.stock.size());
   EXPECT_LT(std::ranges::min(expected.excess), 1e-3);
   std::ranges::reverse(cuts);
-  for (MillCuts& each : cuts) std::ranges::rotate(each.edges, each.edges.begin() + 2);
+  for (MillCuts& each : cuts) std::rotate(each.edges.begin(), each.edges.begin() + 2, each.edges.end());
   EXPECT_TRUE(cut(cuts, 2) == expected);
 }
 
 TEST_F(CutAgain, EndsWhenItIsAskedTo) {
   std::stop_source stop;
   stop.request_stop();
-  watch_.stop = stop.get_token();
+  watch.stop = stop.get_token();
   EXPECT_THROW(cut(random_cuts(), 2), Cancelled);
 }
 
