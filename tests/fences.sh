@@ -87,7 +87,7 @@ forbid "Highway only in posture_lanes.cpp" "$(include 'hwy/')" "$(door 'sweep/fi
 forbid "libpng only in png_file.cpp" "$(include 'png\.h')" '^clients/cli/cell/png_file\.cpp$' -- core server proto clients
 forbid "OMPL only in motion" "$(include 'ompl/')" "$(door 'motion/[a-z_]+\.cpp')" -- core server proto clients
 forbid "JSON in core only where files are read or written" "$(include 'nlohmann/')" \
-  "$(door '(cell/(cell_file\.cpp|cell_field\.hpp|milling/tool_library\.cpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|timing/time_figures\.cpp|trajectory/([a-z_/]+\.cpp|text/line_fields\.hpp)|plan/(checkpoint|report)\.cpp)')" -- core
+  "$(door '(cell/(cell_file\.cpp|cell_field\.hpp|milling/tool_library\.cpp)|doctor/(make/cell_text|findings_json)\.cpp|place/placed_cell\.cpp|timing/time_figures\.cpp|trajectory/([a-z_/]+\.cpp|text/line_fields\.hpp)|plan/(report\.cpp|checkpoint/(checkpoint\.cpp|(mill|path)_json\.[ch]pp)))')" -- core
 forbid "libarchive only in zip_writer.cpp" "$(include 'archive(_entry)?\.h')" '^server/files/zip_writer\.cpp$' -- core server proto clients
 forbid "libpq only in fleet/postgres.cpp" "$(include 'libpq')" '^server/fleet/postgres\.cpp$' -- core server proto clients
 forbid "seccomp only in syscall_filter.cpp, Landlock only in file_fence.cpp" "$(include 'seccomp|linux/(seccomp|landlock)')" '^server/confine/(syscall_filter|file_fence)\.cpp$' -- core server proto clients

@@ -73,11 +73,44 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
 
 void Carver::take_tool(std::size_t number) {
   const MillTool& tool = job_.tools[number];
-  auto held = std::make_unique<HeldTool>(job_.cell, tool, job_.grid, around_);
-  held->see(cells_of(standing(), job_.grid, around_));
-  meter_ = std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3));
+  auto held = make_held(tool);
+  if (meter_) done_.push_back(meter_->figures());
+  ToolFigures none;
+  none.name = tool.name;
+  meter_ = make_meter(tool, std::move(none));
   arm_.take_tool(static_cast<int>(number), *held);  // the one before is there until then
   held_ = std::move(held);
+}
+
+std::size_t Carver::go_on(MillStart start) {
+  const std::size_t number = start.memory.tools.size() - 1;
+  cut_again(job_, start.cuts, stock_, nails_, run_);
+  removed_ = job_.voxels.stock.size() - stock_.left().voxels().size();
+  run_.watch.step(Stage::plan, removed_, to_remove_);
+  for (std::size_t nail = 0; nail < nails_.size(); ++nail)
+    if (start.memory.reachable[nail] != 0) nails_.mark_reachable(nail);
+  done_ = std::move(start.memory.tools);
+  meter_ = make_meter(job_.tools[number], std::move(done_.back()));
+  done_.pop_back();
+  held_ = make_held(job_.tools[number]);
+  arm_.go_on(*held_, std::move(start.memory.arm));
+  return number;
+}
+
+std::vector<ToolFigures> Carver::figures() const {
+  std::vector<ToolFigures> figures = done_;
+  figures.push_back(meter_->figures());
+  return figures;
+}
+
+std::unique_ptr<HeldTool> Carver::make_held(const MillTool& tool) {
+  auto held = std::make_unique<HeldTool>(job_.cell, tool, job_.grid, around_);
+  held->see(cells_of(standing(), job_.grid, around_));
+  return held;
+}
+
+std::unique_ptr<ToolMeter> Carver::make_meter(const MillTool& tool, ToolFigures figures) const {
+  return std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3), std::move(figures));
 }
 
 void Carver::count(const std::vector<Keyframe>& keyframes) {
@@ -189,15 +222,11 @@ void Carver::go(FollowedMill followed) {
 }
 
 void Carver::clear_due() {
-  for (const Edge& edge : due_) stock_.clear(*sweeps_, edge.from, edge.to);
+  for (const CutEdge& edge : due_) stock_.clear(*sweeps_, edge.from, edge.to);
 }
 
 void Carver::cut_nails_due() {
-  const Cutter& cutter = tool().cutter;
-  if (cutter.kind != CutterKind::ball) return;
-  const Vec3 to_middle = cutter.radius_m * axis_;
-  for (const Edge& edge : due_)
-    nails_.cut(point_of(edge.from) + to_middle, point_of(edge.to) + to_middle, cutter.radius_m - stray_m());
+  for (const CutEdge& edge : due_) cut_nails(nails_, tool().cutter, axis_, stray_m(), edge);
 }
 
 void Carver::settle() {

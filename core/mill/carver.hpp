@@ -13,6 +13,7 @@
 #include "core/mill/finish/nails.hpp"
 #include "core/mill/map/site.hpp"
 #include "core/mill/mill_job.hpp"
+#include "core/mill/mill_memory.hpp"
 #include "core/mill/mill_stock.hpp"
 #include "core/mill/piece_watch.hpp"
 #include "core/mill/tool_meter.hpp"
@@ -29,8 +30,13 @@ class Carver {
 
   /// The first one is in the spindle already. Throws InputError `no_transit` where no way leads to where it is changed.
   void take_tool(std::size_t number);
-  /// What came of the tool that is held.
-  ToolFigures figures() { return meter_->take(); }
+  /// As a run did that ended after it had taken a tool; gives the number of that. Instead of taking the first one.
+  /// Throws Cancelled.
+  std::size_t go_on(MillStart start);
+  /// When a tool was taken: what another run needs to know to go on.
+  MillMemory memory() const { return {figures(), arm_.memory(), nails_.reachable()}; }
+  /// What came of all tools until now.
+  std::vector<ToolFigures> figures() const;
   void go_home() { arm_.go_home(); }
 
   const MillTool& tool() const { return held_->assembly().tool; }
@@ -66,6 +72,9 @@ class Carver {
   void settle();
 
  private:
+  /// It has seen what stands.
+  std::unique_ptr<HeldTool> make_held(const MillTool& tool);
+  std::unique_ptr<ToolMeter> make_meter(const MillTool& tool, ToolFigures figures) const;
   void count(const std::vector<Keyframe>& keyframes);
   void go(FollowedMill followed);
   void remove(FollowedMill& followed);
@@ -73,11 +82,6 @@ class Carver {
   void cut_nails_due();
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
   std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;
-
-  /// Where the tip goes straight on while it cuts.
-  struct Edge {
-    QuantaPoint from, to;
-  };
 
   const MillJob& job_;
   const RunContext& run_;
@@ -88,9 +92,10 @@ class Carver {
   Mesh fixtures_;
   Grid around_;
   std::unique_ptr<HeldTool> held_;
+  std::vector<ToolFigures> done_;  ///< of the tools before the one that is held
   std::unique_ptr<ToolMeter> meter_;
   std::optional<MillSweeps> sweeps_;
-  std::vector<Edge> due_;  ///< removed from the stock, but what stands and the nails have yet to lose them
+  std::vector<CutEdge> due_;  ///< removed from the stock, but what stands and the nails have yet to lose them
   std::unique_ptr<const ReachFloor> floor_;
   Vec3 hub_ = Vec3::Zero(), axis_ = Vec3::UnitZ();
   std::optional<Vec3> tip_;  ///< of the last keyframe that was counted

@@ -1,6 +1,7 @@
 #include "core/mill/mill.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/mill/carver.hpp"
 #include "core/mill/finish/finish_stage.hpp"
@@ -21,20 +22,36 @@ const std::vector<Direction>& mill_directions() {
   return directions;
 }
 
-MillResult mill(const MillJob& job, const std::function<void(std::vector<Keyframe>)>& emit, const RunContext& run) {
-  MillResult result;
-  Carver carver(job, emit, run);
-  PartViews views(job.part, mill_directions().size());
+namespace {
+
+void use_tool(const MillJob& job, std::size_t number, PartViews& views, Carver& carver, const RunContext& run) {
   const auto is_ball = [](const MillTool& tool) { return tool.cutter.kind == CutterKind::ball; };
-  for (std::size_t number = 0; number < job.tools.size(); ++number) {
+  rough(job, carver, run);
+  if (is_ball(job.tools[number]))
+    finish(job, views, carver,
+           std::none_of(job.tools.begin() + static_cast<std::ptrdiff_t>(number) + 1, job.tools.end(), is_ball), run);
+}
+
+}  // namespace
+
+MillResult mill(const MillJob& job, std::optional<MillStart> start, const MillListener& listener,
+                const RunContext& run) {
+  MillResult result;
+  Carver carver(job, listener.emit, run);
+  PartViews views(job.part, mill_directions().size());
+  std::size_t number = 0;
+  if (start)
+    number = carver.go_on(*std::move(start));
+  else
+    carver.take_tool(0);
+  use_tool(job, number, views, carver, run);
+  while (++number < job.tools.size()) {
     carver.take_tool(number);
-    rough(job, carver, run);
-    if (is_ball(job.tools[number]))
-      finish(job, views, carver,
-             std::none_of(job.tools.begin() + static_cast<std::ptrdiff_t>(number) + 1, job.tools.end(), is_ball), run);
-    if (number + 1 == job.tools.size()) carver.go_home();
-    result.tools.push_back(carver.figures());
+    listener.changed(carver.memory());
+    use_tool(job, number, views, carver, run);
   }
+  carver.go_home();
+  result.tools = carver.figures();
   result.left = carver.left().voxels();
   VoxelSet wanted = result.left;
   wanted -= job.voxels.keep;

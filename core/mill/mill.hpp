@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.hpp"
 #include "core/mill/left/cure.hpp"
 #include "core/mill/mill_job.hpp"
-#include "core/mill/tool_figures.hpp"
+#include "core/mill/mill_memory.hpp"
 #include "core/trajectory/keyframe.hpp"
 
 namespace sculpt {
@@ -19,7 +20,15 @@ struct MillResult {
   std::vector<double> reachable;  ///< at points that these tools can come to: what stands above the surface (m)
 };
 
-/// Emits certified keyframes, in batches, and how many voxels each cut removes. Throws InputError, Cancelled.
-MillResult mill(const MillJob& job, const std::function<void(std::vector<Keyframe>)>& emit, const RunContext& run);
+/// Who hears of milling.
+struct MillListener {
+  std::function<void(std::vector<Keyframe>)> emit;
+  std::function<void(MillMemory)> changed;  ///< a tool was changed: another run could go on here
+};
+
+/// Emits certified keyframes, in batches, and how many voxels each cut removes. Goes on at `start`, if there is one,
+/// with the same keyframes that would have followed. Throws InputError, Cancelled.
+MillResult mill(const MillJob& job, std::optional<MillStart> start, const MillListener& listener,
+                const RunContext& run);
 
 }  // namespace sculpt

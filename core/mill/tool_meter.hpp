@@ -14,7 +14,9 @@ namespace sculpt {
 /// Counts what passes by.
 class ToolMeter {
  public:
-  ToolMeter(const MillTool& tool, double voxel_m3) : tool_(tool), voxel_m3_(voxel_m3) { figures_.name = tool.name; }
+  /// `figures`: what came of the tool before it cut anything.
+  ToolMeter(const MillTool& tool, double voxel_m3, ToolFigures figures)
+      : tool_(tool), voxel_m3_(voxel_m3), figures_(std::move(figures)) {}
 
   void count(const Keyframe& keyframe, double length_m) {
     ++figures_.keyframes;
@@ -30,11 +32,12 @@ class ToolMeter {
     figures_.removed += keyframe.mill->removed;
   }
 
-  ToolFigures take() {
-    figures_.removed_m3 = static_cast<double>(figures_.removed) * voxel_m3_;
+  ToolFigures figures() const {
+    ToolFigures figures = figures_;
+    figures.removed_m3 = static_cast<double>(figures.removed) * voxel_m3_;
     const double chip_m2 = tool_.max_depth_m * tool_.max_width_m;
-    if (figures_.cut_m > 0) figures_.engagement.mean = figures_.removed_m3 / figures_.cut_m / chip_m2;
-    return figures_;
+    if (figures.cut_m > 0) figures.engagement.mean = figures.removed_m3 / figures.cut_m / chip_m2;
+    return figures;
   }
 
  private:

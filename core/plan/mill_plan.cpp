@@ -10,6 +10,7 @@
 #include "core/mill/mill.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/report_figures.hpp"
+#include "core/plan/run_log.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "core/verify/home_contacts.hpp"
 #include "core/verify/mill/verify_milled.hpp"
@@ -83,9 +84,39 @@ std::vector<Residue> find_residue(const VoxelGrid& voxels, VoxelSet left) {
   return residue;
 }
 
+/// Goes on with the file where the checkpoint was; what is to be cut again goes to `cuts`.
+Output open_output(const OutputTask& task, const Checkpoint& at, CutList& cuts, const Watch& watch) {
+  if (at.file.bytes == 0) return {task, watch};
+  const auto visit = [&](const Keyframe& keyframe) {
+    if (at.milling) cuts.add(keyframe);
+  };
+  return {task, at.file, visit, watch};
+}
+
+/// Until all is cut, which the log knows then.
+void mill_on(const MillJob& job, CutList cuts, RunLog& log, const RunContext& run) {
+  if (log.now().milled) return;
+  std::optional<MillStart> start;
+  if (log.now().milling) start = {*log.now().milling, cuts.take()};
+  MillResult done = mill(job, std::move(start), log.hear_mill(), run);
+  log.end_milling(
+      {std::move(done.tools), std::move(done.cures), excess_figures(std::move(done.reachable), job.wishes.tolerance_m)},
+      find_residue(job.voxels, std::move(done.left)));
+}
+
+/// A replay takes longer than a checkpoint may wait.
+Watch keeping(RunLog& log, const Watch& watch) {
+  Watch both = watch;
+  both.tell = [&log, tell = watch.tell](const Progress& at) {
+    log.save_if_due();
+    if (tell) tell(at);
+  };
+  return both;
+}
+
 }  // namespace
 
-JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& told) {
+JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& told, CheckpointFolder kept) {
   const Stopwatch total;
   const Helpers helpers(job.threads);
   Watch watch = told;
@@ -101,26 +132,34 @@ JobResult plan_milled(const Job& job, const OutputPlace& place, const Watch& tol
   const TrajectoryHeader header = make_header(job, inputs, result.grid, chain);
   const Configuration change = rounded(inputs.cell.change_place(chain), chain.lower(), chain.upper());
   check_home(inputs.cell, inputs.tools, result.grid, result.voxels.stock);
-  Output output({place, header, chain, result.voxels, report.voxels.remove, job.threads}, watch);
+  Checkpoint now = kept.find_newest().value_or(Checkpoint{});
+  CutList cuts;
+  Output output =
+      open_output({place, header, chain, result.voxels, report.voxels.remove, job.threads}, now, cuts, watch);
+  RunLog log(kept, now, output);
   const MillJob milled{inputs.cell,  result.grid,          result.voxels, inputs.part,
                        inputs.tools, wishes_of(*job.mill), header.home,   change};
-  const MillResult done = mill(
-      milled, [&](std::vector<Keyframe> keyframes) { output.add(std::move(keyframes)); }, run);
-  report.plan_sha256 = output.finish().sha256;
-  report.tools = done.tools;
-  report.cures = done.cures;
-  count_path(report, output.figures(), result.grid.voxel_m, 0);
-  result.residue = find_residue(result.voxels, done.left);
-  count_residue(report, result.residue);
-  report.seconds.plan = planning.seconds();
+  try {
+    mill_on(milled, std::move(cuts), log, run);
+    report.plan_sha256 = output.finish().sha256;
+    report.tools = now.milled->tools;
+    report.cures = now.milled->cures;
+    count_path(report, output.figures(), result.grid.voxel_m, 0);
+    result.residue = *now.residue;
+    count_residue(report, result.residue);
+    report.seconds.plan = planning.seconds();
 
-  const Stopwatch verifying;
-  std::ifstream in(place.trajectory, std::ios::binary);
-  const Verdict verdict =
-      verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256}, job.threads, watch);
-  count_replay(report, verdict);
-  count_surface(report, *verdict.surface, done.reachable, job.mill->tolerance_m);
-  report.seconds.verify = verifying.seconds();
+    const Stopwatch verifying;
+    std::ifstream in(place.trajectory, std::ios::binary);
+    const Verdict verdict = verify_milled(in, inputs.cell, result.voxels, {inputs.part, header.mill->mesh_sha256},
+                                          job.threads, keeping(log, watch));
+    count_replay(report, verdict);
+    count_surface(report, *verdict.surface, now.milled->reachable, job.mill->tolerance_m);
+    report.seconds.verify = verifying.seconds();
+  } catch (const Cancelled&) {
+    log.save_at_stop();
+    throw;
+  }
   report.seconds.total = total.seconds();
   return result;
 }

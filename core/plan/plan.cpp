@@ -12,7 +12,7 @@
 #include "core/material/octree.hpp"
 #include "core/motion/explain_residue.hpp"
 #include "core/plan/carve.hpp"
-#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/checkpoint/checkpoint_folder.hpp"
 #include "core/plan/intake.hpp"
 #include "core/plan/job_key.hpp"
 #include "core/plan/mill_plan.hpp"
@@ -188,7 +188,7 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
   const OutputTask written{place, header, scene.chain(), result.voxels, report.voxels.remove, job.threads};
   Output output = open_output(written, now, carved, watch);
   output.tell_of_growth([&replay] { replay.grow(); });
-  RunLog log(kept, now, output, replay, scene);
+  RunLog log(kept, now, output, &replay, &scene);
   try {
     const CarveTask task{result.voxels, octree, may_fall, header, atlas, field_store(job, search), search};
     if (!now.residue) carve(scene, task, carved, log, run);
@@ -215,9 +215,8 @@ JobResult plan(const Job& job, const OutputPlace& place, const Watch& told, Chec
 }
 
 JobResult run(const Job& job, const OutputPlace& place, const Watch& watch, CheckpointFolder kept) {
-  // A milled plan is made in less time than it takes to lose much: it starts over.
-  JobResult result =
-      job.search == Search::mill ? plan_milled(job, place, watch) : plan(job, place, watch, std::move(kept));
+  JobResult result = job.search == Search::mill ? plan_milled(job, place, watch, std::move(kept))
+                                                : plan(job, place, watch, std::move(kept));
   name_job(result.report, job);
   result.report.peak_memory_bytes = peak_memory_bytes();
   return result;

@@ -6,26 +6,6 @@
 #include "core/material/loose_pieces.hpp"
 
 namespace sculpt {
-namespace {
-
-ExcessFigures excess_figures(std::vector<double> excess, double tolerance_m) {
-  ExcessFigures figures;
-  figures.points = excess.size();
-  if (excess.empty()) return figures;
-  std::ranges::sort(excess);
-  const auto share = [&](double of) {
-    return excess[std::min(excess.size() - 1, static_cast<std::size_t>(of * static_cast<double>(excess.size())))];
-  };
-  figures.within_tolerance = static_cast<std::uint64_t>(std::ranges::upper_bound(excess, tolerance_m) - excess.begin());
-  figures.p50_m = share(0.5);
-  figures.p95_m = share(0.95);
-  figures.p99_m = share(0.99);
-  figures.max_m = excess.back();
-  return figures;
-}
-
-}  // namespace
-
 void count_voxels(Report& report, const VoxelGrid& voxels, const Doubts& doubts, const Octree& octree) {
   const auto n = static_cast<std::uint64_t>(voxels.n());
   const std::uint64_t stock = voxels.stock.size();
@@ -72,10 +52,25 @@ void count_replay(Report& report, const Verdict& verdict) {
     report.findings.push_back("line " + std::to_string(finding.line) + ": " + finding.sentence);
 }
 
-void count_surface(Report& report, const SurfaceVerdict& surface, const std::vector<double>& reachable,
-                   double tolerance_m) {
-  report.surface = {excess_figures(surface.excess_m, tolerance_m), excess_figures(reachable, tolerance_m),
-                    surface.base_points, surface.gouged_points, surface.gouge_m};
+ExcessFigures excess_figures(std::vector<double> excess, double tolerance_m) {
+  ExcessFigures figures;
+  figures.points = excess.size();
+  if (excess.empty()) return figures;
+  std::ranges::sort(excess);
+  const auto share = [&](double of) {
+    return excess[std::min(excess.size() - 1, static_cast<std::size_t>(of * static_cast<double>(excess.size())))];
+  };
+  figures.within_tolerance = static_cast<std::uint64_t>(std::ranges::upper_bound(excess, tolerance_m) - excess.begin());
+  figures.p50_m = share(0.5);
+  figures.p95_m = share(0.95);
+  figures.p99_m = share(0.99);
+  figures.max_m = excess.back();
+  return figures;
+}
+
+void count_surface(Report& report, const SurfaceVerdict& surface, const ExcessFigures& reachable, double tolerance_m) {
+  report.surface = {excess_figures(surface.excess_m, tolerance_m), reachable, surface.base_points,
+                    surface.gouged_points, surface.gouge_m};
 }
 
 }  // namespace sculpt

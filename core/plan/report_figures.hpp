@@ -19,8 +19,9 @@ void list_unchecked_links(Report& report, const Scene& scene);
 void count_path(Report& report, const PathFigures& figures, double voxel_m, std::uint64_t checks);
 void count_residue(Report& report, const std::vector<Residue>& residue);
 void count_replay(Report& report, const Verdict& verdict);
-/// `reachable`: excess (m) at points that the tools can come to.
-void count_surface(Report& report, const SurfaceVerdict& surface, const std::vector<double>& reachable,
-                   double tolerance_m);
+/// `excess`: at each point (m).
+ExcessFigures excess_figures(std::vector<double> excess, double tolerance_m);
+/// `reachable`: of points that the tools can come to.
+void count_surface(Report& report, const SurfaceVerdict& surface, const ExcessFigures& reachable, double tolerance_m);
 
 }  // namespace sculpt

@@ -38,6 +38,18 @@ ArmListener RunLog::hear_arm() {
           }};
 }
 
+MillListener RunLog::hear_mill() {
+  return {[this](std::vector<Keyframe> keyframes) {
+            output_.add(std::move(keyframes));
+            save_if_due();
+          },
+          [this](MillMemory memory) {
+            if (kept_.keeps()) now_.milling = std::move(memory);
+            note();
+            save_if_due();
+          }};
+}
+
 void RunLog::note_replay() {
   note_state();
   save_if_due();
@@ -57,6 +69,14 @@ void RunLog::end_carving() {
   save_if_due();
 }
 
+void RunLog::end_milling(MilledFigures figures, std::vector<Residue> residue) {
+  now_.milling.reset();
+  now_.milled = std::move(figures);
+  now_.residue = std::move(residue);
+  note();
+  save_if_due();
+}
+
 void RunLog::end_plan(std::vector<Residue> residue) {
   now_.residue = std::move(residue);
   note_state();
@@ -64,7 +84,7 @@ void RunLog::end_plan(std::vector<Residue> residue) {
 }
 
 void RunLog::go_on() {
-  if (now_.file.bytes > 0) earlier_checks_ = now_.checks - scene_.checks();
+  if (now_.file.bytes > 0) earlier_checks_ = now_.checks - own_checks();
 }
 
 void RunLog::note() {
@@ -81,7 +101,7 @@ void RunLog::note_state() {
 void RunLog::save() {
   if (!unsaved_) return;
   now_.file = output_.sync();
-  now_.replayed = replay_.replayed();
+  if (replay_ != nullptr) now_.replayed = replay_->replayed();
   kept_.save(now_);
   unsaved_ = false;
 }

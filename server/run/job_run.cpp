@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/sha256.hpp"
-#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/checkpoint/checkpoint_folder.hpp"
 #include "proto/cell_bundle.hpp"
 #include "server/base/crash_point.hpp"
 #include "server/base/storage_error.hpp"

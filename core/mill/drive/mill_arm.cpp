@@ -34,12 +34,12 @@ std::vector<Configuration> MillArm::find_way(const Configuration& to, int direct
   if (is_free(q_, to)) return {q_, to};
   const std::vector<int> turning = stock_coordinates(scene.chain());
   if (std::vector<Configuration> way = way_by_turning(to, turning); !way.empty()) return way;
-  if (const auto known = ways_.find(direction); known != ways_.end())
+  if (const auto known = known_.ways.find(direction); known != known_.ways.end())
     if (std::vector<Configuration> way = way_by_home(known->second, to); !way.empty()) return way;
   if (std::vector<Configuration> way = way_as_elsewhere(to, turning); !way.empty()) return way;
-  if (!searched_.insert(direction).second) return {};
+  if (!known_.searched.insert(direction).second) return {};
   Transit found =
-      plan_transit(scene, q_, to, mix(run_.seed, transits_ + 1), run_.watch.stop, {search_steps, search_range});
+      plan_transit(scene, q_, to, mix(run_.seed, known_.transits + 1), run_.watch.stop, {search_steps, search_range});
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
   return std::move(found.path);
 }
@@ -66,7 +66,7 @@ std::vector<Configuration> MillArm::way_by_turning(const Configuration& to, cons
 
 /// As into another direction, with the stock turned; nothing if that is not free.
 std::vector<Configuration> MillArm::way_as_elsewhere(const Configuration& to, const std::vector<int>& turning) const {
-  for (const auto& [other, known] : ways_) {
+  for (const auto& [other, known] : known_.ways) {
     std::vector<Configuration> places = known;
     for (Configuration& place : places)
       for (const int coordinate : turning) place[coordinate] = to[coordinate];
@@ -122,13 +122,13 @@ void MillArm::drop_entry() {
 void MillArm::go_home() {
   drop_entry();
   if (q_ == home_) return;
-  ++transits_;
+  ++known_.transits;
   std::vector<Configuration> way = find_way(home_, -1);
   if (way.empty())
     throw InputError("no_transit",
                      "the arm finds no way out of a direction of the tool: keep what stands beside the stock lower");
   move(way);
-  searched_.erase(-1);
+  known_.searched.erase(-1);
   way_home_.clear();
   tip_.reset();
   field_ = nullptr;
@@ -146,10 +146,15 @@ void MillArm::take_tool(int number, const HeldTool& held) {
   if (!is_first) go_over(home_);  // with the other tool no edge of the way there is known to be free
 }
 
+void MillArm::go_on(const HeldTool& held, MillArmMemory known) {
+  held_ = &held;
+  known_ = std::move(known);
+}
+
 void MillArm::go_over(const Configuration& to) {
   std::vector<Configuration> way{q_, to};
   if (!is_free(q_, to))
-    way = plan_transit(held_->carrying(), q_, to, mix(run_.seed, ++transits_), run_.watch.stop,
+    way = plan_transit(held_->carrying(), q_, to, mix(run_.seed, ++known_.transits), run_.watch.stop,
                        {search_steps, search_range})
               .path;
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
@@ -168,7 +173,7 @@ bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
   if (there.keyframes.empty()) return false;
   Keyframe last = there.keyframes.back();
   drop_entry();
-  ++transits_;
+  ++known_.transits;
   std::vector<Configuration> way = find_way(last.q, direction);
   if (way.empty()) return false;
   std::vector<Configuration> back(way.rbegin() + 1, way.rend());
@@ -176,8 +181,8 @@ bool MillArm::hold(const PostureField& field, int direction, const Vec3& tip) {
   // Not beyond the first time at home.
   if (const auto rest = std::ranges::find(back, home_); rest != back.end()) back.erase(rest + 1, back.end());
   entry_ = Entry{{}, q_, std::exchange(way_home_, std::move(back))};
-  ways_[direction].assign(way_home_.rbegin(), way_home_.rend());
-  ways_[direction].push_back(last.q);
+  known_.ways[direction].assign(way_home_.rbegin(), way_home_.rend());
+  known_.ways[direction].push_back(last.q);
   way.pop_back();
   entry_->keyframes = moves(way);
   entry_->keyframes.push_back(last);

@@ -12,6 +12,13 @@
 
 namespace sculpt {
 
+/// What an arm knows at home, besides the tool in its spindle.
+struct MillArmMemory {
+  std::map<int, std::vector<Configuration>> ways;  ///< from home to where each direction was entered last
+  std::set<int> searched;                          ///< for ways to these
+  std::uint64_t transits = 0;
+};
+
 /// Begins at home with a tool in its spindle; every edge that it emits is certified. Not shared between threads.
 class MillArm {
  public:
@@ -25,6 +32,10 @@ class MillArm {
   /// where it rests, and home again. The first one is in the spindle at the start. Throws InputError `no_transit` where
   /// no way leads there.
   void take_tool(int number, const HeldTool& held);
+  /// Is at home with this tool, as another arm was that had taken it and knew this.
+  void go_on(const HeldTool& held, MillArmMemory known);
+  /// Of an arm that has just taken a tool.
+  const MillArmMemory& memory() const { return known_; }
 
   /// Holds the tool in this direction, its tip at `tip`, which must be in the field, outside the stock. False if there
   /// is no way. It goes there with the first strokes: where none follow it was never there.
@@ -67,10 +78,8 @@ class MillArm {
     std::vector<Configuration> way_home;
   };
   std::optional<Entry> entry_;
-  std::map<int, std::vector<Configuration>> ways_;  ///< from home to where each direction was entered last
-  std::set<int> searched_;                          ///< for ways to these
-  std::vector<Configuration> way_home_;             ///< from where the direction was entered; empty at home
-  std::uint64_t transits_ = 0;
+  MillArmMemory known_;
+  std::vector<Configuration> way_home_;  ///< from where the direction was entered; empty at home
 };
 
 }  // namespace sculpt

@@ -53,6 +53,52 @@ double way_out(const Grid& grid, const Vec3& point, const Vec3& direction) {
   return std::max(0.0, way);
 }
 
+/// Of the facets up to each.
+std::vector<double> running_areas(const Mesh& part) {
+  std::vector<double> areas;
+  areas.reserve(part.triangles.size());
+  double area = 0;
+  for (const auto& t : part.triangles) {
+    area += (part.vertices[t[1]] - part.vertices[t[0]]).cross(part.vertices[t[2]] - part.vertices[t[0]]).norm() / 2;
+    areas.push_back(area);
+  }
+  return areas;
+}
+
+/// One in each of `count` shares of the area, where it belongs to the surface.
+std::vector<Nail> drive_nails(const Mesh& part, const std::vector<double>& areas, const VoxelGrid& voxels,
+                              const Grid& grid, std::size_t count, std::uint64_t seed) {
+  const double turn = signed_volume(part) < 0 ? -1 : 1;
+  Random random(seed);
+  std::vector<Nail> nails;
+  std::size_t facet = 0;
+  for (std::size_t share = 0; share < count; ++share) {
+    const double at = (static_cast<double>(share) + random.unit()) * areas.back() / static_cast<double>(count);
+    while (facet + 1 < areas.size() && areas[facet] < at) ++facet;
+    const auto& t = part.triangles[facet];
+    const Vec3 e = part.vertices[t[1]] - part.vertices[t[0]], f = part.vertices[t[2]] - part.vertices[t[0]];
+    double x = random.unit(), y = random.unit();
+    if (x + y > 1) x = 1 - x, y = 1 - y;
+    const Vec3 point = part.vertices[t[0]] + x * e + y * f, normal = turn * e.cross(f).normalized();
+    if (is_base(point, normal, grid)) continue;
+    if (const auto out = outward(point, normal, voxels, grid)) nails.push_back({point, *out});
+  }
+  return nails;
+}
+
+/// From a point along a direction to where a ball went on its middle's way between the two ends: the cylinder about
+/// that.
+double way_to_cylinder(const Nail& nail, const Vec3& from, const Vec3& way, double radius) {
+  const double length2 = way.squaredNorm();
+  if (!(length2 > 0)) return never_met;
+  const Vec3 off = nail.point - from;
+  const Vec3 p = off - way * (off.dot(way) / length2), d = nail.normal - way * (nail.normal.dot(way) / length2);
+  const double a = d.squaredNorm(), b = p.dot(d), c = p.squaredNorm() - radius * radius, root = b * b - a * c;
+  if (!(a > 1e-12 && root >= 0) || (-b + std::sqrt(root)) / a < 0) return never_met;
+  const double t = (-b - std::sqrt(root)) / a, along = (off + t * nail.normal).dot(way);
+  return along >= 0 && along <= length2 ? t : never_met;
+}
+
 }  // namespace
 
 double way_to_ball(const Vec3& point, const Vec3& direction, const Vec3& middle, double radius) {
@@ -64,35 +110,21 @@ double way_to_ball(const Vec3& point, const Vec3& direction, const Vec3& middle,
 }
 
 Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed) {
-  std::vector<double> areas;
-  double area = 0;
-  for (const auto& t : part.triangles) {
-    area += (part.vertices[t[1]] - part.vertices[t[0]]).cross(part.vertices[t[2]] - part.vertices[t[0]]).norm() / 2;
-    areas.push_back(area);
-  }
-  if (!(area > 0)) return;
-  area_m2_ = area / static_cast<double>(count);
-  Random random(seed);
-  const double turn = signed_volume(part) < 0 ? -1 : 1;
-  std::vector<Nail> found;
+  const std::vector<double> areas = running_areas(part);
+  if (areas.empty() || !(areas.back() > 0)) return;
+  area_m2_ = areas.back() / static_cast<double>(count);
+  sort_into_boxes(drive_nails(part, areas, voxels, grid, count, seed));
+  excess_.assign(nails_.size(), static_cast<float>(uncut));
+  reachable_.resize(nails_.size());
+  for (std::size_t at = 0; at < nails_.size(); ++at)
+    if (const double way = way_out(grid, nails_[at].point, nails_[at].normal); way < farthest_m)
+      excess_[at] = static_cast<float>(way);
+}
+
+void Nails::sort_into_boxes(const std::vector<Nail>& nails) {
+  if (nails.empty()) return;
   Eigen::AlignedBox3d all;
-  std::size_t facet = 0;
-  // One in each of `count` shares of the area.
-  for (std::size_t share = 0; share < count; ++share) {
-    const double at = (static_cast<double>(share) + random.unit()) * area_m2_;
-    while (facet + 1 < areas.size() && areas[facet] < at) ++facet;
-    const auto& t = part.triangles[facet];
-    const Vec3 e = part.vertices[t[1]] - part.vertices[t[0]], f = part.vertices[t[2]] - part.vertices[t[0]];
-    double x = random.unit(), y = random.unit();
-    if (x + y > 1) x = 1 - x, y = 1 - y;
-    const Vec3 point = part.vertices[t[0]] + x * e + y * f, normal = turn * e.cross(f).normalized();
-    if (is_base(point, normal, grid)) continue;
-    if (const auto out = outward(point, normal, voxels, grid)) {
-      found.push_back({point, *out});
-      all.extend(point);
-    }
-  }
-  if (found.empty()) return;
+  for (const Nail& nail : nails) all.extend(nail.point);
   low_ = all.min();
   edge_ = std::max(std::sqrt(nails_a_box * area_m2_), all.sizes().maxCoeff() / 500);
   std::size_t boxes = 1;
@@ -105,16 +137,11 @@ Nails::Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::s
     return boxes_row(static_cast<int>(at.y()), static_cast<int>(at.z())) + static_cast<std::size_t>(at.x());
   };
   begin_.assign(boxes + 1, 0);
-  for (const Nail& nail : found) ++begin_[box_of(nail) + 1];
+  for (const Nail& nail : nails) ++begin_[box_of(nail) + 1];
   for (std::size_t box = 0; box < boxes; ++box) begin_[box + 1] += begin_[box];
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  nails_.resize(found.size());
-  for (const Nail& nail : found) nails_[next[box_of(nail)]++] = nail;
-  excess_.assign(nails_.size(), static_cast<float>(uncut));
-  reachable_.resize(nails_.size());
-  for (std::size_t at = 0; at < nails_.size(); ++at)
-    if (const double way = way_out(grid, nails_[at].point, nails_[at].normal); way < farthest_m)
-      excess_[at] = static_cast<float>(way);
+  nails_.resize(nails.size());
+  for (const Nail& nail : nails) nails_[next[box_of(nail)]++] = nail;
 }
 
 void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
@@ -125,17 +152,9 @@ void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
     const Vec3 off = nail.point - from;
     const double share = length2 > 0 ? std::clamp(off.dot(way) / length2, 0.0, 1.0) : 0;
     if ((off - share * way).squaredNorm() > reach2) return;
-    double least =
-        std::min(way_to_ball(nail.point, nail.normal, from, radius), way_to_ball(nail.point, nail.normal, to, radius));
-    if (length2 > 0) {
-      // The cylinder between: across the way.
-      const Vec3 p = off - way * (off.dot(way) / length2), d = nail.normal - way * (nail.normal.dot(way) / length2);
-      const double a = d.squaredNorm(), b = p.dot(d), c = p.squaredNorm() - radius * radius;
-      if (const double root = b * b - a * c; a > 1e-12 && root >= 0) {
-        const double t = (-b - std::sqrt(root)) / a, along = (off + t * nail.normal).dot(way);
-        if (along >= 0 && along <= length2 && (-b + std::sqrt(root)) / a >= 0) least = std::min(least, t);
-      }
-    }
+    const double least =
+        std::min({way_to_ball(nail.point, nail.normal, from, radius), way_to_ball(nail.point, nail.normal, to, radius),
+                  way_to_cylinder(nail, from, way, radius)});
     // A ball that is behind the surface, or comes to it from there, cuts something else.
     const double behind = -1e-5;
     if (least < behind) return;

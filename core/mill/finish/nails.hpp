@@ -23,9 +23,8 @@ struct Nail {
 /// Not shared between threads while anything is cut.
 class Nails {
  public:
-  /// About `count` of them, spread evenly at random over the part's area; facets inside of the target have none, nor has
-  /// the face that the part stands on.
-  /// `part` in metres; its facets may be turned either way, all alike.
+  /// About `count` of them, spread evenly at random over the part's area; facets inside of the target have none, nor
+  /// has the face that the part stands on. `part` in metres; its facets may be turned either way, all alike.
   Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed);
 
   /// So many of them are wanted on a square of the stepover.
@@ -42,6 +41,8 @@ class Nails {
   /// Some tool could come to it.
   void mark_reachable(std::size_t at) { reachable_[at] = 1; }
   bool is_reachable(std::size_t at) const { return reachable_[at] != 0; }
+  /// Of each whether it is, as 1 or 0.
+  const std::vector<char>& reachable() const { return reachable_; }
   /// Of the surface, for each nail (m2).
   double area_m2() const { return area_m2_; }
 
@@ -55,6 +56,7 @@ class Nails {
   }
 
  private:
+  void sort_into_boxes(const std::vector<Nail>& nails);
   template <typename Visit>
   void for_each_in(const Vec3& low, const Vec3& high, const Visit& visit) const {
     std::array<int, 3> first{}, last{};

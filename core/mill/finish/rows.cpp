@@ -157,6 +157,7 @@ class RowLayer {
 std::vector<Row> find_rows(const RowTask& task, const ToolFrame& frame, const Nails& nails,
                            const std::vector<RestingBall>& balls) {
   std::vector<Rest> rests;
+  rests.reserve(balls.size());
   for (const auto& [nail, middle] : balls)
     rests.push_back({middle, frame.of(nails[nail].normal),
                      heading_of(frame.of(mean_normal(nails, nail, look_spacings * task.spacing_m)))});

@@ -128,27 +128,29 @@ void SurfacePoints::cut(const Vec3& from, const Vec3& to, double radius, double 
   if ((high < low_.array()).any() || (low > top).any()) return;
   const Eigen::Array3i first = ((low - low_.array()) / edge_).floor().cast<int>().max(0),
                        last = ((high - low_.array()) / edge_).floor().cast<int>().min(boxes_ - 1);
-  const double surely = radius - stray;
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j) {
       const std::size_t row =
           static_cast<std::size_t>(boxes_[0]) *
           (static_cast<std::size_t>(j) + static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(k));
       const std::uint32_t end = begin_[row + static_cast<std::size_t>(last[0]) + 1];
-      for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at) {
-        Point& point = points_[at];
-        const double most = std::min(point.excess, near_mm_), reach = std::max(radius + stray, surely + most);
-        const double here2 = away2(point.at, from, way);
-        if (here2 > reach * reach) continue;  // along the normal it comes no nearer than by as much as it goes
-        const double here = std::sqrt(here2);
-        if (radius + stray - here > gouge_mm) {
-          ++gouged_;
-          deepest_ = std::max(deepest_, radius + stray - here);
-        }
-        const double there = here < surely ? 0 : enter_swept(point.at, point.normal, from, way, surely);
-        if (there < most) point.excess = there;
-      }
+      for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at)
+        cut(points_[at], from, way, radius, stray);
     }
+}
+
+void SurfacePoints::cut(Point& point, const Vec3& from, const Vec3& way, double radius, double stray) {
+  const double surely = radius - stray;
+  const double most = std::min(point.excess, near_mm_), reach = std::max(radius + stray, surely + most);
+  const double here2 = away2(point.at, from, way);
+  if (here2 > reach * reach) return;  // along the normal it comes no nearer than by as much as it goes
+  const double here = std::sqrt(here2);
+  if (radius + stray - here > gouge_mm) {
+    ++gouged_;
+    deepest_ = std::max(deepest_, radius + stray - here);
+  }
+  const double there = here < surely ? 0 : enter_swept(point.at, point.normal, from, way, surely);
+  if (there < most) point.excess = there;
 }
 
 SurfaceVerdict SurfacePoints::judge(const VoxelSet& standing) const {

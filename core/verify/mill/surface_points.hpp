@@ -45,6 +45,7 @@ class SurfacePoints {
     std::size_t number;  ///< as they were given
   };
   std::size_t box_of(const Vec3& at) const;
+  void cut(Point& point, const Vec3& from, const Vec3& way, double radius, double stray);
 
   Grid grid_;
   double near_mm_;

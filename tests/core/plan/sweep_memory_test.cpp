@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 #include "core/sweep/sweep.hpp"
 #include "core/trajectory/quantum.hpp"
 #include "tests/core/plan/jobs.hpp"

@@ -73,5 +73,26 @@ TEST_F(MillArmTest, TheWayIntoADirectionComesBeforeItsFirstStroke) {
   EXPECT_EQ(emitted.back().q, home);
 }
 
+TEST_F(MillArmTest, AnotherGoesOnAsItWouldHave) {
+  const PostureField& field = *held.fields({0, 0, 1}, home, run).front();
+  const auto go_there_and_back = [&](MillArm& one) {
+    emitted.clear();
+    EXPECT_TRUE(one.hold(field, 0, above()));
+    one.commit(one.try_strokes({{above() + Vec3(0.005, 0, 0), false, 1e-3}}));
+    one.go_home();
+    std::vector<Configuration> way;
+    for (const Keyframe& keyframe : emitted) way.push_back(keyframe.q);
+    return way;
+  };
+  go_there_and_back(arm);
+  MillArm other(home, home, emit, run);
+  other.go_on(held, arm.memory());
+  EXPECT_EQ(go_there_and_back(other), go_there_and_back(arm));
+  EXPECT_EQ(arm.memory().transits, 4U) << "two ways there, two back";
+  EXPECT_EQ(other.memory().transits, arm.memory().transits);
+  EXPECT_EQ(other.memory().ways, arm.memory().ways);
+  EXPECT_EQ(other.memory().searched, arm.memory().searched);
+}
+
 }  // namespace
 }  // namespace sculpt

@@ -11,20 +11,8 @@ namespace {
 
 constexpr double edge = 0.02, radius = 3e-3;
 
-/// A box that fills the lower half of a grid.
-PartInGrid make_slab() {
-  const auto corner = [](int number) {
-    return Vec3(number & 1 ? edge : 0.0, number & 2 ? edge : 0.0, number & 4 ? edge / 2 : 0.0);
-  };
-  std::vector<std::array<Vec3, 4>> faces;
-  for (const auto& [a, b, c, d] : std::array<std::array<int, 4>, 6>{
-           {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}})
-    faces.push_back({corner(a), corner(b), corner(c), corner(d)});
-  return in_grid(quads(faces), edge, [](const Voxel& voxel) { return voxel.k < 16; });
-}
-
 TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
-  PartInGrid slab = make_slab();
+  PartInGrid slab = make_slab(edge);
   for (const bool turned : {false, true}) {
     if (turned)
       for (auto& t : slab.mesh.triangles) std::swap(t[1], t[2]);
@@ -37,7 +25,7 @@ TEST(Nails, StandOutwardsWhicheverWayTheFacetsAreTurned) {
 }
 
 TEST(Nails, RowsLeaveTheScallopsOfTheirSpacing) {
-  const PartInGrid slab = make_slab();
+  const PartInGrid slab = make_slab(edge);
   Nails nails(slab.mesh, slab.voxels, slab.grid, 5000, 8);
   const double spacing = 1e-3, off = 4e-5;
   for (double y = -2 * spacing; y < edge + 2 * spacing; y += spacing)
@@ -57,7 +45,7 @@ TEST(Nails, RowsLeaveTheScallopsOfTheirSpacing) {
 }
 
 TEST(Nails, WhatABallDoesNotTouchStays) {
-  const PartInGrid slab = make_slab();
+  const PartInGrid slab = make_slab(edge);
   Nails nails(slab.mesh, slab.voxels, slab.grid, 1000, 9);
   // Below the slab, and high above it.
   nails.cut({0, edge / 2, -radius - 0.002}, {edge, edge / 2, -radius - 0.002}, radius);

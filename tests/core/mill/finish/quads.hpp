@@ -44,4 +44,16 @@ inline PartInGrid in_grid(Mesh mesh, double edge_m, const std::function<bool(con
   return part;
 }
 
+/// A box that fills the lower half of a grid.
+inline PartInGrid make_slab(double edge_m) {
+  const auto corner = [&](int number) {
+    return Vec3(number & 1 ? edge_m : 0.0, number & 2 ? edge_m : 0.0, number & 4 ? edge_m / 2 : 0.0);
+  };
+  std::vector<std::array<Vec3, 4>> faces;
+  for (const auto& [a, b, c, d] : std::array<std::array<int, 4>, 6>{
+           {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}})
+    faces.push_back({corner(a), corner(b), corner(c), corner(d)});
+  return in_grid(quads(faces), edge_m, [](const Voxel& voxel) { return voxel.k < 16; });
+}
+
 }  // namespace sculpt

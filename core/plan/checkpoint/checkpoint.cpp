@@ -1,14 +1,15 @@
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.hpp"
+#include "core/plan/checkpoint/mill_json.hpp"
+#include "core/plan/checkpoint/path_json.hpp"
 
 namespace sculpt {
 namespace {
 
 using Json = nlohmann::json;
-using Path = ArmMemory::Path;
 
 constexpr std::size_t hash_length = 64;
 
@@ -18,22 +19,6 @@ Json to_json(Voxel v) {
 
 Voxel voxel_of(const Json& json) {
   return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>()};
-}
-
-Json to_json(const Path& path) {
-  Json json = Json::array();
-  for (const Configuration& q : path) json.push_back(std::vector<double>(q.begin(), q.end()));
-  return json;
-}
-
-Path path_of(const Json& json) {
-  Path path;
-  for (const Json& values : json) {
-    Configuration q(static_cast<Eigen::Index>(values.size()));
-    for (std::size_t at = 0; at < values.size(); ++at) q[static_cast<Eigen::Index>(at)] = values[at].get<double>();
-    path.push_back(std::move(q));
-  }
-  return path;
 }
 
 Json to_json(const TrajectoryStart& file) {
@@ -97,7 +82,7 @@ Json to_json(const SweepMemory& sweeping) {
             {"cut_tilted", sweeping.cut_tilted},
             {"transits", sweeping.arm.transits},
             {"at", {at.x(), at.y(), at.z()}},
-            {"way_home", to_json(sweeping.arm.way_home)}};
+            {"way_home", path_json(sweeping.arm.way_home)}};
   for (const auto& [standing, wanted] : sweeping.openings)
     json["openings"].push_back({{"n", standing.n()}, {"standing", standing.words()}, {"wanted", wanted.words()}});
   if (sweeping.out_of_reach) json["out_of_reach"] = to_json(*sweeping.out_of_reach);
@@ -155,12 +140,12 @@ std::vector<BlockTrial> trials_of(const Json& json) {
 
 Json to_json(const ArmMemory& arm) {
   Json hubs = Json::array();
-  for (const auto& [axis, path] : arm.hubs) hubs.push_back({axis, to_json(path)});
+  for (const auto& [axis, path] : arm.hubs) hubs.push_back({axis, path_json(path)});
   return {{"axis", arm.axis},
           {"outside", arm.outside},
           {"last_outside", arm.last_outside},
           {"hubs", std::move(hubs)},
-          {"way_out", to_json(arm.way_out)},
+          {"way_out", path_json(arm.way_out)},
           {"queries", arm.queries},
           {"ompl_calls", arm.ompl_calls},
           {"ompl_solved", arm.ompl_solved},
@@ -240,6 +225,8 @@ Checkpoint checkpoint_of(const Json& json) {
                         refusals_of(json.at("refusals")),
                         {},
                         replayed_of(json.at("replayed")),
+                        {},
+                        {},
                         {}};
   if (json.contains("sweeping")) checkpoint.sweeping = sweeping_of(json.at("sweeping"));
   if (json.contains("swept")) checkpoint.swept = swept_of(json.at("swept"));
@@ -248,6 +235,8 @@ Checkpoint checkpoint_of(const Json& json) {
     checkpoint.sweep_figures = {figures.at(0).get<std::uint64_t>(), figures.at(1).get<std::uint64_t>(),
                                 figures.at(2).get<std::uint64_t>()};
   }
+  if (json.contains("milling")) checkpoint.milling = milling_of(json.at("milling"));
+  if (json.contains("milled")) checkpoint.milled = milled_of(json.at("milled"));
   if (json.contains("residue")) checkpoint.residue = residue_of(json.at("residue"));
   return checkpoint;
 }
@@ -267,6 +256,8 @@ std::string checkpoint_text(const Checkpoint& checkpoint, const std::string& key
   if (checkpoint.swept) json["swept"] = to_json(*checkpoint.swept);
   if (const auto& figures = checkpoint.sweep_figures)
     json["sweep_figures"] = {figures->cut, figures->left, figures->uncovered};
+  if (checkpoint.milling) json["milling"] = milling_json(*checkpoint.milling);
+  if (checkpoint.milled) json["milled"] = milled_json(*checkpoint.milled);
   if (checkpoint.residue) json["residue"] = to_json(*checkpoint.residue);
   const std::string body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
   return sha256_hex(body) + '\n' + body;

@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mill/mill_memory.hpp"
 #include "core/motion/arm.hpp"
 #include "core/motion/gantry/gantry.hpp"
 #include "core/motion/residue.hpp"
+#include "core/plan/checkpoint/milled_figures.hpp"
 #include "core/search/block_order.hpp"
 #include "core/sweep/sweep.hpp"
 #include "core/trajectory/trajectory_start.hpp"
@@ -34,6 +36,8 @@ struct Checkpoint {
   std::optional<std::vector<Residue>> residue;  ///< once the plan is finished
   ReplayedPieces replayed;                      ///< how far the replay of a finished plan is
   std::optional<SweepFigures> sweep_figures;    ///< once the sweep is over
+  std::optional<MillMemory> milling;            ///< from the first change of tools until all is cut
+  std::optional<MilledFigures> milled;          ///< from then on
 };
 
 /// `key` says which job by which program the checkpoint is of; `number` counts up from checkpoint to checkpoint.

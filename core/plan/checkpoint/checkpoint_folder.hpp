@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 
 namespace sculpt {
 

@@ -1,5 +1,5 @@
 // What a checkpoint file says is read back, or refused: never half.
-#include "core/plan/checkpoint.hpp"
+#include "core/plan/checkpoint/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,6 +27,13 @@ SweepMemory full_sweep_memory() {
 }
 
 /// No field as it is by default.
+MillMemory full_mill_memory() {
+  return {{{"D20", 5, 6, 7, 1.0 / 3, 0.1, 0.2, {0.3, 0.4}}, {"a \"D6\"", 0, 3, 0, 0, 0, 1e-9, {}}},
+          {{{4, {configuration(1, 2), configuration(0.1, -2.1234567)}}, {17, {}}}, {-1, 3}, 12},
+          {0, 1, 1, 0}};
+}
+
+/// No field as it is by default.
 Checkpoint full_checkpoint() {
   Checkpoint checkpoint;
   checkpoint.file = {7, 900, std::string(64, 'a')};
@@ -37,6 +44,10 @@ Checkpoint full_checkpoint() {
   checkpoint.arm = {4, false, 2, {configuration(0.1, -2.1234567)}, {{3, {configuration(1, 2)}}}, 9, 8, 7};
   checkpoint.residue = {{{1, 1, 1}, Reason::no_transit}, {{2, 1, 1}, Reason::loose_piece}};
   checkpoint.sweep_figures = {900, 20, 3};
+  checkpoint.milling = full_mill_memory();
+  checkpoint.milled = MilledFigures{{{"D20", 5, 6, 7, 1.0 / 3, 0.1, 0.2, {0.3, 0.4}}},
+                                    {{Obstacle::length, 6e-3, 0.061, 0.7, 128}},
+                                    {9, 8, 1e-5, 2e-5, 1.0 / 7, 4e-5}};
   checkpoint.replayed = {2, {1, 30, {{12, "'link5' touches \"stock\""}}}};
   return checkpoint;
 }
@@ -58,6 +69,12 @@ TEST(Checkpoint, IsReadBackAsItWasWritten) {
   EXPECT_EQ(read.sweeping->pass->held_here, full_sweep_memory().pass->held_here);
   EXPECT_EQ(read.arm.hubs, full_checkpoint().arm.hubs);
   EXPECT_EQ(read.arm.way_out, full_checkpoint().arm.way_out);
+  EXPECT_EQ(read.milling->arm.ways, full_mill_memory().arm.ways);
+  EXPECT_EQ(read.milling->arm.searched, full_mill_memory().arm.searched);
+  EXPECT_EQ(read.milling->reachable, full_mill_memory().reachable);
+  EXPECT_EQ(read.milling->tools.front().removed_m3, 1.0 / 3);
+  EXPECT_EQ(read.milled->cures.front().obstacle, Obstacle::length);
+  EXPECT_EQ(read.milled->reachable.p99_m, 1.0 / 7);
   EXPECT_EQ(read.residue->back().reason, Reason::loose_piece);
   EXPECT_EQ(read.replayed.found.findings.front().sentence, "'link5' touches \"stock\"");
 }

@@ -1,4 +1,4 @@
-#include "core/plan/checkpoint_folder.hpp"
+#include "core/plan/checkpoint/checkpoint_folder.hpp"
 
 #include <algorithm>
 #include <array>
