@@ -12,6 +12,7 @@
 #include "core/material/resolution.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/motion/random_configuration.hpp"
+#include "core/solid/touched_voxels.hpp"
 
 namespace sculpt {
 namespace {
@@ -64,18 +65,22 @@ CubeTurn read_turn(const Vec3& rotation_rad) {
                                             "for example 180,0,0");
 }
 
+/// All that hold any of the box; what is less than a millionth of an edge counts for nothing.
 VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
+  constexpr double border = 1e-6;
   VoxelSet voxels(grid.n);
-  for (int k = 0; k < grid.n; ++k)
-    for (int j = 0; j < grid.n; ++j)
-      for (int i = 0; i < grid.n; ++i) {
-        const Vec3 centre = grid.centre({i, j, k}) - grid.origin_m;
-        if ((centre.array() >= box.min_m.array()).all() && (centre.array() <= box.max_m.array()).all())
-          voxels.insert({i, j, k});
-      }
+  const auto is_in = [&](Voxel voxel) {
+    const Eigen::Array3d low = Vec3(voxel.i, voxel.j, voxel.k).array() + border, high = low + 1 - 2 * border;
+    return (box.max_m.array() / grid.voxel_m >= low).all() && (box.min_m.array() / grid.voxel_m <= high).all();
+  };
+  if ((box.min_m.array() < box.max_m.array()).all())
+    for (int k = 0; k < grid.n; ++k)
+      for (int j = 0; j < grid.n; ++j)
+        for (int i = 0; i < grid.n; ++i)
+          if (is_in({i, j, k})) voxels.insert({i, j, k});
   if (voxels.size() == 0)
     throw InputError("stock_empty",
-                     "the stock box holds no voxel centre of the grid: give min and max in metres from the corner of "
+                     "the stock box holds nothing of the grid: give min and max in metres from the corner of "
                      "the grid, min below max");
   return voxels;
 }
@@ -114,7 +119,11 @@ VoxelSet JobShapes::make_stock(const Grid& grid, const Watch& watch) {
   if (stock.mesh->extension == "binvox") return read_voxels(*stock.mesh, grid.n);
   Mesh placed = read(*stock.mesh, stock_, watch);
   for (Vec3& vertex : placed.vertices) vertex += grid.origin_m;
-  return sculpt::voxelize(placed, grid, watch);
+  // A voxel that some of it is in is stock: nothing may go through what is there in truth.
+  VoxelSet voxels = touched_voxels(placed, grid, watch);
+  const VoxelSet inside = sculpt::voxelize(placed, grid, watch);
+  for (std::size_t w = 0; w < voxels.words().size(); ++w) voxels.words()[w] |= inside.words()[w];
+  return voxels;
 }
 
 Solid JobShapes::make_target(const Grid& grid, const Watch& watch) {

@@ -34,6 +34,20 @@ std::vector<Shape> body_of(const MillTool& tool) {
   return shapes;
 }
 
+/// A ball cutter ends in a ball; of others the round of the rim is filled up.
+std::vector<Shape> cutter_of(const MillTool& tool) {
+  const Cutter& cutter = tool.cutter;
+  if (cutter.kind != CutterKind::ball) return {rod(cutter.radius_m, 0, cutter.flute_m, tool.stickout_m)};
+  Shape ball;
+  ball.kind = ShapeKind::sphere;
+  ball.radius_m = cutter.radius_m;
+  ball.pose.translation().z() = tool.stickout_m - cutter.radius_m;
+  std::vector<Shape> shapes{ball};
+  if (cutter.flute_m > cutter.radius_m)
+    shapes.push_back(rod(cutter.radius_m, cutter.radius_m, cutter.flute_m, tool.stickout_m));
+  return shapes;
+}
+
 }  // namespace
 
 ToolScene::ToolScene(const Cell& base, const MillTool& the_tool, const std::vector<int>& joints,
@@ -46,7 +60,7 @@ ToolScene::ToolScene(const Cell& base, const MillTool& the_tool, const std::vect
   for (Shape& shape : body_of(tool)) shapes.push_back(std::move(shape));
   bodies = make_solid_bodies(cell.robot);
   pairs = choose_pairs(cell, joints, motion, bodies);
-  shapes.push_back(rod(tool.cutter.radius_m, 0, tool.cutter.flute_m, tool.stickout_m));
+  for (Shape& shape : cutter_of(tool)) shapes.push_back(std::move(shape));
   whole_bodies = make_solid_bodies(cell.robot);
   whole_pairs = choose_pairs(cell, joints, motion, whole_bodies);
   links.emplace(cell, motion, bodies, pairs.checked, material);

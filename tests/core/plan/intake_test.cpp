@@ -31,7 +31,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 /// A cube, outwards: x and y from `low` to `low + edge`, z from `floor`.
-std::string obj_box(int low, int floor, int edge) {
+std::string obj_box(double low, double floor, double edge) {
   std::ostringstream text;
   for (int corner = 0; corner < 8; ++corner)
     text << "v " << low + (corner & 1 ? edge : 0) << ' ' << low + (corner & 2 ? edge : 0) << ' '
@@ -151,6 +151,30 @@ TEST(Intake, RefusesAStockBoxThatHoldsNothing) {
   Job job = sound_job();
   job.stock.box = Stock::Box{Vec3(1, 1, 1), Vec3(2, 2, 2)};
   expect_refused(job, "stock_empty", "metres");
+}
+
+/// Of a grid of 8 voxels of 25 mm.
+VoxelSet stock_of(const Job& job) {
+  const Grid grid = parse_cell(job.cell).grid(job.resolution);
+  return make_voxels(job, grid, {}).stock;
+}
+
+TEST(Intake, AStockHoldsAllThatSomeOfItIsIn) {
+  Job job = sound_job();
+  ASSERT_EQ(job.resolution, 8);
+  const double edge = parse_cell(job.cell).grid(8).voxel_m;
+  for (const auto& [min, max, first, last] : {std::tuple{1.0, 6.0, 1, 5}, {0.9, 6.1, 0, 6}, {1.4, 5.4, 1, 5}}) {
+    job.stock = {};
+    job.stock.box = Stock::Box{Vec3::Constant(min * edge), Vec3::Constant(max * edge)};
+    VoxelSet expected(8);
+    for (int k = first; k <= last; ++k)
+      for (int j = first; j <= last; ++j)
+        for (int i = first; i <= last; ++i) expected.insert({i, j, k});
+    EXPECT_EQ(stock_of(job), expected) << min << " to " << max;
+    job.stock = {};
+    job.stock.mesh = MeshFile{obj_box(min * edge, min * edge, (max - min) * edge), "obj", "box.obj"};
+    EXPECT_EQ(stock_of(job), expected) << "as a mesh, " << min << " to " << max;
+  }
 }
 
 TEST(Intake, RefusesLinksAndUrdfsThatAreNotThere) {
