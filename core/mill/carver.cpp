@@ -31,6 +31,15 @@ double voxels_of_chip(const MillTool& tool, const Grid& grid) {
   return 1 + tool.max_depth_m * std::pow(tool.max_width_m, 2) / std::pow(grid.voxel_m, 3);
 }
 
+Eigen::AlignedBox3d box_around(const VoxelSet& voxels, const Grid& grid) {
+  Eigen::AlignedBox3d box;
+  for_each_voxel(voxels, [&](Voxel v) {
+    for (const double corner : {0.0, 1.0})
+      box.extend(grid.origin_m + grid.voxel_m * (Vec3(v.i, v.j, v.k) + Vec3::Constant(corner)));
+  });
+  return box;
+}
+
 /// Some of its cells' middles, those nearest to its own first.
 std::vector<Point2> columns_from_middle(const Lattice& lattice) {
   std::vector<Point2> columns;
@@ -60,6 +69,7 @@ Carver::Carver(const MillJob& job, const Emit& emit, const RunContext& run)
       pieces_(job.voxels),
       nails_(make_nails(job, run.seed)),
       to_remove_(job.voxels.stock.size() - job.voxels.keep.size()),
+      stock_box_(box_around(job.voxels.stock, job.grid)),
       fixtures_(fixture_mesh(job.cell)),
       emit_([this, &emit](std::vector<Keyframe> keyframes) {
         count(keyframes);
@@ -126,12 +136,17 @@ void Carver::count(const std::vector<Keyframe>& keyframes) {
 
 std::unique_ptr<Site> Carver::make_site(std::size_t direction, const SiteMargins& margins, double step_m) const {
   const ToolFrame frame(mill_directions()[direction]);
-  const double size = job_.grid.n * job_.grid.voxel_m;
   const Assembly& assembly = held_->assembly();
   const double margin = std::max(assembly.radius_m(), tool().cutter.radius_m + room_beside_m) + 2 * step_m;
-  return std::make_unique<Site>(
-      frame, lattice_over(frame, job_.grid.origin_m, job_.grid.origin_m + Vec3::Constant(size), margin, step_m),
-      assembly, job_.part, fixtures_, margins);
+  return std::make_unique<Site>(frame, lattice_over(frame, stock_box_.min(), stock_box_.max(), margin, step_m),
+                                assembly, job_.part, fixtures_, margins);
+}
+
+double Carver::bottom(const ToolFrame& frame) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner)
+    lowest = std::min(lowest, frame.of(stock_box_.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))).z());
+  return lowest;
 }
 
 bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>& places) {
@@ -216,7 +231,9 @@ void Carver::go(FollowedMill followed) {
   for (const Keyframe& keyframe : followed.keyframes) {
     const QuantaPoint from = std::exchange(at, keyframe.mill->tip);
     trail_.push_back(point_of(from));
-    if (keyframe.cut) due_.push_back({from, at});
+    if (!keyframe.cut) continue;
+    due_.push_back({from, at});
+    ++cuts_;
   }
   arm_.commit(std::move(followed));
 }

@@ -40,6 +40,10 @@ class Carver {
   void go_home() { arm_.go_home(); }
 
   const MillTool& tool() const { return held_->assembly().tool; }
+  /// The lowest place of the stock, as it was at the start, in a direction's frame (m).
+  double bottom(const ToolFrame& frame) const;
+  /// How much was cut until now: another number wherever what stands may be another.
+  std::uint64_t cuts() const { return cuts_; }
   /// Voxels that are not removed.
   const SweptSet& left() const { return stock_.left(); }
   /// Those in which something may stand.
@@ -88,7 +92,8 @@ class Carver {
   MillStock stock_;
   PieceWatch pieces_;
   Nails nails_;
-  std::uint64_t to_remove_, removed_ = 0;
+  std::uint64_t to_remove_, removed_ = 0, cuts_ = 0;
+  Eigen::AlignedBox3d stock_box_;  ///< around what was clamped (stock frame, m)
   Mesh fixtures_;
   Grid around_;
   std::unique_ptr<HeldTool> held_;

@@ -118,12 +118,7 @@ class FinishStage {
   EnvelopeTask make_task(const Site& site, const FacetColumns& columns) const {
     EnvelopeTask task{columns, radius_m_, job_.wishes.allowance_m, 0, job_.wishes.chord_m(), 0, {}};
     task.clear_m = job_.wishes.stray_m() + (job_.wishes.allowance_m - job_.wishes.stray_m()) / 8;
-    const double size = job_.grid.n * job_.grid.voxel_m;
-    task.bottom_m = site.top();
-    for (int corner = 0; corner < 8; ++corner)
-      task.bottom_m =
-          std::min(task.bottom_m,
-                   site.frame().of(job_.grid.origin_m + size * Vec3(corner & 1, corner >> 1 & 1, corner >> 2)).z());
+    task.bottom_m = carver_.bottom(site.frame());
     task.is_allowed = [this, &site](const Vec3& a, const Vec3& b) {
       if (!carver_.reach().allows(a) || !carver_.reach().allows(b)) return false;
       const double lowest = std::min(a.z(), b.z());

@@ -101,19 +101,18 @@ class RoughStage {
     return places;
   }
 
+  void see(Site& site) {
+    site.see(carver_.standing(), job_.grid, run_.helpers);
+    seen_cuts_ = carver_.cuts();
+  }
+
   void rough_along(std::size_t number) {
     const auto site = carver_.make_site(number, margins(), step_m());
-    site->see(carver_.standing(), job_.grid, run_.helpers);
+    see(*site);
     if (!carver_.enter(number, *site, places_left(number))) return;
-    const ToolFrame& frame = site->frame();
     StockTop surface = surface_of(*site);
     const double top = site->top();
-    double bottom = top;
-    for (int corner = 0; corner < 8; ++corner)
-      bottom = std::min(bottom, frame
-                                    .of(job_.grid.origin_m + job_.grid.n * job_.grid.voxel_m *
-                                                                 Vec3(corner & 1, corner >> 1 & 1, corner >> 2))
-                                    .z());
+    const double bottom = carver_.bottom(site->frame());
     for (double height = top - tool().max_depth_m; height > bottom - tool().cutter.radius_m;
          height -= tool().max_depth_m) {
       if (const auto flat = flat_above(*site, surface, height)) rough_level_along(*site, surface, *flat, height);
@@ -167,7 +166,7 @@ class RoughStage {
   /// `next`: the next level's height, if what the tool comes to there is left to it.
   void rough_level_along(Site& site, StockTop& surface, double height, double next) {
     if (!is_worth_it(site, surface, height)) return;
-    site.see(carver_.standing(), job_.grid, run_.helpers);
+    if (seen_cuts_ != carver_.cuts()) see(site);
     const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
     std::vector<char> free = free_cells(site, height, reachable, run_.helpers);
     std::vector<char> wanted = cells_above(site, free, next);
@@ -196,7 +195,7 @@ class RoughStage {
         free[site.lattice().index(a, b)] = wanted[site.lattice().index(a, b)] = 0;
       });
       if (done == 0) carver_.draw_back(site);
-      site.see(carver_.standing(), job_.grid, run_.helpers);
+      see(site);
       surface = surface_of(site);
     }
   }
@@ -207,6 +206,7 @@ class RoughStage {
   std::vector<Voxel> samples_;
   std::vector<std::vector<char>> prospects_;
   double min_gain_ = 0;
+  std::uint64_t seen_cuts_ = 0;  ///< when the site saw last what stands
 };
 
 }  // namespace
