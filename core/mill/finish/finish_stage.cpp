@@ -19,11 +19,13 @@ constexpr int rounds = 3;
 /// Of the nails that are asked for: a direction is entered for so many, and with the last ball cutter for fewer.
 constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 /// Rows that do less for their length are not laid: `RowTask::least_worth`.
-constexpr double least_worth = 0.5;
+constexpr double least_worth = 0.4;
 /// From place to place where no rows are (row spacings).
 constexpr double link_spacings = 5;
 /// From row to row along the surface, where that is no farther (row spacings).
 constexpr double beside_spacings = 60;
+/// Rows whose ends are no farther apart go on as one.
+constexpr double joined_m = 1e-9;
 constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
 constexpr int max_refused = 100;
 
@@ -110,7 +112,12 @@ class FinishStage {
       found[row] = follow_envelope(task, rows[row].from, rows[row].to, rows[row].stops);
     });
     std::vector<Contour> contours;
-    for (auto& each : found) std::ranges::move(each, std::back_inserter(contours));
+    for (auto& each : found)
+      for (Contour& contour : each)
+        if (!contours.empty() && (contours.back().back() - contour.front()).norm() < joined_m)
+          contours.back().insert(contours.back().end(), contour.begin() + 1, contour.end());
+        else
+          contours.push_back(std::move(contour));
     carry_out(site, task, std::move(contours));
     carver_.settle();
   }
