@@ -85,6 +85,15 @@ VoxelSet box_voxels(const Stock::Box& box, const Grid& grid) {
   return voxels;
 }
 
+/// Corners of the grid, middles of its edges and sides, and its own.
+std::vector<Vec3> points_of(const Grid& grid) {
+  std::vector<Vec3> points;
+  for (int k : {0, grid.n / 2, grid.n - 1})
+    for (int j : {0, grid.n / 2, grid.n - 1})
+      for (int i : {0, grid.n / 2, grid.n - 1}) points.push_back(grid.centre({i, j, k}));
+  return points;
+}
+
 /// Can the ball come to any of 27 points of the stock, with whatever axis?
 void check_reach(const Cell& cell, const Grid& grid) {
   const Chain chain = cell.chain();
@@ -92,13 +101,11 @@ void check_reach(const Cell& cell, const Grid& grid) {
   double nearest = std::numeric_limits<double>::max();
   std::vector<Configuration> seeds{cell.home(chain)};
   for (int i = 1; i < reach_seeds; ++i) seeds.push_back(random_configuration(chain, random));
-  for (int k : {0, grid.n / 2, grid.n - 1})
-    for (int j : {0, grid.n / 2, grid.n - 1})
-      for (int i : {0, grid.n / 2, grid.n - 1})
-        for (const Configuration& seed : seeds) {
-          if (solve_ik(chain, {grid.centre({i, j, k}), {}}, seed)) return;
-          nearest = std::min(nearest, (chain.tool_pose(seed).ball_m - grid.centre({i, j, k})).norm());
-        }
+  for (const Vec3& point : points_of(grid))
+    for (const Configuration& seed : seeds) {
+      if (solve_ik(chain, {point, {}}, seed)) return;
+      nearest = std::min(nearest, (chain.tool_pose(seed).ball_m - point).norm());
+    }
   throw InputError("stock_out_of_reach", "cell '" + cell.name + "': the tool reaches no point of the stock at '" +
                                              cell.robot.links[static_cast<std::size_t>(cell.stock_link)].name +
                                              "' (nearest try " + std::to_string(nearest) +

@@ -70,26 +70,9 @@ class FinishStage {
   }
 
   void machine(std::size_t direction, int round, std::vector<std::uint32_t>& tried) {
-    std::vector<std::uint32_t> wanted;
-    for (std::uint32_t nail = 0; nail < nails_.size(); ++nail)
-      if (is_wanted(nail, direction, tried)) {
-        wanted.push_back(nail);
-        tried[nail] |= std::uint32_t{1} << direction;
-      }
     Site& along = reach_.site(direction);
-    along.see(carver_.standing(), job_.grid, run_.helpers);
-    std::erase_if(wanted,
-                  [&](std::uint32_t nail) { return !is_above_floor(along, reach_.tip_at(nail, along.frame())); });
-    std::vector<Vec3> tips;
-    tips.reserve(wanted.size());
-    for (const std::uint32_t nail : wanted) tips.push_back(along.frame().point(reach_.tip_at(nail, along.frame())));
-    if (!carver_.enter(direction, along, tips)) return;
-    // The robot may come to the others in another way.
-    std::erase_if(wanted, [&](std::uint32_t nail) {
-      const bool comes = carver_.reach().allows(reach_.tip_at(nail, along.frame()));
-      if (!comes) tried[nail] &= ~(std::uint32_t{1} << direction);
-      return !comes;
-    });
+    const std::vector<std::uint32_t> wanted = enter(direction, along, tried);
+    if (wanted.empty()) return;
     const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
     std::vector<RestingBall> balls;
@@ -103,6 +86,30 @@ class FinishStage {
       if (reach_.is_open(nail)) places.push_back(reach_.middle_over(nail, along.frame()));
     follow_rows(along, task, pencil_rows(places, link_spacings * spacing_m_, spacing_m_));
     carver_.draw_back(along);
+  }
+
+  /// Holds the tool so that the robot comes to as many wanted nails as it can; gives those, none where it was not
+  /// entered. Nobody is tried again but those that it may come to in another way.
+  std::vector<std::uint32_t> enter(std::size_t direction, Site& along, std::vector<std::uint32_t>& tried) {
+    std::vector<std::uint32_t> wanted;
+    for (std::uint32_t nail = 0; nail < nails_.size(); ++nail)
+      if (is_wanted(nail, direction, tried)) {
+        wanted.push_back(nail);
+        tried[nail] |= std::uint32_t{1} << direction;
+      }
+    along.see(carver_.standing(), job_.grid, run_.helpers);
+    const auto tip_at = [&](std::uint32_t nail) { return reach_.tip_at(nail, along.frame()); };
+    std::erase_if(wanted, [&](std::uint32_t nail) { return !is_above_floor(along, tip_at(nail)); });
+    std::vector<Vec3> tips;
+    tips.reserve(wanted.size());
+    for (const std::uint32_t nail : wanted) tips.push_back(along.frame().point(tip_at(nail)));
+    if (!carver_.enter(direction, along, tips)) return {};
+    std::erase_if(wanted, [&](std::uint32_t nail) {
+      const bool comes = carver_.reach().allows(tip_at(nail));
+      if (!comes) tried[nail] &= ~(std::uint32_t{1} << direction);
+      return !comes;
+    });
+    return wanted;
   }
 
   void follow_rows(const Site& site, const EnvelopeTask& task, const std::vector<Row>& rows) {

@@ -105,6 +105,10 @@ class RoughStage {
     site.see(carver_.standing(), job_.grid, run_.helpers);
     seen_cuts_ = carver_.cuts();
   }
+  /// Those since it saw last what stands, if there are any.
+  void see_cuts(Site& site) {
+    if (seen_cuts_ != carver_.cuts()) see(site);
+  }
 
   void rough_along(std::size_t number) {
     const auto site = carver_.make_site(number, margins(), step_m());
@@ -166,7 +170,7 @@ class RoughStage {
   /// `next`: the next level's height, if what the tool comes to there is left to it.
   void rough_level_along(Site& site, StockTop& surface, double height, double next) {
     if (!is_worth_it(site, surface, height)) return;
-    if (seen_cuts_ != carver_.cuts()) see(site);
+    see_cuts(site);
     const IsReachable reachable = [this](const Vec3& at) { return carver_.reach().allows(at); };
     std::vector<char> free = free_cells(site, height, reachable, run_.helpers);
     std::vector<char> wanted = cells_above(site, free, next);
