@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/random.hpp"
-#include "tests/core/mill/milled_plan.hpp"
+#include "core/cell/milling/tool_library.hpp"
+#include "tests/core/cell/sample_robots.hpp"
 
 namespace sculpt {
 namespace {
@@ -15,9 +19,8 @@ bool holds(const Shape& shape, const Vec3& point) {
 }
 
 TEST(ToolScene, ABallCutterEndsInABall) {
-  const Job job = milled::make_job("bust", 16, {"D20"});
-  const Cell cell = parse_cell(job.cell);
-  const MillTool tool = choose_tools(job.mill->library, {"D20"}).front();
+  const Cell cell = shipped_cell("studio");
+  const MillTool tool = choose_tools(read_tool_library("carving", {SOURCE_DIR "/config/tools"}), {"D20"}).front();
   const StandingVoxels material(VoxelSet(16), 1000 * cell.grid(16).voxel_m, false);
   const ToolScene scene(cell, tool, cell.chain().joints(), material);
   const auto& all = scene.cell.robot.links[static_cast<std::size_t>(cell.tool_link)].shapes;
