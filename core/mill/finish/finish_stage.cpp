@@ -31,7 +31,7 @@ constexpr int max_refused = 100;
 
 class FinishStage {
  public:
-  FinishStage(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run)
+  FinishStage(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run)
       : job_(job),
         views_(views),
         carver_(carver),
@@ -39,19 +39,20 @@ class FinishStage {
         nails_(carver.nails()),
         radius_m_(carver.tool().cutter.radius_m),
         spacing_m_(job.wishes.stepover_m(radius_m_)),
-        reach_(job, views, carver, run) {}
+        is_last_(is_last),
+        reach_(job, views, carver, is_last, run) {}
 
-  void run(bool is_last) {
+  void run() {
     reach_.find();
-    if (is_last) reach_.find_beside();
-    for (int round = 0; round < (is_last ? rounds : 1); ++round) go_through(round, is_last);
+    if (is_last_) reach_.find_beside();
+    for (int round = 0; round < (is_last_ ? rounds : 1); ++round) go_through(round);
   }
 
  private:
   /// All directions, the one that serves most first.
-  void go_through(int round, bool is_last) {
+  void go_through(int round) {
     std::vector<std::uint32_t> tried(nails_.size());
-    const double worth = (is_last ? last_worth_share : worth_share) * static_cast<double>(reach_.asked());
+    const double worth = (is_last_ ? last_worth_share : worth_share) * static_cast<double>(reach_.asked());
     while (const auto best = best_direction(tried, worth)) machine(*best, round, tried);
   }
 
@@ -247,13 +248,14 @@ class FinishStage {
   const RunContext& run_;
   const Nails& nails_;
   double radius_m_, spacing_m_;
+  bool is_last_;
   NailReach reach_;
 };
 
 }  // namespace
 
 void finish(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run) {
-  FinishStage(job, views, carver, run).run(is_last);
+  FinishStage(job, views, carver, is_last, run).run();
 }
 
 }  // namespace sculpt

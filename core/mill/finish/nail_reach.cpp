@@ -43,14 +43,14 @@ bool is_above_floor(const Site& site, const Vec3& tip) {
   return site.lattice().contains(a, b) && site.floor(a, b) <= tip.z();
 }
 
-NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run)
+NailReach::NailReach(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run)
     : job_(job),
       views_(views),
       carver_(carver),
       run_(run),
       nails_(carver.nails()),
       radius_m_(carver.tool().cutter.radius_m),
-      stride_(stride_of(job, radius_m_, nails_)),
+      stride_(is_last ? 1 : stride_of(job, radius_m_, nails_)),
       along_(nails_.size()),
       aside_(nails_.size(), Eigen::Vector3f::Zero()),
       leaves_(nails_.size()) {

@@ -16,12 +16,12 @@ namespace sculpt {
 /// May the tip be there (tool frame), for what is above the cutter?
 bool is_above_floor(const Site& site, const Vec3& tip);
 
-/// For the tool that a carver holds, and as many nails as its rows need: evenly some of them. Not shared between
-/// threads.
+/// For the tool that a carver holds, and as many nails as its rows need: evenly some of them; all where it is the last
+/// that finishes. Not shared between threads.
 class NailReach {
  public:
   /// All must outlive the object.
-  NailReach(const MillJob& job, PartViews& views, Carver& carver, const RunContext& run);
+  NailReach(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run);
 
   /// Of all open nails that face a direction: could the cutter come to them along it? Those are marked as reachable.
   /// Throws Cancelled.

@@ -65,7 +65,7 @@ TEST(FreedPieces, AreMilledBeforeWhatHoldsThem) {
   for (const std::string& finding : report.findings) std::cout << finding << "\n";
   EXPECT_TRUE(report.verify.clean);
   EXPECT_EQ(report.voxels.freed, 0u);
-  EXPECT_GT(report.voxels.removed, report.voxels.remove * 9 / 10);
+  EXPECT_GT(report.voxels.removed, report.voxels.remove * 17 / 20);  // of a piece that fell it would be half
 }
 
 TEST(FreedPieces, AreFoundByTheReplay) {
