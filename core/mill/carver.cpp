@@ -137,7 +137,8 @@ void Carver::count(const std::vector<Keyframe>& keyframes) {
 std::unique_ptr<Site> Carver::make_site(std::size_t direction, const SiteMargins& margins, double step_m) const {
   const ToolFrame frame(mill_directions()[direction]);
   const Assembly& assembly = held_->assembly();
-  const double margin = std::max(assembly.radius_m(), tool().cutter.radius_m + room_beside_m) + 2 * step_m;
+  // Wherever the tip goes, all is known that is below what the tool carries.
+  const double margin = tool().cutter.radius_m + room_beside_m + assembly.radius_m() + 2 * step_m;
   return std::make_unique<Site>(frame, lattice_over(frame, stock_box_.min(), stock_box_.max(), margin, step_m),
                                 assembly, job_.part, fixtures_, margins);
 }
