@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/mill/drive/hop.hpp"
+#include "core/mill/drive/hub.hpp"
 #include "core/mill/map/fixtures.hpp"
 
 namespace sculpt {
@@ -38,16 +39,6 @@ Eigen::AlignedBox3d box_around(const VoxelSet& voxels, const Grid& grid) {
       box.extend(grid.origin_m + grid.voxel_m * (Vec3(v.i, v.j, v.k) + Vec3::Constant(corner)));
   });
   return box;
-}
-
-/// Some of its cells' middles, those nearest to its own first.
-std::vector<Point2> columns_from_middle(const Lattice& lattice) {
-  std::vector<Point2> columns;
-  for (int b = 0; b < lattice.height; b += 4)
-    for (int a = 0; a < lattice.width; a += 4) columns.emplace_back(lattice.u(a), lattice.v(b));
-  const Point2 middle(lattice.u(lattice.width / 2), lattice.v(lattice.height / 2));
-  std::ranges::stable_sort(columns, {}, [&](const Point2& at) { return (at - middle).norm(); });
-  return columns;
 }
 
 Nails make_nails(const MillJob& job, std::uint64_t seed) {
@@ -172,7 +163,7 @@ bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>
 }
 
 bool Carver::hold(std::size_t number, const Site& site, const PostureField& field) {
-  const std::optional<Vec3> hub = find_hub(site, field);
+  const std::optional<Vec3> hub = find_hub(site, *floor_, field, around_, room_around_m);
   if (!hub || !arm_.hold(field, static_cast<int>(number), site.frame().point(*hub))) return false;
   hub_ = *hub;
   axis_ = site.frame().w;
@@ -279,34 +270,6 @@ void Carver::remove(FollowedMill& followed) {
     }
     removed_ += removed;
   }
-}
-
-/// A place above everything, from where the robot comes down, as near to the middle as there is one; else one from
-/// where it does not, or one that is above what stands about it: along a tilted axis the tip may have no room above
-/// everything.
-std::optional<Vec3> Carver::find_hub(const Site& site, const PostureField& field) const {
-  const std::vector<Point2> columns = columns_from_middle(site.lattice());
-  const auto is_held = [&](const Vec3& at) {
-    return floor_->allows(at) && field.usable(HeldTool::cell_of(field, around_, site.frame().point(at)));
-  };
-  const auto low = [&](const Point2& column) {
-    const Vec3 at(column.x(), column.y(), 0);
-    return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m));
-  };
-  const double top = site.top();
-  for (const auto& [above_m, comes_down] : {std::pair{room_around_m, true},
-                                            {room_around_m / 2, true},
-                                            {2 * air_clearance_m, true},
-                                            {room_around_m, false},
-                                            {room_around_m / 2, false},
-                                            {2 * air_clearance_m, false}}) {
-    const auto found = std::ranges::find_if(columns, [&, height = top + above_m, down = comes_down](const Point2& p) {
-      return is_held({p.x(), p.y(), height}) && low(p).z() <= height && (!down || floor_->allows(low(p)));
-    });
-    if (found != columns.end()) return Vec3(found->x(), found->y(), top + above_m);
-  }
-  const auto found = std::ranges::find_if(columns, [&](const Point2& column) { return is_held(low(column)); });
-  return found == columns.end() ? std::nullopt : std::optional(low(*found));
 }
 
 }  // namespace sculpt

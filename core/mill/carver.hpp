@@ -85,7 +85,6 @@ class Carver {
   void clear_due();
   void cut_nails_due();
   bool hold(std::size_t direction, const Site& site, const PostureField& field);
-  std::optional<Vec3> find_hub(const Site& site, const PostureField& field) const;
 
   const MillJob& job_;
   const RunContext& run_;

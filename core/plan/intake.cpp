@@ -12,7 +12,7 @@
 #include "core/material/resolution.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/motion/random_configuration.hpp"
-#include "core/solid/touched_voxels.hpp"
+#include "core/solid/surface/touched_voxels.hpp"
 
 namespace sculpt {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "core/material/voxel.hpp"
 #include "core/mesh/mesh.hpp"
-#include "core/solid/sides.hpp"
+#include "core/solid/surface/sides.hpp"
 
 namespace sculpt {
 

@@ -7,7 +7,7 @@
 #include "core/solid/facet_groups.hpp"
 #include "core/solid/holes.hpp"
 #include "core/solid/nesting.hpp"
-#include "core/solid/twins.hpp"
+#include "core/solid/surface/twins.hpp"
 
 namespace sculpt {
 namespace {

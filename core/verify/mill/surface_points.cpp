@@ -48,6 +48,17 @@ bool contains(const VoxelSet& voxels, const Grid& grid, const Vec3& at_mm) {
   return voxels.contains({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
 }
 
+/// From a point along a unit vector to the side of the block; no stock is beyond.
+double way_out(const Vec3& at_mm, const Vec3& normal, const Grid& grid) {
+  const Vec3 low = 1000 * grid.origin_m, high = low + Vec3::Constant(1000 * grid.n * grid.voxel_m);
+  double way = uncut;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (normal[axis] > 0) way = std::min(way, (high[axis] - at_mm[axis]) / normal[axis]);
+    if (normal[axis] < 0) way = std::min(way, (low[axis] - at_mm[axis]) / normal[axis]);
+  }
+  return std::max(0.0, way);
+}
+
 bool is_base(const Vec3& at_mm, const Vec3& normal, const Grid& grid) {
   return at_mm.z() - 1000 * grid.origin_m.z() <= base_mm && normal.z() < 0 &&
          normal.head<2>().norm() <= base_lean * -normal.z();
@@ -165,7 +176,7 @@ SurfaceVerdict SurfacePoints::judge(const VoxelSet& standing) const {
     if (excess == uncut)
       for (excess = gouge_mm; contains(standing, grid_, point.at + excess * point.normal);)
         excess += std::min(coarse, 0.01 + excess / 4);
-    excess_m[point.number] = excess / 1000;
+    excess_m[point.number] = std::min(excess, way_out(point.at, point.normal, grid_)) / 1000;
   }
   for (const auto& excess : excess_m)
     if (excess)

@@ -1,4 +1,4 @@
-#include "core/solid/touched_voxels.hpp"
+#include "core/solid/surface/touched_voxels.hpp"
 
 #include <algorithm>
 #include <cmath>

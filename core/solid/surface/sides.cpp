@@ -1,4 +1,4 @@
-#include "core/solid/sides.hpp"
+#include "core/solid/surface/sides.hpp"
 
 #include <algorithm>
 

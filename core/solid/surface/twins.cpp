@@ -1,4 +1,4 @@
-#include "core/solid/twins.hpp"
+#include "core/solid/surface/twins.hpp"
 
 #include <algorithm>
 #include <iterator>
