@@ -50,9 +50,10 @@ class Left(DaemonTest):
         self.assertGreater(len(vertices), 3000)
         self.assertEqual({index for face in faces for index in face}, set(range(len(vertices))))
         self.assertTrue(all(excess >= 0 for *_, excess in vertices))
-        floor = min(z for _, _, z, _ in vertices)
-        beside_base = [excess for _, _, z, excess in vertices if z > floor + 0.001]
-        within = sum(excess <= 0.0005 for excess in beside_base) / len(beside_base)
+        bottom = min(z for _, _, z, _ in vertices) + 0.0001
+        is_base = [z < bottom and excess < 0.001 for _, _, z, excess in vertices]
+        beside_base = {index for face in faces if not all(is_base[corner] for corner in face) for index in face}
+        within = sum(vertices[index][3] <= 0.0005 for index in beside_base) / len(beside_base)
         surface = report["surface"]
         self.assertAlmostEqual(within, surface["within_tolerance"] / surface["points"], delta=0.03)
 
