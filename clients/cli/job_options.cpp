@@ -118,7 +118,7 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_option("--scallop", mill.scallop_m, "Of that, between rows; default 0.35 of it")
       ->type_name("METRES")
       ->group(group);
-  command.add_option("--allowance", mill.allowance_m, "Of that, left on purpose; default 0.15 of it")
+  command.add_option("--allowance", mill.allowance_m, "Of that, left on purpose; default 0.1 of it")
       ->type_name("METRES")
       ->group(group);
   add_placement_options(command, options.placement);

@@ -17,7 +17,7 @@ namespace sculpt {
 struct MillWishes {
   double tolerance_m = 1e-4;  ///< of the surface: what may stand above it where the tools can come
   double scallop_m = 3.5e-5;  ///< of it, between rows
-  double allowance_m = 3e-5;  ///< of it, left on purpose: what the cutter may stray is taken from this
+  double allowance_m = 1e-5;  ///< of it, left on purpose: what the cutter may stray is taken from this
 
   /// How far the cutter may stray from a straight way while it cuts.
   double stray_m() const { return std::min(2e-5, 2 * allowance_m / 3); }

@@ -20,8 +20,8 @@ struct RowTask {
   int finer = 0;         ///< so many times rows are twice as near
   double radius_m = 0;   ///< of the ball
   double area_m2 = 0;    ///< of the surface, for each ball
-  /// A row's length is at most so many times what it would be if it served as many balls without an end and none twice,
-  /// the way to the next one counted in: the inverse of that.
+  /// Of a row's length, its ends and the way to the next one counted in: so much at least must be what a row would be
+  /// that serves as many balls without an end and none twice.
   double least_worth = 0;
 };
 
