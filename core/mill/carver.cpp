@@ -163,7 +163,11 @@ bool Carver::enter(std::size_t number, const Site& site, const std::vector<Vec3>
 }
 
 bool Carver::hold(std::size_t number, const Site& site, const PostureField& field) {
-  const std::optional<Vec3> hub = find_hub(site, *floor_, field, around_, room_around_m);
+  const auto goes_down = [&](const Vec3& from, const Vec3& to) {
+    const MillStroke down{site.frame().point(to), false, air_stray_m};
+    return follow(*held_, field, static_cast<int>(number), site.frame().point(from), {down}).strokes() == 1;
+  };
+  const std::optional<Vec3> hub = find_hub(site, *floor_, field, around_, room_around_m, goes_down);
   if (!hub || !arm_.hold(field, static_cast<int>(number), site.frame().point(*hub))) return false;
   hub_ = *hub;
   axis_ = site.frame().w;

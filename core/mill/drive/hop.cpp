@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace sculpt {
-namespace {
-
-/// How far the cutter may stray from a straight way in the air.
-constexpr double air_stray_m = 5e-4;
-
-}  // namespace
-
 void hop(const Site& site, const Vec3& from, const Vec3& to, double min_height, double stray_m,
          std::vector<MillStroke>& strokes) {
   const ToolFrame& frame = site.frame();

@@ -9,6 +9,9 @@
 namespace sculpt {
 namespace {
 
+/// So many columns are gone down on trial, at each height.
+constexpr int most_tries = 40;
+
 /// Some of its cells' middles, those nearest to its own first.
 std::vector<Point2> columns_from_middle(const Lattice& lattice) {
   std::vector<Point2> columns;
@@ -22,7 +25,7 @@ std::vector<Point2> columns_from_middle(const Lattice& lattice) {
 }  // namespace
 
 std::optional<Vec3> find_hub(const Site& site, const ReachFloor& reach, const PostureField& field, const Grid& around,
-                             double room_m) {
+                             double room_m, const std::function<bool(const Vec3& hub, const Vec3& low)>& goes_down) {
   const std::vector<Point2> columns = columns_from_middle(site.lattice());
   const auto is_held = [&](const Vec3& at) {
     return reach.allows(at) && field.usable(HeldTool::cell_of(field, around, site.frame().point(at)));
@@ -38,8 +41,10 @@ std::optional<Vec3> find_hub(const Site& site, const ReachFloor& reach, const Po
                                             {room_m, false},
                                             {room_m / 2, false},
                                             {2 * air_clearance_m, false}}) {
+    int tries = most_tries;
     const auto found = std::ranges::find_if(columns, [&, height = top + above_m, down = comes_down](const Point2& p) {
-      return is_held({p.x(), p.y(), height}) && low(p).z() <= height && (!down || reach.allows(low(p)));
+      if (!is_held({p.x(), p.y(), height}) || low(p).z() > height) return false;
+      return !down || (reach.allows(low(p)) && tries-- > 0 && goes_down({p.x(), p.y(), height}, low(p)));
     });
     if (found != columns.end()) return Vec3(found->x(), found->y(), top + above_m);
   }

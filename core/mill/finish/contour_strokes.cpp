@@ -1,8 +1,6 @@
 #include "core/mill/finish/contour_strokes.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "core/mill/drive/hop.hpp"
 
@@ -17,13 +15,13 @@ constexpr double shortest_share = 1.0 / 16;
 }  // namespace
 
 void ContourStrokes::lay(const Contour& contour, const Contour& way) {
+  has_laid_ = true;
   is_down_ = !way.empty();
   if (is_down_) add(way);
   add(contour);
 }
 
-Contour ContourStrokes::way_to(const Contour& contour) const {
-  const Vec3& to = contour.front();
+Contour ContourStrokes::way_to(const Vec3& to) const {
   const double far = (to - at_).norm();
   if (far > task_.beside_m) return {};
   Contour way = follow_whole(task_.envelope, at_.head<2>(), to.head<2>(), detour * far);
@@ -76,30 +74,6 @@ void ContourStrokes::cut(const Vec3& to) {
 void ContourStrokes::add(const Contour& contour) {
   for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge)
     if (is_down_ || let_down(contour[edge])) cut(contour[edge + 1]);
-}
-
-std::vector<std::size_t> turn_nearest(const Vec3& at, std::vector<Contour>& contours, std::size_t some) {
-  struct End {
-    double far;
-    std::size_t number;
-    bool is_back;
-  };
-  std::vector<End> ends;
-  for (std::size_t number = 0; number < contours.size(); ++number) {
-    const double front = (contours[number].front() - at).squaredNorm(),
-                 back = (contours[number].back() - at).squaredNorm();
-    ends.push_back({std::min(front, back), number, back < front});
-  }
-  some = std::min(some, ends.size());
-  std::ranges::partial_sort(ends, ends.begin() + static_cast<std::ptrdiff_t>(some), [](const End& a, const End& b) {
-    return std::tie(a.far, a.number) < std::tie(b.far, b.number);
-  });
-  std::vector<std::size_t> nearest;
-  for (std::size_t at_end = 0; at_end < some; ++at_end) {
-    if (ends[at_end].is_back) std::ranges::reverse(contours[ends[at_end].number]);
-    nearest.push_back(ends[at_end].number);
-  }
-  return nearest;
 }
 
 }  // namespace sculpt

@@ -33,11 +33,13 @@ class ContourStrokes {
       : task_(task), stock_(std::move(stock)), load_(counted_load(task.tool, task.voxel_m)), at_(at) {}
 
   /// Along the surface to where a contour begins, the tip being down; nothing where that is no short way. Any thread.
-  Contour way_to(const Contour& contour) const;
+  Contour way_to(const Vec3& to) const;
   /// By a way to it, or from above where that is empty. Left out is where the cutter would take off more than it may at
   /// once.
   void lay(const Contour& contour, const Contour& way);
 
+  /// Did it lay any contour?
+  bool has_laid() const { return has_laid_; }
   /// Is it at rest on the part?
   bool is_down() const { return is_down_; }
   /// Where the tip is after them (tool frame).
@@ -57,12 +59,9 @@ class ContourStrokes {
   SweptSet::Taken taken_;  ///< by the last motion
   ChipLoad load_;
   Vec3 at_;
+  bool has_laid_ = false;
   bool is_down_ = false;  ///< at rest on the part
   std::vector<MillStroke> strokes_;
 };
-
-/// The numbers of some contours that begin or end nearest to a place, the nearest first, turned so that they begin
-/// there.
-std::vector<std::size_t> turn_nearest(const Vec3& at, std::vector<Contour>& contours, std::size_t some);
 
 }  // namespace sculpt

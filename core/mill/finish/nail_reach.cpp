@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace sculpt {
 namespace {
@@ -75,13 +76,29 @@ void NailReach::find() {
   std::vector<Place> places;
   for (std::size_t nail = 0; nail < nails_.size(); nail += stride_)
     if (is_open(nail)) places.push_back({nail, Vec3::Zero(), 0});
-  const std::vector<std::uint32_t> found =
-      look_along_all(places, job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m);
+  const std::vector<std::uint32_t> found = look_along_all(places, reached_m());
   for (std::size_t at = 0; at < places.size(); ++at) {
     const std::size_t nail = places[at].nail;
     along_[nail] |= found[at];
     if (along_[nail] != 0) carver_.mark_reachable(nail);
   }
+}
+
+std::vector<std::uint32_t> NailReach::come_to(const std::vector<std::uint32_t>& nails, std::size_t direction) {
+  std::vector<Place> places;
+  places.reserve(nails.size());
+  for (const std::uint32_t nail : nails) places.push_back({nail, Vec3::Zero(), 0});
+  std::vector<std::uint32_t> asked(nails.size());
+  std::iota(asked.begin(), asked.end(), 0);
+  keep_reached(asked, places, reached_m(), direction);
+  std::vector<std::uint32_t> reached;
+  reached.reserve(asked.size());
+  for (const std::uint32_t at : asked) reached.push_back(nails[at]);
+  return reached;
+}
+
+double NailReach::reached_m() const {
+  return job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
 }
 
 /// Of each place along which directions the cutter comes to it and leaves no more than `most_m`: a bit each.

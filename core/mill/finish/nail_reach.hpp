@@ -38,9 +38,13 @@ class NailReach {
   Site& site(std::size_t direction);
   bool comes_along(std::size_t nail, std::size_t direction) const { return along_[nail] >> direction & 1; }
   /// What stands on it is more than the tolerance, and than a ball beside it would leave.
-  bool is_open(std::size_t nail) const {
-    return nails_.excess(nail) > std::max(job_.wishes.tolerance_m, static_cast<double>(leaves_[nail]));
+  bool is_open(std::size_t nail) const { return is_open(nail, nails_.excess(nail)); }
+  /// If so much stood on it.
+  bool is_open(std::size_t nail, double excess_m) const {
+    return excess_m > std::max(job_.wishes.tolerance_m, static_cast<double>(leaves_[nail]));
   }
+  /// Of some nails, asked or not, those that the cutter comes to along a direction. Throws Cancelled.
+  std::vector<std::uint32_t> come_to(const std::vector<std::uint32_t>& nails, std::size_t direction);
   /// Does the ball rest beside it?
   bool is_beside(std::size_t nail) const { return !aside_[nail].isZero(0); }
   double cosine(std::size_t nail, std::size_t direction) const { return nails_[nail].normal.dot(frames_[direction].w); }
@@ -63,6 +67,8 @@ class NailReach {
   std::vector<std::uint32_t> look_along_all(const std::vector<Place>& places, double most_m);
   void keep_reached(std::vector<std::uint32_t>& asked, const std::vector<Place>& places, double most_m,
                     std::size_t direction);
+  /// A nail counts as reached where the cutter would leave no more.
+  double reached_m() const;
   Vec3 middle_at(const Place& place, const ToolFrame& frame) const;
   bool leaves_no_more(double most_m, const Place& place, const Site& site, const FacetColumns& columns) const;
   double highest_above(double aside, double most_m, double cosine) const;

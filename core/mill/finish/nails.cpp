@@ -145,6 +145,12 @@ void Nails::sort_into_boxes(const std::vector<Nail>& nails) {
 }
 
 void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
+  changes_.clear();
+  cut(from, to, radius, excess_, changes_);
+}
+
+void Nails::cut(const Vec3& from, const Vec3& to, double radius, std::vector<float>& excesses,
+                std::vector<Change>& changes) const {
   const Vec3 way = to - from, room = Vec3::Constant(radius + farthest_m);
   const double length2 = way.squaredNorm(), reach2 = room.x() * room.x();
   for_each_in(from.cwiseMin(to) - room, from.cwiseMax(to) + room, [&](std::uint32_t at) {
@@ -158,7 +164,10 @@ void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
     // A ball that is behind the surface, or comes to it from there, cuts something else.
     const double behind = -1e-5;
     if (least < behind) return;
-    excess_[at] = std::min(excess_[at], static_cast<float>(std::max(0.0, least)));
+    const auto left = static_cast<float>(std::max(0.0, least));
+    if (left >= excesses[at]) return;
+    changes.push_back({at, excesses[at], left});
+    excesses[at] = left;
   });
 }
 

@@ -48,6 +48,17 @@ class Nails {
 
   /// A ball's middle went straight from one place to the other.
   void cut(const Vec3& from, const Vec3& to, double radius);
+  /// Of all nails, as `excess` has it.
+  const std::vector<float>& excesses() const { return excess_; }
+  /// What a cut changed: of which nail, and what stood above it.
+  struct Change {
+    std::uint32_t nail;
+    float before, after;
+  };
+  /// If a ball's middle went so: lowers the excesses that some nails would have, and adds these to `changes`. Any
+  /// thread while nothing is cut.
+  void cut(const Vec3& from, const Vec3& to, double radius, std::vector<float>& excesses,
+           std::vector<Change>& changes) const;
 
   /// Calls `visit(number)` with all that are in the boxes around a place, those within `reach_m` and some others.
   template <typename Visit>
@@ -83,6 +94,7 @@ class Nails {
 
   std::vector<Nail> nails_;  ///< by box
   std::vector<float> excess_;
+  std::vector<Change> changes_;  ///< by the last cut
   std::vector<char> reachable_;
   double area_m2_ = 0, edge_ = 1;
   Vec3 low_ = Vec3::Zero();

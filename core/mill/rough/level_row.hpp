@@ -1,7 +1,7 @@
 // One row of a level.
 #pragma once
 
-#include "core/mill/rough/level_curves.hpp"
+#include "core/mill/map/level_curves.hpp"
 #include "core/mill/rough/row_field.hpp"
 
 namespace sculpt {

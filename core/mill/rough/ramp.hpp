@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "core/mill/rough/level_curves.hpp"
+#include "core/mill/map/level_curves.hpp"
 
 namespace sculpt {
 

@@ -30,8 +30,8 @@ constexpr int n = 32;
 MeshFile stock(bool propped) {
   VoxelSet voxels(n);
   shapes::fill(voxels, {12, 12, 0}, {19, 19, 26});
-  shapes::fill(voxels, {20, 12, 23}, {31, 19, 26});
-  shapes::fill(voxels, {24, 12, 10}, {31, 19, 22});
+  shapes::fill(voxels, {20, 12, 25}, {31, 19, 26});
+  shapes::fill(voxels, {24, 12, 10}, {31, 19, 24});
   if (propped) shapes::fill(voxels, {24, 12, 0}, {31, 19, 9});
   return {write_binvox(voxels, {n, 0.05 / n, Vec3::Zero()}), "binvox", "stock.binvox"};
 }

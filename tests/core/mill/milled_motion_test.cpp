@@ -171,7 +171,7 @@ TEST(MilledMotion, PartsEndWhereTheToolIsFree) {
   CheckedJob checked = check_job(one.job, {});
   const Mesh part = checked.shapes.place_part(checked.grid, {});
   const PathTools tools(one.path, one.cell, 0);
-  constexpr std::size_t moves = 60;
+  constexpr std::size_t moves = 200;
   std::size_t begin = 0, returning = 0, climbs = 0;
   const std::vector<Seam> seams = find_seams(one.path, one.cell, tools, {moves, false});
   EXPECT_GT(seams.size(), one.path.size() / moves);

@@ -56,5 +56,26 @@ TEST(Nails, WhatABallDoesNotTouchStays) {
   }
 }
 
+TEST(Nails, ACopyIsCutAsTheyWouldBeAndGoesBack) {
+  const PartInGrid slab = make_slab(edge);
+  Nails nails(slab.mesh, slab.voxels, slab.grid, 1000, 10);
+  const std::vector<float> before = nails.excesses();
+  std::vector<float> copy = before;
+  std::vector<Nails::Change> changes;
+  for (const double y : {0.3 * edge, 0.3 * edge + 1e-3, 0.5 * edge})
+    nails.cut({0, y, edge / 2 + radius}, {edge, y, edge / 2 + radius}, radius, copy, changes);
+  EXPECT_EQ(nails.excesses(), before);
+  std::vector<float> back = copy;
+  for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
+    EXPECT_LT(change->after, change->before);
+    back[change->nail] = change->before;
+  }
+  EXPECT_EQ(back, before);
+  for (const double y : {0.3 * edge, 0.3 * edge + 1e-3, 0.5 * edge})
+    nails.cut({0, y, edge / 2 + radius}, {edge, y, edge / 2 + radius}, radius);
+  EXPECT_EQ(nails.excesses(), copy);
+  EXPECT_GT(changes.size(), 50U);
+}
+
 }  // namespace
 }  // namespace sculpt

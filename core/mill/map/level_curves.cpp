@@ -1,4 +1,4 @@
-#include "core/mill/rough/level_curves.hpp"
+#include "core/mill/map/level_curves.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,160 @@
+#include "core/mill/finish/contour_runner.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+#include "core/mill/drive/hop.hpp"
+#include "core/mill/finish/tour/tour.hpp"
+
+namespace sculpt {
+namespace {
+
+/// Contours no farther apart may be gone over to in the middle (row spacings).
+constexpr double near_spacings = 6;
+/// From contour to contour along the surface, where that is no farther (row spacings); and where there is no other way.
+constexpr double beside_spacings = 60, far_beside_spacings = 240;
+constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
+constexpr int max_refused = 60;
+
+/// Goes on around from the contour of this number, backwards from its end.
+void turn_to(std::vector<Contour>& contours, std::size_t number, bool is_back) {
+  std::rotate(contours.begin(), contours.begin() + static_cast<std::ptrdiff_t>(number), contours.end());
+  if (!is_back) return;
+  std::reverse(contours.begin() + 1, contours.end());
+  for (Contour& contour : contours) std::ranges::reverse(contour);
+}
+
+}  // namespace
+
+void ContourRunner::run(const std::vector<Contour>& contours) {
+  const double low = -std::numeric_limits<double>::infinity(), high = carver_.hub().z();
+  std::vector<Contour> left = tour_of(contours, near_spacings * spacing_m_);
+  for (const Ways& ways :
+       {Ways{low, beside_spacings * spacing_m_, true}, Ways{high, beside_spacings * spacing_m_, true},
+        Ways{low, far_beside_spacings * spacing_m_, false}})
+    left = carry_out(ways, std::move(left));
+  carver_.draw_back(site_);
+}
+
+/// Gives those that it found no way to.
+std::vector<Contour> ContourRunner::carry_out(const Ways& ways, std::vector<Contour> contours) {
+  std::vector<Contour> apart;
+  for (int refused = 0; !contours.empty() && refused < max_refused;) {
+    carver_.draw_back(site_);
+    ContourStrokes laid({site_, envelope_, carver_.tool(), carver_.swept(), job_.grid.voxel_m, job_.wishes.stray_m(),
+                         ways.beside_m, ways.min_height},
+                        carver_.left(), carver_.tip(site_));
+    auto [batch, ahead, done] = follow_batches(ways, contours, laid, apart);
+    std::ranges::move(ahead.apart, std::back_inserter(apart));
+    // What was to come after the one that failed, or after a place that nothing leads on from, is planned anew.
+    std::vector<Contour> rest;
+    if (done < batch.strokes.size()) {
+      ++refused;
+      const auto failed = std::ranges::upper_bound(batch.contours, done, {}, &Laid::begin) - 1;
+      if (!batch.strokes[done].cut) apart.push_back(std::move(failed->contour));
+      for (auto next = failed + 1; next != batch.contours.end(); ++next) rest.push_back(std::move(next->contour));
+      for (Laid& next : ahead.contours) rest.push_back(std::move(next.contour));
+    }
+    std::ranges::move(contours, std::back_inserter(rest));
+    contours = std::move(rest);
+  }
+  carver_.settle();
+  return apart;
+}
+
+/// Until all is laid, or nothing leads on, or the arm does not come to the end of a batch.
+ContourRunner::BatchesDone ContourRunner::follow_batches(const Ways& ways, std::vector<Contour>& contours,
+                                                         ContourStrokes& laid, std::vector<Contour>& apart) {
+  BatchesDone last{{}, lay_batch(ways, contours, laid), 0};
+  while (!last.ahead.contours.empty() && last.done == last.batch.strokes.size()) {
+    last.batch = std::exchange(last.ahead, {});
+    std::ranges::move(last.batch.apart, std::back_inserter(apart));
+    // While the arm follows, the next one is laid; it counts on this one.
+    run_.helpers.for_each_index(2, [&](std::size_t which) {
+      if (which == 0)
+        last.done = carver_.carry_out(last.batch.strokes);
+      else
+        last.ahead = lay_batch(ways, contours, laid);
+    });
+  }
+  return last;
+}
+
+ContourRunner::Batch ContourRunner::lay_batch(const Ways& ways, std::vector<Contour>& contours,
+                                              ContourStrokes& laid) const {
+  Batch batch;
+  while (!contours.empty() && laid.strokes().size() < strokes_a_batch && lay_next(ways, contours, laid, batch))
+    continue;
+  batch.strokes = laid.take_strokes();
+  return batch;
+}
+
+/// False where nothing leads on from the last one.
+bool ContourRunner::lay_next(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid,
+                             Batch& batch) const {
+  Contour way;
+  const bool comes = turn_to_next(ways, contours, laid, way);
+  if (!comes && laid.has_laid()) return false;
+  Contour contour = std::move(contours.front());
+  contours.erase(contours.begin());
+  if (comes) {
+    const std::size_t begin = laid.strokes().size();
+    laid.lay(contour, way);
+    batch.contours.push_back({std::move(contour), begin});
+  } else {
+    batch.apart.push_back(std::move(contour));
+  }
+  return true;
+}
+
+/// Along the surface to the next of the tour or to where it may be gone on with; else from above. The contours begin
+/// there then; false where that is too far for the robot.
+bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid,
+                                 Contour& way) const {
+  if (laid.is_down()) way = laid.way_to(contours.front().front());
+  if (!way.empty()) return true;
+  const std::vector<Entry> entries = nearest_entries(laid.at(), contours);
+  const auto place = [&](const Entry& entry) -> const Vec3& {
+    return entry.is_back ? contours[entry.number].back() : contours[entry.number].front();
+  };
+  auto found = laid.is_down() ? std::ranges::find_if(entries,
+                                                     [&](const Entry& entry) {
+                                                       way = laid.way_to(place(entry));
+                                                       return !way.empty();
+                                                     })
+                              : entries.end();
+  if (found == entries.end())
+    found =
+        std::ranges::find_if(entries, [&](const Entry& entry) { return comes_over(ways, laid.at(), place(entry)); });
+  const bool comes = found != entries.end();
+  const Entry& entry = comes ? *found : entries.front();
+  turn_to(contours, entry.number, entry.is_back);
+  return comes;
+}
+
+std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at, const std::vector<Contour>& contours) {
+  std::vector<Entry> entries;
+  for (std::size_t number = 0; number < contours.size(); ++number) {
+    entries.push_back({(contours[number].front() - at).squaredNorm(), number, false});
+    entries.push_back({(contours[number].back() - at).squaredNorm(), number, true});
+  }
+  const std::size_t some = std::min(looked_at, entries.size());
+  std::ranges::partial_sort(entries, entries.begin() + static_cast<std::ptrdiff_t>(some),
+                            [](const Entry& a, const Entry& b) {
+                              return std::tie(a.far2, a.number, a.is_back) < std::tie(b.far2, b.number, b.is_back);
+                            });
+  entries.resize(some);
+  return entries;
+}
+
+/// Does the robot hold the tip as high as it goes over?
+bool ContourRunner::comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const {
+  const Vec3& other = ways.held_above_both ? from : to;
+  const double height = std::max(site_.clear_height(other, to, air_clearance_m), ways.min_height);
+  const auto is_held = [&](const Vec3& at) { return carver_.reach().allows({at.x(), at.y(), height}); };
+  return is_held(to) && is_held(other);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,71 @@
+// Leads the cutter along contours in one direction, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/mill/carver.hpp"
+#include "core/mill/finish/contour_strokes.hpp"
+#include "core/mill/finish/envelope.hpp"
+
+namespace sculpt {
+
+/// As a tour has them; where the robot cannot go on so, from where it can. Not shared between threads.
+class ContourRunner {
+ public:
+  /// All must outlive it. The carver has entered the direction. `spacing_m`: of rows.
+  ContourRunner(const MillJob& job, Carver& carver, const RunContext& run, const Site& site,
+                const EnvelopeTask& envelope, double spacing_m)
+      : job_(job), carver_(carver), run_(run), site_(site), envelope_(envelope), spacing_m_(spacing_m) {}
+
+  /// Draws back at the end. Contours that it finds no way to are left out. Throws Cancelled.
+  void run(const std::vector<Contour>& contours);
+
+ private:
+  /// How the tip may go from one contour to another.
+  struct Ways {
+    double min_height;     ///< of those over (tool frame)
+    double beside_m;       ///< along the surface, from no farther away
+    bool held_above_both;  ///< over only where the robot holds the tip above both ends, else above where it leads
+  };
+  /// A contour of a batch, and which of its strokes was the first one for it.
+  struct Laid {
+    Contour contour;
+    std::size_t begin;
+  };
+  struct Batch {
+    std::vector<MillStroke> strokes;
+    std::vector<Laid> contours;  ///< in the order of their strokes
+    std::vector<Contour> apart;  ///< that the robot does not come to
+  };
+  struct BatchesDone {
+    Batch batch, ahead;    ///< the last one that the arm began with, and the one after it
+    std::size_t done = 0;  ///< strokes of the last one
+  };
+  /// Where a tour may be gone on with: at the beginning or the end of a contour.
+  struct Entry {
+    double far2;
+    std::size_t number;
+    bool is_back;
+  };
+
+  std::vector<Contour> carry_out(const Ways& ways, std::vector<Contour> contours);
+  BatchesDone follow_batches(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid,
+                             std::vector<Contour>& apart);
+  Batch lay_batch(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid) const;
+  bool lay_next(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid, Batch& batch) const;
+  bool turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid, Contour& way) const;
+  static std::vector<Entry> nearest_entries(const Vec3& at, const std::vector<Contour>& contours);
+  bool comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const;
+
+  const MillJob& job_;
+  Carver& carver_;
+  const RunContext& run_;
+  const Site& site_;
+  const EnvelopeTask& envelope_;
+  double spacing_m_;
+};
+
+}  // namespace sculpt
