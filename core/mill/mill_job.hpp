@@ -24,7 +24,7 @@ struct MillWishes {
   /// Between rows of a ball over a plane, which leave the scallop: r - sqrt(r^2 - s^2 / 4), nearly.
   double stepover_m(double radius_m) const { return std::sqrt(8 * scallop_m * radius_m); }
   /// How far an edge may be above what it should follow.
-  double chord_m() const { return std::max(0.1 * tolerance_m, tolerance_m - scallop_m - allowance_m - stray_m()); }
+  double chord_m() const { return 0.1 * tolerance_m; }
 };
 
 /// It must outlive whoever works on it.

@@ -29,13 +29,20 @@ void turn_to(std::vector<Contour>& contours, std::size_t number, bool is_back) {
 }  // namespace
 
 void ContourRunner::run(const std::vector<Contour>& contours) {
-  const double low = -std::numeric_limits<double>::infinity(), high = carver_.hub().z();
-  std::vector<Contour> left = tour_of(contours, near_spacings * spacing_m_);
-  for (const Ways& ways :
-       {Ways{low, beside_spacings * spacing_m_, true}, Ways{high, beside_spacings * spacing_m_, true},
-        Ways{low, far_beside_spacings * spacing_m_, false}})
-    left = carry_out(ways, std::move(left));
+  const double low = -std::numeric_limits<double>::infinity(), high = carver_.hub().z(),
+               beside_m = beside_spacings * spacing_m_;
+  std::vector<Contour> left = carry_out({low, beside_m, false}, tour_of(contours, near_spacings * spacing_m_));
+  left = carry_out({high, beside_m, false}, std::move(left));
+  if (!left.empty()) {
+    find_air_ways();
+    carry_out({low, far_beside_spacings * spacing_m_, true}, std::move(left));
+  }
   carver_.draw_back(site_);
+}
+
+void ContourRunner::find_air_ways() {
+  air_ =
+      std::make_unique<const AirWays>(site_, carver_.reach(), carver_.hub(), carver_.bottom(site_.frame()), refused_);
 }
 
 /// Gives those that it found no way to.
@@ -53,7 +60,14 @@ std::vector<Contour> ContourRunner::carry_out(const Ways& ways, std::vector<Cont
     if (done < batch.strokes.size()) {
       ++refused;
       const auto failed = std::ranges::upper_bound(batch.contours, done, {}, &Laid::begin) - 1;
-      if (!batch.strokes[done].cut) apart.push_back(std::move(failed->contour));
+      if (ways.by_air && failed->is_by_air && !batch.strokes[done].cut) {
+        // By another way, perhaps.
+        refused_.push_back(site_.frame().of(batch.strokes[done].tip_m));
+        find_air_ways();
+        rest.push_back(std::move(failed->contour));
+      } else if (!batch.strokes[done].cut) {
+        apart.push_back(std::move(failed->contour));
+      }
       for (auto next = failed + 1; next != batch.contours.end(); ++next) rest.push_back(std::move(next->contour));
       for (Laid& next : ahead.contours) rest.push_back(std::move(next.contour));
     }
@@ -94,15 +108,15 @@ ContourRunner::Batch ContourRunner::lay_batch(const Ways& ways, std::vector<Cont
 /// False where nothing leads on from the last one.
 bool ContourRunner::lay_next(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid,
                              Batch& batch) const {
-  Contour way;
-  const bool comes = turn_to_next(ways, contours, laid, way);
+  Course course;
+  const bool comes = turn_to_next(ways, contours, laid, course);
   if (!comes && laid.has_laid()) return false;
   Contour contour = std::move(contours.front());
   contours.erase(contours.begin());
   if (comes) {
     const std::size_t begin = laid.strokes().size();
-    laid.lay(contour, way);
-    batch.contours.push_back({std::move(contour), begin});
+    laid.lay(contour, course.way, course.air);
+    batch.contours.push_back({std::move(contour), begin, !course.air.empty()});
   } else {
     batch.apart.push_back(std::move(contour));
   }
@@ -112,22 +126,25 @@ bool ContourRunner::lay_next(const Ways& ways, std::vector<Contour>& contours, C
 /// Along the surface to the next of the tour or to where it may be gone on with; else from above. The contours begin
 /// there then; false where that is too far for the robot.
 bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid,
-                                 Contour& way) const {
-  if (laid.is_down()) way = laid.way_to(contours.front().front());
-  if (!way.empty()) return true;
-  const std::vector<Entry> entries = nearest_entries(laid.at(), contours);
-  const auto place = [&](const Entry& entry) -> const Vec3& {
-    return entry.is_back ? contours[entry.number].back() : contours[entry.number].front();
+                                 Course& course) const {
+  const auto goes_beside = [&](const Vec3& to) {
+    if (laid.is_down()) course.way = laid.way_to(to);
+    return !course.way.empty();
   };
-  auto found = laid.is_down() ? std::ranges::find_if(entries,
-                                                     [&](const Entry& entry) {
-                                                       way = laid.way_to(place(entry));
-                                                       return !way.empty();
-                                                     })
-                              : entries.end();
-  if (found == entries.end())
-    found =
-        std::ranges::find_if(entries, [&](const Entry& entry) { return comes_over(ways, laid.at(), place(entry)); });
+  if (goes_beside(contours.front().front())) return true;
+  const std::vector<Entry> entries = nearest_entries(laid.at(), contours);
+  const auto find = [&](const auto& goes_to) {
+    return std::ranges::find_if(entries, [&](const Entry& entry) {
+      return goes_to(entry.is_back ? contours[entry.number].back() : contours[entry.number].front());
+    });
+  };
+  auto found = find(goes_beside);
+  if (found == entries.end()) found = find([&](const Vec3& to) { return comes_over(ways, laid.at(), to); });
+  if (found == entries.end() && ways.by_air && !laid.has_laid())
+    found = find([&](const Vec3& to) {
+      course.air = air_->to(to);
+      return !course.air.empty();
+    });
   const bool comes = found != entries.end();
   const Entry& entry = comes ? *found : entries.front();
   turn_to(contours, entry.number, entry.is_back);
@@ -151,10 +168,9 @@ std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at,
 
 /// Does the robot hold the tip as high as it goes over?
 bool ContourRunner::comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const {
-  const Vec3& other = ways.held_above_both ? from : to;
-  const double height = std::max(site_.clear_height(other, to, air_clearance_m), ways.min_height);
+  const double height = std::max(site_.clear_height(from, to, air_clearance_m), ways.min_height);
   const auto is_held = [&](const Vec3& at) { return carver_.reach().allows({at.x(), at.y(), height}); };
-  return is_held(to) && is_held(other);
+  return is_held(from) && is_held(to);
 }
 
 }  // namespace sculpt

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/base/run_context.hpp"
 #include "core/mill/carver.hpp"
+#include "core/mill/drive/air_ways.hpp"
 #include "core/mill/finish/contour_strokes.hpp"
 #include "core/mill/finish/envelope.hpp"
 
@@ -26,14 +28,15 @@ class ContourRunner {
  private:
   /// How the tip may go from one contour to another.
   struct Ways {
-    double min_height;     ///< of those over (tool frame)
-    double beside_m;       ///< along the surface, from no farther away
-    bool held_above_both;  ///< over only where the robot holds the tip above both ends, else above where it leads
+    double min_height;  ///< of those over (tool frame)
+    double beside_m;    ///< along the surface, from no farther away
+    bool by_air;        ///< from the hub, where no straight way over leads
   };
   /// A contour of a batch, and which of its strokes was the first one for it.
   struct Laid {
     Contour contour;
     std::size_t begin;
+    bool is_by_air;  ///< it was gone to through the air
   };
   struct Batch {
     std::vector<MillStroke> strokes;
@@ -51,12 +54,18 @@ class ContourRunner {
     bool is_back;
   };
 
+  void find_air_ways();
   std::vector<Contour> carry_out(const Ways& ways, std::vector<Contour> contours);
   BatchesDone follow_batches(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid,
                              std::vector<Contour>& apart);
   Batch lay_batch(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid) const;
   bool lay_next(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid, Batch& batch) const;
-  bool turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid, Contour& way) const;
+  /// To where the contours begin: along the surface, through the air, or straight over where both are empty.
+  struct Course {
+    Contour way;
+    std::vector<Vec3> air;
+  };
+  bool turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid, Course& course) const;
   static std::vector<Entry> nearest_entries(const Vec3& at, const std::vector<Contour>& contours);
   bool comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const;
 
@@ -66,6 +75,8 @@ class ContourRunner {
   const Site& site_;
   const EnvelopeTask& envelope_;
   double spacing_m_;
+  std::unique_ptr<const AirWays> air_;
+  std::vector<Vec3> refused_;  ///< legs through the air ended there that the arm did not follow
 };
 
 }  // namespace sculpt

@@ -14,10 +14,11 @@ constexpr double shortest_share = 1.0 / 16;
 
 }  // namespace
 
-void ContourStrokes::lay(const Contour& contour, const Contour& way) {
+void ContourStrokes::lay(const Contour& contour, const Contour& way, const std::vector<Vec3>& air) {
   has_laid_ = true;
   is_down_ = !way.empty();
   if (is_down_) add(way);
+  if (!air.empty()) go_by_air(air);
   add(contour);
 }
 
@@ -34,6 +35,12 @@ double ContourStrokes::take(const Vec3& from, const Vec3& to) {
   taken_.clear();
   const auto quanta = [&](const Vec3& tip) { return quanta_of(task_.site.frame().point(tip)); };
   return stock_.take(task_.swept, quanta(from), quanta(to), &taken_) * std::pow(task_.voxel_m, 3);
+}
+
+void ContourStrokes::go_by_air(const std::vector<Vec3>& air) {
+  hop(task_.site, at_, air.front(), air.front().z(), task_.stray_m, strokes_);
+  for (const Vec3& place : air) strokes_.push_back({task_.site.frame().point(place), false, air_stray_m});
+  at_ = air.back();
 }
 
 /// From above, if little stands there.

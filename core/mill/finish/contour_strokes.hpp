@@ -34,9 +34,9 @@ class ContourStrokes {
 
   /// Along the surface to where a contour begins, the tip being down; nothing where that is no short way. Any thread.
   Contour way_to(const Vec3& to) const;
-  /// By a way to it, or from above where that is empty. Left out is where the cutter would take off more than it may at
-  /// once.
-  void lay(const Contour& contour, const Contour& way);
+  /// By a way to it, or from above where that is empty: straight over, or by `air`, whose last place is above it. Left
+  /// out is where the cutter would take off more than it may at once.
+  void lay(const Contour& contour, const Contour& way, const std::vector<Vec3>& air);
 
   /// Did it lay any contour?
   bool has_laid() const { return has_laid_; }
@@ -50,6 +50,7 @@ class ContourStrokes {
 
  private:
   void add(const Contour& contour);
+  void go_by_air(const std::vector<Vec3>& air);
   bool let_down(const Vec3& to);
   void cut(const Vec3& to);
   double take(const Vec3& from, const Vec3& to);

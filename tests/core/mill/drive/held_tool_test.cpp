@@ -2,35 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cell/cell.hpp"
-#include "core/cell/milling/tool_library.hpp"
 #include "core/mill/drive/reach_floor.hpp"
 #include "core/mill/map/fixtures.hpp"
-#include "core/mill/mill_job.hpp"
 #include "tests/core/material/shapes.hpp"
-#include "tests/core/mill/milled_plan.hpp"
+#include "tests/core/mill/drive/held_d6.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int n = 32;
-constexpr double room_m = 0.06;
-
-class HeldToolTest : public testing::Test {
- protected:
-  const HeldTool::Fields& fields(const Direction& direction) {
-    return held.fields(direction, home, {0, helpers, watch});
-  }
-
-  const Cell cell = parse_cell(milled::make_job("bust", n, {"D6"}).cell);
-  const Grid grid = cell.grid(n);
-  const Configuration home = cell.home(cell.chain());
-  const MillTool tool = choose_tools(read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), {"D6"}).front();
-  const Grid around = grid_around(grid, room_m);
-  HeldTool held{cell, tool, grid, around};
-  const Helpers helpers{2};
-  const Watch watch;
-};
+using HeldToolTest = HeldD6;
 
 // Found once: of (26, 0, -15) there was none, of (-26, 0, -15) three quarters of all, although the table turns.
 TEST_F(HeldToolTest, ADirectionIsHeldAsItsQuarterTurnsAreWhereTheStockCanBeTurned) {
