@@ -19,7 +19,7 @@ constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
 constexpr double facing_cosine = 0.4, better_cosine = 0.1;
 /// `CutPreview::cut`. What a large tool leaves is for the next ones; but along directions from below
 /// these come to less, for they are shorter.
-constexpr double least_worth = 0.2, last_least_worth = 0.08;
+constexpr double least_worth = 0.12, last_least_worth = 0.05;
 
 class FinishStage {
  public:
