@@ -16,7 +16,7 @@ namespace {
 /// so much of what counts as near.
 constexpr double farther = 1.3, farther_share = 0.05;
 /// A contour whose ends are no farther apart is a ring.
-constexpr double joined_m = 1e-9;
+constexpr double ring_joint_m = 1e-9;
 
 /// Where two contours are nearest: their numbers, and those of the vertices.
 struct Touch {
@@ -100,7 +100,7 @@ class ArcMaker {
 
  private:
   static bool is_ring(const Contour& contour) {
-    return contour.size() > 3 && (contour.front() - contour.back()).norm() < joined_m;
+    return contour.size() > 3 && (contour.front() - contour.back()).norm() < ring_joint_m;
   }
 
   /// Rather where one is cut already: so from ring to ring it goes on where it came in.

@@ -2,18 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "core/cell/cell.hpp"
-#include "core/cell/milling/tool_library.hpp"
 #include "core/trajectory/milling/quanta_point.hpp"
-#include "tests/core/mill/milled_plan.hpp"
+#include "tests/core/mill/drive/held_d6.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr int n = 32;
-constexpr double room_m = 0.06, above_m = 0.03;
+constexpr double above_m = 0.03;
 
-class MillArmTest : public testing::Test {
+class MillArmTest : public HeldD6 {
  protected:
   MillArmTest() {
     held.see(cells_of(VoxelSet(n, true), grid, around));
@@ -22,18 +19,10 @@ class MillArmTest : public testing::Test {
 
   Vec3 above() const { return grid.origin_m + n * grid.voxel_m * Vec3(0.5, 0.5, 1) + Vec3(0, 0, above_m); }
   bool hold_from_above() {
-    const HeldTool::Fields& fields = held.fields({0, 0, 1}, home, run);
-    return !fields.empty() && arm.hold(*fields.front(), 0, above());
+    const HeldTool::Fields& found = fields({0, 0, 1});
+    return !found.empty() && arm.hold(*found.front(), 0, above());
   }
 
-  const Cell cell = parse_cell(milled::make_job("bust", n, {"D6"}).cell);
-  const Grid grid = cell.grid(n);
-  const Configuration home = cell.home(cell.chain());
-  const MillTool tool = choose_tools(read_tool_library(SOURCE_DIR "/config/tools/carving.json", {}), {"D6"}).front();
-  const Grid around = grid_around(grid, room_m);
-  HeldTool held{cell, tool, grid, around};
-  const Helpers helpers{1};
-  const Watch watch;
   const RunContext run{0, helpers, watch};
   std::vector<Keyframe> emitted;
   const MillArm::Emit emit = [this](std::vector<Keyframe> keyframes) {
