@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -12,8 +13,6 @@ namespace sculpt {
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::infinity();
-/// No offset of a stencil is longer along u or v; slopes are bounded.
-constexpr int longest_offset = 6;
 constexpr int most_reductions = 64;
 
 using Offset = std::array<int, 2>;
@@ -22,11 +21,6 @@ using Offset = std::array<int, 2>;
 struct Stencil {
   std::array<Offset, 3> offsets{};
   std::array<float, 3> weights{};
-
-  bool has(int da, int db) const {
-    return std::ranges::any_of(
-        offsets, [&](const Offset& o) { return (o[0] == da && o[1] == db) || (o[0] == -da && o[1] == -db); });
-  }
 };
 
 /// By Selling's algorithm: a superbase of the lattice that is obtuse with regard to D.
@@ -63,6 +57,7 @@ class Marching {
       const Point2 slope = patch.is_inside[cell] != 0 ? patch.slopes[cell] : Point2(0, 0);
       stencils_[cell] = stencil_of(inverse_metric(slope));
     }
+    find_users();
   }
 
   std::vector<float> run() {
@@ -74,7 +69,10 @@ class Marching {
       const std::size_t cell = patch_.lattice.index(next.a, next.b);
       if (is_known_[cell] != 0) continue;
       is_known_[cell] = 1;
-      look_around(next.a, next.b);
+      for (std::uint32_t at = users_begin_[cell]; at < users_begin_[cell + 1]; ++at) {
+        const auto user = static_cast<int>(users_[at]);
+        look(user % patch_.lattice.width, user / patch_.lattice.width);
+      }
     }
     return std::move(distances_);
   }
@@ -86,12 +84,25 @@ class Marching {
     bool operator<(const Next& other) const { return distance > other.distance; }
   };
 
-  /// At those whose stencils have this cell.
-  void look_around(int a, int b) {
-    for (int db = -longest_offset; db <= longest_offset; ++db)
-      for (int da = -longest_offset; da <= longest_offset; ++da)
-        if (patch_.lattice.contains(a + da, b + db) && stencils_[patch_.lattice.index(a + da, b + db)].has(da, db))
-          look(a + da, b + db);
+  void find_users() {
+    users_begin_.assign(distances_.size() + 1, 0);
+    for_each_use([&](std::size_t, std::size_t used) { ++users_begin_[used + 1]; });
+    std::partial_sum(users_begin_.begin(), users_begin_.end(), users_begin_.begin());
+    users_.resize(users_begin_.back());
+    std::vector<std::uint32_t> next(users_begin_.begin(), users_begin_.end() - 1);
+    for_each_use([&](std::size_t user, std::size_t used) { users_[next[used]++] = static_cast<std::uint32_t>(user); });
+  }
+  /// Calls `visit(cell, used)` for each cell that is to be known and each one that its stencil has.
+  template <typename Visit>
+  void for_each_use(const Visit& visit) const {
+    const Lattice& lattice = patch_.lattice;
+    for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
+      if (is_known_[cell] != 0) continue;
+      const int a = static_cast<int>(cell) % lattice.width, b = static_cast<int>(cell) / lattice.width;
+      for (const auto& [da, db] : stencils_[cell].offsets)
+        for (const int way : {1, -1})
+          if (lattice.contains(a + way * da, b + way * db)) visit(cell, lattice.index(a + way * da, b + way * db));
+    }
   }
 
   void look(int a, int b) {
@@ -134,6 +145,7 @@ class Marching {
   std::vector<Stencil> stencils_;
   std::vector<float> distances_;
   std::vector<char> is_known_;
+  std::vector<std::uint32_t> users_, users_begin_;  ///< of each cell those whose stencils have it
   std::priority_queue<Next> next_;
 };
 
