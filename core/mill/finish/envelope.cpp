@@ -49,7 +49,12 @@ class Follower {
     if (!look_along(8, max_length_m) || !look_along(1, max_length_m)) return {};
     is_whole_ = true;
     contours_.push_back({*looks_.front()});
-    go(0, pieces_);
+    const std::vector<std::size_t> over = find_taut();
+    for (std::size_t at = 0; at + 1 < over.size(); ++at)
+      if (const Vec3& to = *looks_[over[at + 1]]; is_proved(*looks_[over[at]], to))
+        contours_.back().push_back(to);
+      else
+        go(over[at], over[at + 1]);
     if (contours_.size() != 1) return {};
     return std::move(contours_.front());
   }
@@ -104,6 +109,19 @@ class Follower {
     if (!drop) return;
     join(tip, share, drop->edge, drop->share);
     contours_.back().push_back(drop->low);
+  }
+
+  /// Where a string that is pulled tight over all of these bends, and its ends.
+  std::vector<std::size_t> find_taut() const {
+    std::vector<std::size_t> taut;
+    const auto rise = [&](std::size_t from, std::size_t to) {
+      return (looks_[to]->z() - looks_[from]->z()) / static_cast<double>(to - from);
+    };
+    for (std::size_t at = 0; at <= pieces_; ++at) {
+      while (taut.size() > 1 && rise(taut[taut.size() - 2], taut.back()) <= rise(taut.back(), at)) taut.pop_back();
+      taut.push_back(at);
+    }
+    return taut;
   }
 
   /// Does it rest at all of these, no farther from the first to the last?
@@ -192,6 +210,12 @@ class Follower {
 };
 
 }  // namespace
+
+double length_m(const Contour& contour) {
+  double length = 0;
+  for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) length += (contour[edge + 1] - contour[edge]).norm();
+  return length;
+}
 
 std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to,
                                      const std::vector<WallStop>& stops) {

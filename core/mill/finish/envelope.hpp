@@ -22,6 +22,8 @@ struct EnvelopeTask {
 /// Tips, in the tool's frame; each of its edges is proved.
 using Contour = std::vector<Vec3>;
 
+double length_m(const Contour& contour);
+
 /// Where the tip is beside a wall whose foot it does not come to.
 struct WallStop {
   double along_m = 0;  ///< from where the line begins, in plan
@@ -32,7 +34,7 @@ struct WallStop {
 /// come to it goes as low as the stops near there, or as it may. `stops`: ascending along the line.
 std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to,
                                      const std::vector<WallStop>& stops = {});
-/// The same in one piece that is no longer than this, or nothing.
+/// A way in one piece, like a string that is pulled tight over where it rests; nothing where that is longer than this.
 Contour follow_whole(const EnvelopeTask& task, const Point2& from, const Point2& to, double max_length_m);
 
 }  // namespace sculpt
