@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/mill/finish/tour/place_boxes.hpp"
@@ -24,32 +25,53 @@ struct Touch {
   std::uint32_t a = 0, b = 0, at_a = 0, at_b = 0;
 };
 
-std::vector<Touch> find_touches(const std::vector<Contour>& contours, double near_m) {
-  std::vector<Vec3> places;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices;
-  for (std::uint32_t number = 0; number < contours.size(); ++number)
-    for (std::uint32_t vertex = 0; vertex < contours[number].size(); ++vertex) {
-      places.push_back(contours[number][vertex]);
-      vertices.emplace_back(number, vertex);
+/// Of one contour after the other where it comes near to later ones.
+class TouchFinder {
+ public:
+  TouchFinder(const std::vector<Contour>& contours, double near_m) : near_m_(near_m), touch_of_(contours.size(), none) {
+    for (std::uint32_t number = 0; number < contours.size(); ++number)
+      for (std::uint32_t vertex = 0; vertex < contours[number].size(); ++vertex) {
+        places_.push_back(contours[number][vertex]);
+        vertices_.emplace_back(number, vertex);
+      }
+  }
+
+  /// The nearest of each two; the nearest of all first.
+  std::vector<Touch> run() {
+    const PlaceBoxes boxes(places_, near_m_);
+    std::size_t begin = 0;
+    for (std::uint32_t p = 0; p < places_.size(); ++p) {
+      // A new contour.
+      if (vertices_[p].second == 0)
+        for (; begin < touches_.size(); ++begin) touch_of_[touches_[begin].b] = none;
+      boxes.for_each_near(places_[p], 1, [&](std::uint32_t q) { look(p, q); });
     }
-  const PlaceBoxes boxes(places, near_m);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Touch> nearest;
-  for (std::uint32_t p = 0; p < places.size(); ++p)
-    boxes.for_each_near(places[p], 1, [&](std::uint32_t q) {
-      const auto& [a, at_a] = vertices[p];
-      const auto& [b, at_b] = vertices[q];
-      if (a >= b) return;
-      const double far = (places[p] - places[q]).norm();
-      if (far > near_m) return;
-      const auto [known, is_new] = nearest.try_emplace({a, b}, Touch{far, a, b, at_a, at_b});
-      if (!is_new && far < known->second.far_m) known->second = {far, a, b, at_a, at_b};
-    });
-  std::vector<Touch> touches;
-  touches.reserve(nearest.size());
-  for (const auto& [pair, touch] : nearest) touches.push_back(touch);
-  std::ranges::stable_sort(touches, {}, &Touch::far_m);
-  return touches;
-}
+    std::ranges::sort(touches_, {}, [](const Touch& touch) { return std::tuple(touch.far_m, touch.a, touch.b); });
+    return std::move(touches_);
+  }
+
+ private:
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  void look(std::uint32_t p, std::uint32_t q) {
+    const double far = (places_[p] - places_[q]).norm();
+    const Touch touch{far, vertices_[p].first, vertices_[q].first, vertices_[p].second, vertices_[q].second};
+    if (touch.a >= touch.b || far > near_m_) return;
+    std::size_t& known = touch_of_[touch.b];
+    if (known == none) {
+      known = touches_.size();
+      touches_.push_back(touch);
+    } else if (far < touches_[known].far_m) {
+      touches_[known] = touch;
+    }
+  }
+
+  double near_m_;
+  std::vector<Vec3> places_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices_;
+  std::vector<Touch> touches_;
+  std::vector<std::size_t> touch_of_;  ///< of each contour the one with that which is looked at, if there is one
+};
 
 /// Of each contour the edges of the tree that touch it, itself as `a`.
 std::vector<std::vector<Touch>> find_tree(std::size_t count, const std::vector<Touch>& touches) {
@@ -79,7 +101,7 @@ class ArcMaker {
   }
 
   std::vector<Contour> run() {
-    const auto tree = find_tree(contours_.size(), find_touches(contours_, near_m_));
+    const auto tree = find_tree(contours_.size(), TouchFinder(contours_, near_m_).run());
     std::vector<char> is_seen(contours_.size());
     for (std::uint32_t first = 0; first < contours_.size(); ++first) {
       if (is_seen[first] != 0) continue;

@@ -8,9 +8,7 @@
 namespace sculpt {
 
 /// The same contours, cut where others come no farther than `near_m`, turned and put in an order so that ways from the
-/// end of one to the beginning of the next are short; parts that follow each other as they did are one. The nearest
-/// next, then made better by 2-opt and Or-opt over the nearest neighbours of each end (Bentley, "Fast algorithms for
-/// geometric traveling salesman problems", ORSA J. Computing 4, 1992).
+/// end of one to the beginning of the next are short; parts that follow each other as they did are one.
 std::vector<Contour> tour_of(const std::vector<Contour>& contours, double near_m);
 
 }  // namespace sculpt

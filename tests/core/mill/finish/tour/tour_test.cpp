@@ -67,6 +67,7 @@ TEST(Tour, GoesAlongEveryEdgeOnce) {
 
 TEST(Tour, GoesFromRingToRingOneAfterTheOther) {
   std::vector<Contour> rings;
+  rings.reserve(20);
   for (int number = 0; number < 20; ++number) rings.push_back(make_ring({0, 0, 0}, 1 + 0.1 * number));
   std::ranges::reverse(rings.begin() + 3, rings.begin() + 9);
   const std::vector<Contour> tour = tour_of(rings, 0.6);
