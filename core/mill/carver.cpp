@@ -17,8 +17,9 @@ namespace {
 constexpr double room_beside_m = 8e-3, room_around_m = 0.05;
 /// Tips are whole numbers of quanta.
 constexpr double same_tip_m = 1e-6;
-/// Nails: no more and no fewer than these.
-constexpr std::size_t fewest_nails = 20000, max_nails = 600000;
+/// Nails: so many on a square of the finest stepover, but no more and no fewer than these.
+constexpr double nails_a_stepover = 3;
+constexpr std::size_t fewest_nails = 20000, max_nails = 900000;
 
 double area_of(const Mesh& mesh) {
   double area = 0;
@@ -45,7 +46,7 @@ Nails make_nails(const MillJob& job, std::uint64_t seed) {
   double finest_m2 = std::numeric_limits<double>::infinity();
   for (const MillTool& tool : job.tools)
     finest_m2 = std::min(finest_m2, std::pow(job.wishes.stepover_m(tool.cutter.radius_m), 2));
-  const double wanted = Nails::a_stepover * area_of(job.part) / finest_m2;
+  const double wanted = nails_a_stepover * area_of(job.part) / finest_m2;
   const auto count =
       static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(fewest_nails), static_cast<double>(max_nails)));
   return {job.part, job.voxels, job.grid, count, seed};

@@ -27,9 +27,9 @@ namespace {
 void use_tool(const MillJob& job, std::size_t number, PartViews& views, Carver& carver, const RunContext& run) {
   const auto is_ball = [](const MillTool& tool) { return tool.cutter.kind == CutterKind::ball; };
   rough(job, carver, run);
-  if (is_ball(job.tools[number]))
-    finish(job, views, carver,
-           std::none_of(job.tools.begin() + static_cast<std::ptrdiff_t>(number) + 1, job.tools.end(), is_ball), run);
+  if (!is_ball(job.tools[number])) return;
+  const auto next = std::find_if(job.tools.begin() + static_cast<std::ptrdiff_t>(number) + 1, job.tools.end(), is_ball);
+  finish(job, views, carver, next != job.tools.end() ? &*next : nullptr, run);
 }
 
 }  // namespace

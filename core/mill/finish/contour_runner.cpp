@@ -6,13 +6,10 @@
 #include <tuple>
 
 #include "core/mill/drive/hop.hpp"
-#include "core/mill/finish/tour/tour.hpp"
 
 namespace sculpt {
 namespace {
 
-/// Contours no farther apart may be gone over to in the middle (row spacings).
-constexpr double near_spacings = 6;
 /// From contour to contour along the surface, where that is no farther (row spacings); and where there is no other way.
 constexpr double beside_spacings = 60, far_beside_spacings = 240;
 constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
@@ -28,10 +25,10 @@ void turn_to(std::vector<Contour>& contours, std::size_t number, bool is_back) {
 
 }  // namespace
 
-void ContourRunner::run(const std::vector<Contour>& contours) {
+void ContourRunner::run(std::vector<Contour> tour) {
   const double low = -std::numeric_limits<double>::infinity(), high = carver_.hub().z(),
                beside_m = beside_spacings * spacing_m_;
-  std::vector<Contour> left = carry_out({low, beside_m, false}, tour_of(contours, near_spacings * spacing_m_));
+  std::vector<Contour> left = carry_out({low, beside_m, false}, std::move(tour));
   left = carry_out({high, beside_m, false}, std::move(left));
   if (!left.empty()) {
     find_air_ways();

@@ -23,7 +23,7 @@ class ContourRunner {
       : job_(job), carver_(carver), run_(run), site_(site), envelope_(envelope), spacing_m_(spacing_m) {}
 
   /// Draws back at the end. Contours that it finds no way to are left out. Throws Cancelled.
-  void run(const std::vector<Contour>& contours);
+  void run(std::vector<Contour> tour);
 
  private:
   /// How the tip may go from one contour to another.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/run_context.hpp"
 #include "core/mill/finish/envelope.hpp"
 #include "core/mill/finish/nail_reach.hpp"
 #include "core/mill/finish/nails.hpp"
@@ -20,25 +21,27 @@ class CutPreview {
     double stray_m = 0;    ///< by which it may be smaller where it cuts
     double spacing_m = 0;  ///< of rows
   };
-  /// Both must outlive it; nothing may be cut while it is in use.
-  CutPreview(const Task& task, const NailReach& reach, const Nails& nails)
-      : task_(task), reach_(reach), nails_(nails), excesses_(nails.excesses()) {}
+  /// All must outlive it; nothing may be cut while it is in use.
+  CutPreview(const Task& task, const NailReach& reach, const Nails& nails, const RunContext& run);
 
   /// As if they were cut, one after the other; those that are not worth it are left out. `least_worth`: of a contour's
-  /// length, and of a way to it of some spacings, so much at least must be what a row would be that finishes as much
-  /// surface one spacing wide.
+  /// length, and of a way to it of some spacings, so much at least must be what it serves. Throws Cancelled.
   std::vector<Contour> cut(std::vector<Contour> contours, double least_worth);
+  /// As if they were cut, one after the other: what each serves, the length (m) of a row that finishes as much surface
+  /// one spacing wide. Throws Cancelled.
+  std::vector<double> served(const std::vector<Contour>& contours);
   /// Would a nail still be above the tolerance?
-  bool is_open(std::size_t nail) const { return reach_.is_open(nail, static_cast<double>(excesses_[nail])); }
+  bool is_open(std::size_t nail) const { return is_open_[nail] != 0; }
 
  private:
-  bool is_worth_it(const Contour& contour, double least_worth);
+  std::vector<std::vector<std::uint32_t>> find_finished(const std::vector<Contour>& contours) const;
+  double served_m(const std::vector<std::uint32_t>& finished) const;
 
   Task task_;
   const NailReach& reach_;
   const Nails& nails_;
-  std::vector<float> excesses_;
-  std::vector<Nails::Change> changes_;
+  const RunContext& run_;
+  std::vector<char> is_open_;
 };
 
 }  // namespace sculpt

@@ -7,12 +7,12 @@
 #include "core/mill/finish/rows/offset_curves.hpp"
 #include "core/mill/finish/rows/parallel_curves.hpp"
 #include "core/mill/finish/rows/plan_patch.hpp"
+#include "core/mill/finish/tour/profitable_tour.hpp"
+#include "core/mill/finish/tour/tour.hpp"
 
 namespace sculpt {
 namespace {
 
-/// What leans more from the axis is a wall: rows go up and down it (cosine).
-constexpr double wall_cosine = 0.35;
 /// Where lines are looked for that leans more counts as leaning so.
 constexpr double steepest_line_cosine = 0.15;
 /// All in row spacings. Cells of patches:
@@ -21,7 +21,7 @@ constexpr double cell = 0.25;
 constexpr double ring_reach = 1, row_reach = 0.75, line_reach = 0.8;
 /// Of the rectangle around it: what fills more has rows side by side, which leave the same everywhere; rings leave more
 /// where they turn sharply, and where they meet.
-constexpr double filled_share = 0.55;
+constexpr double filled_share = 0.6;
 /// The first ring is so far inside of the outermost balls.
 constexpr double first_ring = 0.5;
 /// Where one surface is so far behind another a patch ends.
@@ -30,18 +30,21 @@ constexpr double jump = 3;
 constexpr double look_between = 2;
 /// How often lines are laid through what is left.
 constexpr int lines_laid = 2;
+/// Contours no farther apart may be gone over to in the middle; and ways longer than so many are no dearer.
+constexpr double near_spacings = 6, far_spacings = 60;
+/// Among those that are kept of a tour there is a shorter one.
+constexpr int tours_made = 2;
 /// Rows whose ends are no farther apart go on as one.
 constexpr double joined_m = 1e-9;
 
 }  // namespace
 
 DirectionContours::DirectionContours(const DirectionTask& task, NailReach& reach, Carver& carver, const RunContext& run)
-    : task_(task),
-      reach_(reach),
-      carver_(carver),
-      nails_(carver.nails()),
-      run_(run),
-      preview_({task.site.frame(), task.envelope.radius_m, task.stray_m, task.spacing_m}, reach, nails_) {}
+    : task_(task), reach_(reach), carver_(carver), nails_(carver.nails()), run_(run), preview_(preview()) {}
+
+CutPreview DirectionContours::preview() const {
+  return {{task_.site.frame(), task_.envelope.radius_m, task_.stray_m, task_.spacing_m}, reach_, nails_, run_};
+}
 
 std::vector<Contour> DirectionContours::run(const std::vector<std::uint32_t>& wanted) {
   for (const std::uint32_t nail : wanted)
@@ -53,14 +56,20 @@ std::vector<Contour> DirectionContours::run(const std::vector<std::uint32_t>& wa
   else
     add_between(wanted);
   for (int time = 0; time < lines_laid; ++time) lay(middle_lines());
-  return std::move(contours_);
+  return profitable_tour();
 }
 
-std::vector<std::uint32_t> DirectionContours::left() const {
-  std::vector<std::uint32_t> nails;
-  nails.reserve(balls_.size());
-  for (const RestingBall& ball : balls_) nails.push_back(ball.nail);
-  return nails;
+std::vector<Contour> DirectionContours::profitable_tour() const {
+  std::vector<Contour> kept = contours_;
+  for (int time = 0; time < tours_made; ++time) {
+    std::vector<Contour> tour = tour_of(kept, near_spacings * task_.spacing_m);
+    std::vector<double> worth_m = preview().served(tour);
+    for (double& worth : worth_m) worth *= task_.worth;
+    kept.clear();
+    for (const std::size_t contour : profitable(tour, worth_m, far_spacings * task_.spacing_m))
+      kept.push_back(std::move(tour[contour]));
+  }
+  return kept;
 }
 
 RestingBall DirectionContours::resting(std::uint32_t nail) const {
@@ -97,19 +106,19 @@ std::vector<Curve> DirectionContours::rows() const {
   const auto patch = [&](double reach) {
     return make_patch({cell * s, reach * s, jump * s, wall_cosine}, task_.site.frame(), nails_, balls);
   };
-  const PlanPatch wide = patch(row_reach);
+  const PlanPatch wide = patch(ring_reach);
   const auto filled = static_cast<double>(std::ranges::count(wide.is_inside, 1));
   if (filled > filled_share * static_cast<double>(wide.is_inside.size()))
-    return parallel_curves(wide, row_reach * s, s, wide.lattice.width > wide.lattice.height);
-  return offset_curves(patch(ring_reach), (ring_reach + first_ring) * s, s);
+    return parallel_curves(patch(row_reach), row_reach * s, s, wide.lattice.width > wide.lattice.height);
+  return offset_curves(wide, (ring_reach + first_ring) * s, s, run_.helpers);
 }
 
 std::vector<Row> DirectionContours::rows_by_walls() const {
   std::vector<RestingBall> balls;
   std::ranges::copy_if(balls_, std::back_inserter(balls),
                        [&](const RestingBall& ball) { return cosine(ball.nail) < wall_cosine; });
-  return wall_rows({task_.spacing_m, task_.round, task_.envelope.radius_m, reach_.area_m2()}, task_.site.frame(),
-                   nails_, balls);
+  return wall_rows({task_.spacing_m, task_.time, task_.envelope.radius_m, reach_.area_m2()}, task_.site.frame(), nails_,
+                   balls);
 }
 
 std::vector<Curve> DirectionContours::middle_lines() const {

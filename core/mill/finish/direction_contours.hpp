@@ -1,4 +1,5 @@
-// What a ball cutter is led along in one direction: rings or rows, rows by walls, and lines through what these leave.
+// What a ball cutter is led along in one direction: rings or rows, rows by walls, and lines through what these leave;
+// one after the other, as far as it is worth the way.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +22,22 @@ struct DirectionTask {
   double spacing_m = 0;    ///< of rows
   double stray_m = 0;      ///< of the cutter
   double least_worth = 0;  ///< `CutPreview::cut`; rows by walls always go
-  int round = 0;           ///< rows by walls are nearer to each other in each
+  int time = 0;            ///< that directions are gone through: rows by walls are nearer to each other in each
+  double worth = 0;        ///< for a length of row that it finishes, so many times as long a path is worth it
   bool is_last = false;    ///< the last tool that finishes: goes into creases too
 };
 
 /// Not shared between threads.
 class DirectionContours {
  public:
+  /// What leans more from the axis is a wall: rows go up and down it (cosine).
+  static constexpr double wall_cosine = 0.35;
+
   /// All must outlive it.
   DirectionContours(const DirectionTask& task, NailReach& reach, Carver& carver, const RunContext& run);
 
-  /// Those that are worth it, for some nails. Throws Cancelled.
+  /// A tour for some nails. Throws Cancelled.
   std::vector<Contour> run(const std::vector<std::uint32_t>& wanted);
-  /// That would still be above the tolerance.
-  std::vector<std::uint32_t> left() const;
 
  private:
   RestingBall resting(std::uint32_t nail) const;
@@ -47,6 +50,8 @@ class DirectionContours {
   void lay(const std::vector<Row>& rows, double least_worth);
   void lay(const std::vector<Curve>& curves);
   std::vector<Contour> follow(const std::vector<Row>& rows) const;
+  CutPreview preview() const;
+  std::vector<Contour> profitable_tour() const;
 
   DirectionTask task_;
   NailReach& reach_;

@@ -1,7 +1,9 @@
 #include "core/mill/finish/finish_stage.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
+#include <utility>
 
 #include "core/mill/finish/contour_runner.hpp"
 #include "core/mill/finish/direction_contours.hpp"
@@ -10,20 +12,25 @@
 namespace sculpt {
 namespace {
 
-/// How often the last ball cutter goes through all directions.
-constexpr int rounds = 3;
+/// How often the last ball cutter goes through all directions: a neck has room when the flutes have been there.
+constexpr int times = 4;
 /// Of the nails that are asked for: a direction is entered for so many, and with the last ball cutter for fewer.
-constexpr double worth_share = 2e-3, last_worth_share = 3e-4;
+constexpr double worth_share = 2e-3, last_worth_share = 4e-4;
 /// Surface that leans more from a direction is finished along another one, where there is one (cosine); and that must
 /// be better by so much.
 constexpr double facing_cosine = 0.4, better_cosine = 0.1;
 /// `CutPreview::cut`. What a large tool leaves is for the next ones; but along directions from below
 /// these come to less, for they are shorter.
 constexpr double least_worth = 0.12, last_least_worth = 0.05;
+/// `DirectionTask::worth`: so many times as long as its rows would be the path of the next tool is; and so many times
+/// as long the last one may go.
+constexpr double next_overhead = 1.4, last_worth = 13;
+/// Of what stood in the way: down a wall, a row serves only its lower end.
+constexpr double again_worth = 100;
 
 class FinishStage {
  public:
-  FinishStage(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run)
+  FinishStage(const MillJob& job, PartViews& views, Carver& carver, const MillTool* next, const RunContext& run)
       : job_(job),
         views_(views),
         carver_(carver),
@@ -31,61 +38,74 @@ class FinishStage {
         nails_(carver.nails()),
         radius_m_(carver.tool().cutter.radius_m),
         spacing_m_(job.wishes.stepover_m(radius_m_)),
-        is_last_(is_last),
-        reach_(job, views, carver, is_last, run) {}
+        is_last_(next == nullptr),
+        worth_(is_last_ ? last_worth : next_overhead * spacing_m_ / job.wishes.stepover_m(next->cutter.radius_m)),
+        reach_(job, views, carver, is_last_, run),
+        tried_(nails_.size()) {}
 
   void run() {
     reach_.find();
     if (is_last_) reach_.find_beside();
-    for (int round = 0; round < (is_last_ ? rounds : 1); ++round) go_through(round);
+    for (; time_ < (is_last_ ? times : 1); ++time_) {
+      ask_again();
+      go_through();
+    }
   }
 
  private:
   /// All directions, the one that serves most first.
-  void go_through(int round) {
-    std::vector<std::uint32_t> tried(nails_.size());
+  void go_through() {
     const double worth = (is_last_ ? last_worth_share : worth_share) * static_cast<double>(reach_.asked());
-    while (const auto best = best_direction(round, tried, worth)) machine(*best, round, tried);
+    while (const auto best = best_direction(worth)) machine(*best);
   }
 
-  bool is_wanted(std::size_t nail, std::size_t direction, int round, const std::vector<std::uint32_t>& tried) const {
-    return may_be_tried(nail, direction, tried) && reach_.is_open(nail) && (round > 0 || faces(nail, direction, tried));
-  }
-  bool may_be_tried(std::size_t nail, std::size_t direction, const std::vector<std::uint32_t>& tried) const {
-    return reach_.comes_along(nail, direction) && (tried[nail] >> direction & 1) == 0;
-  }
-  /// Or is there no direction left that it faces more?
-  bool faces(std::size_t nail, std::size_t direction, const std::vector<std::uint32_t>& tried) const {
-    const double cosine = reach_.cosine(nail, direction);
-    if (cosine >= facing_cosine) return true;
-    for (std::size_t other = 0; other < reach_.directions(); ++other)
-      if (reach_.cosine(nail, other) > cosine + better_cosine && may_be_tried(nail, other, tried)) return false;
-    return true;
+  void ask_again() {
+    for (const auto& [nail, direction] : again_) tried_[nail] &= ~(std::uint32_t{1} << direction);
+    again_.clear();
   }
 
-  std::optional<std::size_t> best_direction(int round, const std::vector<std::uint32_t>& tried, double worth) const {
-    std::vector<std::size_t> counts(reach_.directions());
-    run_.helpers.for_each_index(counts.size(), [&](std::size_t direction) {
-      for (std::size_t nail = 0; nail < nails_.size(); ++nail)
-        counts[direction] += is_wanted(nail, direction, round, tried);
+  /// A bit for each direction that a nail is to be finished along.
+  std::uint32_t wanted_along(std::size_t nail) const {
+    const std::uint32_t untried = reach_.along(nail) & ~tried_[nail];
+    if (untried == 0 || !reach_.is_open(nail)) return 0;
+    double most = -1;
+    for_each_of(untried, [&](std::size_t direction) { most = std::max(most, reach_.cosine(nail, direction)); });
+    std::uint32_t wanted = 0;
+    for_each_of(untried, [&](std::size_t direction) {
+      const double cosine = reach_.cosine(nail, direction);
+      if (cosine >= facing_cosine || cosine + better_cosine >= most) wanted |= std::uint32_t{1} << direction;
     });
+    return wanted;
+  }
+  template <typename Visit>
+  static void for_each_of(std::uint32_t directions, const Visit& visit) {
+    for (; directions != 0; directions &= directions - 1) visit(static_cast<std::size_t>(std::countr_zero(directions)));
+  }
+
+  std::optional<std::size_t> best_direction(double worth) const {
+    std::vector<std::size_t> counts(reach_.directions());
+    for (std::size_t nail = 0; nail < nails_.size(); ++nail)
+      for_each_of(wanted_along(nail), [&](std::size_t direction) { ++counts[direction]; });
     const auto most = std::ranges::max_element(counts);
     if (*most == 0 || static_cast<double>(*most) < worth) return std::nullopt;
     return static_cast<std::size_t>(most - counts.begin());
   }
 
-  void machine(std::size_t direction, int round, std::vector<std::uint32_t>& tried) {
+  void machine(std::size_t direction) {
     Site& along = reach_.site(direction);
-    const std::vector<std::uint32_t> wanted = enter(direction, round, along, tried);
+    const std::vector<std::uint32_t> wanted = enter(direction, along);
     if (wanted.empty()) return;
     const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
-    DirectionContours contours(
-        {direction, along, task, spacing_m_, job_.wishes.stray_m(), least_worth_along(along.frame()), round, is_last_},
-        reach_, carver_, run_);
+    DirectionContours contours({direction, along, task, spacing_m_, job_.wishes.stray_m(),
+                                least_worth_along(along.frame()), time_, time_ > 0 ? again_worth : worth_, is_last_},
+                               reach_, carver_, run_);
     ContourRunner(job_, carver_, run_, along, task, spacing_m_).run(contours.run(wanted));
-    if (!is_last_)
-      for (const std::uint32_t nail : contours.left()) tried[nail] = ~std::uint32_t{0};
+    for (const std::uint32_t nail : wanted) {
+      if (!reach_.is_open(nail)) continue;
+      if (!is_last_) tried_[nail] = ~std::uint32_t{0};
+      if (reach_.cosine(nail, direction) < DirectionContours::wall_cosine) again_.emplace_back(nail, direction);
+    }
   }
 
   double least_worth_along(const ToolFrame& frame) const {
@@ -94,23 +114,27 @@ class FinishStage {
 
   /// Holds the tool so that the robot comes to as many wanted nails as it can; gives those, none where it was not
   /// entered. Nobody is tried again but those that it may come to in another way.
-  std::vector<std::uint32_t> enter(std::size_t direction, int round, Site& along, std::vector<std::uint32_t>& tried) {
+  std::vector<std::uint32_t> enter(std::size_t direction, Site& along) {
     std::vector<std::uint32_t> wanted;
     for (std::uint32_t nail = 0; nail < nails_.size(); ++nail)
-      if (is_wanted(nail, direction, round, tried)) {
+      if (wanted_along(nail) >> direction & 1) {
         wanted.push_back(nail);
-        tried[nail] |= std::uint32_t{1} << direction;
+        tried_[nail] |= std::uint32_t{1} << direction;
       }
     along.see(carver_.standing(), job_.grid, run_.helpers);
     const auto tip_at = [&](std::uint32_t nail) { return reach_.tip_at(nail, along.frame()); };
-    std::erase_if(wanted, [&](std::uint32_t nail) { return !is_above_floor(along, tip_at(nail)); });
+    std::erase_if(wanted, [&](std::uint32_t nail) {
+      const bool is_blocked = !is_above_floor(along, tip_at(nail));
+      if (is_blocked) again_.emplace_back(nail, direction);
+      return is_blocked;
+    });
     std::vector<Vec3> tips;
     tips.reserve(wanted.size());
     for (const std::uint32_t nail : wanted) tips.push_back(along.frame().point(tip_at(nail)));
     if (!carver_.enter(direction, along, tips)) return {};
     std::erase_if(wanted, [&](std::uint32_t nail) {
       const bool comes = carver_.reach().allows(tip_at(nail));
-      if (!comes) tried[nail] &= ~(std::uint32_t{1} << direction);
+      if (!comes) tried_[nail] &= ~(std::uint32_t{1} << direction);
       return !comes;
     });
     return wanted;
@@ -138,13 +162,18 @@ class FinishStage {
   const Nails& nails_;
   double radius_m_, spacing_m_;
   bool is_last_;
+  double worth_;  ///< `DirectionTask`
   NailReach reach_;
+  std::vector<std::uint32_t> tried_;  ///< of each nail, a bit for each direction
+  /// Nails that something stands in the way of along a direction, and those of walls that were left.
+  std::vector<std::pair<std::uint32_t, std::size_t>> again_;
+  int time_ = 0;
 };
 
 }  // namespace
 
-void finish(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run) {
-  FinishStage(job, views, carver, is_last, run).run();
+void finish(const MillJob& job, PartViews& views, Carver& carver, const MillTool* next, const RunContext& run) {
+  FinishStage(job, views, carver, next, run).run();
 }
 
 }  // namespace sculpt

@@ -6,8 +6,8 @@
 
 namespace sculpt {
 
-/// With the tool that `carver` holds. `is_last`: no other tool comes after it; else spots that are too small to be
-/// worth a way there are left to that. Throws InputError, Cancelled.
-void finish(const MillJob& job, PartViews& views, Carver& carver, bool is_last, const RunContext& run);
+/// With the tool that `carver` holds. `next`: the ball cutter that finishes after it, if there is one; what that does
+/// on a shorter way is left to it. Throws InputError, Cancelled.
+void finish(const MillJob& job, PartViews& views, Carver& carver, const MillTool* next, const RunContext& run);
 
 }  // namespace sculpt

@@ -32,16 +32,19 @@ Vec3 nearest_on(const std::array<Vec3, 3>& t, const Vec3& p) {
   return t[0] + vb / sum * ab + vc / sum * ac;
 }
 
-/// What Eigen::BVMinimize asks: the facet nearest to a point.
+constexpr double far = std::numeric_limits<double>::infinity();
+
+/// What Eigen::BVMinimize asks: the facet nearest to a point, of those that are nearer than at first `least2`.
 struct NearestFacet {
   using Scalar = double;
   const std::vector<std::array<Vec3, 3>>& facets;
   const Vec3& to;
-  double least2 = std::numeric_limits<double>::infinity();
-  Vec3 at = Vec3::Zero();
+  double least2;
+  std::optional<Vec3> at;
 
   double minimumOnVolume(const Eigen::AlignedBox3d& box) const {  // NOLINT(readability-identifier-naming)
-    return box.squaredExteriorDistance(to);
+    const double distance2 = box.squaredExteriorDistance(to);
+    return distance2 < least2 ? distance2 : far;
   }
   double minimumOnObject(std::uint32_t facet) {  // NOLINT(readability-identifier-naming)
     const Vec3 found = nearest_on(facets[facet], to);
@@ -65,17 +68,18 @@ FreeBall::FreeBall(const Mesh& part) {
   tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
 }
 
-Vec3 FreeBall::nearest(const Vec3& to) const {
-  NearestFacet asked{facets_, to};
+std::optional<Vec3> FreeBall::nearest(const Vec3& to, double within) const {
+  NearestFacet asked{facets_, to, within * within, {}};
   Eigen::BVMinimize(tree_, asked);
   return asked.at;
 }
 
 std::optional<Vec3> FreeBall::push_out(Vec3 middle, double radius) const {
   for (int push = 0; push < max_pushes; ++push) {
-    const Vec3 off = middle - nearest(middle);
+    const std::optional<Vec3> touched = nearest(middle, radius);
+    if (!touched) return middle;
+    const Vec3 off = middle - *touched;
     const double distance = off.norm();
-    if (distance >= radius) return middle;
     if (distance == 0) return std::nullopt;
     const double more = beyond_m + (push < patient_pushes ? 0 : beyond_share * (radius - distance));
     middle += (radius - distance + more) / distance * off;

@@ -24,7 +24,7 @@ class FreeBall {
  private:
   using Corners = std::array<Vec3, 3>;
 
-  Vec3 nearest(const Vec3& to) const;
+  std::optional<Vec3> nearest(const Vec3& to, double within) const;
 
   std::vector<Corners> facets_;
   Eigen::KdBVH<double, 3, std::uint32_t> tree_;

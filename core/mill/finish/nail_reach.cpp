@@ -17,9 +17,11 @@ constexpr double cells_a_radius = 16, cells_a_side = 300;
 constexpr double reached_share = 1.0 / 3;
 /// A ball at rest on a nail is looked at a little smaller, so that the nail itself is not in its way.
 constexpr double rest_slack_m = 1e-6;
+/// Of the nails, so many are asked for on a square of the stepover.
+constexpr double asked_a_stepover = 1.6;
 /// Beside a nail: of how far a ball may rest on its plane and still leave the tolerance; each in so many ways.
 constexpr std::array beside_shares{0.4, 0.9};
-constexpr int turns_beside = 6;
+constexpr int turns_beside = 5;
 /// Of the tolerance, what may be left beside a nail: where it is more than all of it, points around come within it.
 constexpr double beside_tolerance_share = 1.5;
 /// Where a ball pushed off a nail leaves so many times as much, those pushed off beside it are not looked at.
@@ -33,7 +35,7 @@ constexpr std::size_t nails_a_batch = 512;
 constexpr double least_cosine = -0.02;
 
 std::size_t stride_of(const MillJob& job, double radius_m, const Nails& nails) {
-  const double needed_m2 = std::pow(job.wishes.stepover_m(radius_m), 2) / Nails::a_stepover;
+  const double needed_m2 = std::pow(job.wishes.stepover_m(radius_m), 2) / asked_a_stepover;
   return std::max<std::size_t>(1, static_cast<std::size_t>(needed_m2 / nails.area_m2()));
 }
 
@@ -101,6 +103,10 @@ double NailReach::reached_m() const {
   return job_.wishes.allowance_m + reached_share * job_.wishes.tolerance_m;
 }
 
+double NailReach::most_left_m() const {
+  return beside_tolerance_share * job_.wishes.tolerance_m + gain_m;
+}
+
 /// Of each place along which directions the cutter comes to it and leaves no more than `most_m`: a bit each.
 std::vector<std::uint32_t> NailReach::look_along_all(const std::vector<Place>& places, double most_m) {
   std::vector<std::vector<std::uint32_t>> found(frames_.size());
@@ -120,11 +126,14 @@ void NailReach::keep_reached(std::vector<std::uint32_t>& asked, const std::vecto
   if (asked.empty()) return;
   const Site& here = site(direction);
   const auto columns = views_.along(direction, frames_[direction]);
-  std::size_t looked_at = 0;
-  std::erase_if(asked, [&](std::uint32_t at) {
-    if (looked_at++ % nails_a_batch == 0 && run_.watch.stop.stop_requested()) throw Cancelled{};
-    return !leaves_no_more(most_m, places[at], here, *columns);
+  std::vector<char> is_reached(asked.size());
+  run_.helpers.for_each_index((asked.size() + nails_a_batch - 1) / nails_a_batch, [&](std::size_t batch) {
+    if (run_.watch.stop.stop_requested()) throw Cancelled{};
+    for (std::size_t at = batch * nails_a_batch; at < std::min(asked.size(), (batch + 1) * nails_a_batch); ++at)
+      is_reached[at] = leaves_no_more(most_m, places[asked[at]], here, *columns);
   });
+  std::size_t looked_at = 0;
+  std::erase_if(asked, [&](std::uint32_t) { return is_reached[looked_at++] == 0; });
 }
 
 /// Does a cutter at rest leave no more of what stands on a nail? No where it may not be.

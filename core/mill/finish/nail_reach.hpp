@@ -36,13 +36,16 @@ class NailReach {
   std::size_t directions() const { return frames_.size(); }
   /// Its maps; made when first asked for, of each direction one thread at a time.
   Site& site(std::size_t direction);
-  bool comes_along(std::size_t nail, std::size_t direction) const { return along_[nail] >> direction & 1; }
+  /// A bit for each direction that the cutter comes to it along.
+  std::uint32_t along(std::size_t nail) const { return along_[nail]; }
   /// What stands on it is more than the tolerance, and than a ball beside it would leave.
   bool is_open(std::size_t nail) const { return is_open(nail, nails_.excess(nail)); }
   /// If so much stood on it.
   bool is_open(std::size_t nail, double excess_m) const {
     return excess_m > std::max(job_.wishes.tolerance_m, static_cast<double>(leaves_[nail]));
   }
+  /// No nail is finished on which more stands.
+  double most_left_m() const;
   /// Of some nails, asked or not, those that the cutter comes to along a direction. Throws Cancelled.
   std::vector<std::uint32_t> come_to(const std::vector<std::uint32_t>& nails, std::size_t direction);
   /// Does the ball rest beside it?

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double never_met = std::numeric_limits<double>::infinity();
 constexpr double nails_a_box = 6;
+/// The real root of x^3 = x + 1.
+constexpr double plastic = 1.32471795724474602596;
 /// How far from the surface it is found out what is inside (voxel edges).
 constexpr double look_voxels = 1.0;
 /// Surface that looks straight down, nearly, from so little above the bottom of the block is what the part stands on.
@@ -65,11 +67,15 @@ std::vector<double> running_areas(const Mesh& part) {
   return areas;
 }
 
-/// One in each of `count` shares of the area, where it belongs to the surface.
+/// One in each of `count` shares of the area, where it belongs to the surface. Over a facet they are spread evenly, for
+/// a spot between nails that is left would not be known of (R2, the sequence of the plastic number; Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
 std::vector<Nail> drive_nails(const Mesh& part, const std::vector<double>& areas, const VoxelGrid& voxels,
                               const Grid& grid, std::size_t count, std::uint64_t seed) {
   const double turn = signed_volume(part) < 0 ? -1 : 1;
   Random random(seed);
+  double x_share = random.unit(), y_share = random.unit();
+  const auto step = [](double& share, double by) { share += by - std::floor(share + by); };
   std::vector<Nail> nails;
   std::size_t facet = 0;
   for (std::size_t share = 0; share < count; ++share) {
@@ -77,8 +83,10 @@ std::vector<Nail> drive_nails(const Mesh& part, const std::vector<double>& areas
     while (facet + 1 < areas.size() && areas[facet] < at) ++facet;
     const auto& t = part.triangles[facet];
     const Vec3 e = part.vertices[t[1]] - part.vertices[t[0]], f = part.vertices[t[2]] - part.vertices[t[0]];
-    double x = random.unit(), y = random.unit();
-    if (x + y > 1) x = 1 - x, y = 1 - y;
+    step(x_share, 1 / plastic);
+    step(y_share, 1 / (plastic * plastic));
+    const bool is_beyond = x_share + y_share > 1;
+    const double x = is_beyond ? 1 - x_share : x_share, y = is_beyond ? 1 - y_share : y_share;
     const Vec3 point = part.vertices[t[0]] + x * e + y * f, normal = turn * e.cross(f).normalized();
     if (is_base(point, normal, grid)) continue;
     if (const auto out = outward(point, normal, voxels, grid)) nails.push_back({point, *out});
@@ -144,31 +152,25 @@ void Nails::sort_into_boxes(const std::vector<Nail>& nails) {
   for (const Nail& nail : nails) nails_[next[box_of(nail)]++] = nail;
 }
 
-void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
-  changes_.clear();
-  cut(from, to, radius, excess_, changes_);
+/// What a ball on its way leaves above a nail; nothing where it does not come near.
+std::optional<double> Nails::excess_under(const Nail& nail, const Vec3& from, const Vec3& to, double radius,
+                                          double most_m) {
+  const Vec3 way = to - from, off = nail.point - from;
+  const double length2 = way.squaredNorm(), reach = radius + most_m;
+  const double share = length2 > 0 ? std::clamp(off.dot(way) / length2, 0.0, 1.0) : 0;
+  if ((off - share * way).squaredNorm() > reach * reach) return std::nullopt;
+  const double least =
+      std::min({way_to_ball(nail.point, nail.normal, from, radius), way_to_ball(nail.point, nail.normal, to, radius),
+                way_to_cylinder(nail, from, way, radius)});
+  // A ball that is behind the surface, or comes to it from there, cuts something else.
+  const double behind = -1e-5;
+  return least < behind ? std::nullopt : std::optional(std::max(0.0, least));
 }
 
-void Nails::cut(const Vec3& from, const Vec3& to, double radius, std::vector<float>& excesses,
-                std::vector<Change>& changes) const {
-  const Vec3 way = to - from, room = Vec3::Constant(radius + farthest_m);
-  const double length2 = way.squaredNorm(), reach2 = room.x() * room.x();
-  for_each_in(from.cwiseMin(to) - room, from.cwiseMax(to) + room, [&](std::uint32_t at) {
-    const Nail& nail = nails_[at];
-    const Vec3 off = nail.point - from;
-    const double share = length2 > 0 ? std::clamp(off.dot(way) / length2, 0.0, 1.0) : 0;
-    if ((off - share * way).squaredNorm() > reach2) return;
-    const double least =
-        std::min({way_to_ball(nail.point, nail.normal, from, radius), way_to_ball(nail.point, nail.normal, to, radius),
-                  way_to_cylinder(nail, from, way, radius)});
-    // A ball that is behind the surface, or comes to it from there, cuts something else.
-    const double behind = -1e-5;
-    if (least < behind) return;
-    const auto left = static_cast<float>(std::max(0.0, least));
-    if (left >= excesses[at]) return;
-    changes.push_back({at, excesses[at], left});
-    excesses[at] = left;
-  });
+void Nails::cut(const Vec3& from, const Vec3& to, double radius) {
+  const auto is_above = [&](std::uint32_t at) { return excess_[at] > 0; };
+  for_each_cut(from, to, radius, farthest_m, is_above,
+               [&](std::uint32_t at, double left) { excess_[at] = std::min(excess_[at], static_cast<float>(left)); });
 }
 
 }  // namespace sculpt

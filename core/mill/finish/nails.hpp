@@ -27,9 +27,6 @@ class Nails {
   /// has the face that the part stands on. `part` in metres; its facets may be turned either way, all alike.
   Nails(const Mesh& part, const VoxelGrid& voxels, const Grid& grid, std::size_t count, std::uint64_t seed);
 
-  /// So many of them are wanted on a square of the stepover.
-  static constexpr double a_stepover = 2;
-
   std::size_t size() const { return nails_.size(); }
   const Nail& operator[](std::size_t at) const { return nails_[at]; }
   /// Upper bound of what stands above each (m): at first up to the side of the block; `uncut` where no ball came near
@@ -48,45 +45,49 @@ class Nails {
 
   /// A ball's middle went straight from one place to the other.
   void cut(const Vec3& from, const Vec3& to, double radius);
-  /// Of all nails, as `excess` has it.
-  const std::vector<float>& excesses() const { return excess_; }
-  /// What a cut changed: of which nail, and what stood above it.
-  struct Change {
-    std::uint32_t nail;
-    float before, after;
-  };
-  /// If a ball's middle went so: lowers the excesses that some nails would have, and adds these to `changes`. Any
-  /// thread while nothing is cut.
-  void cut(const Vec3& from, const Vec3& to, double radius, std::vector<float>& excesses,
-           std::vector<Change>& changes) const;
+  /// If it went so: calls `visit(nail, excess)` for each of those that are asked for, `asks(nail)`, above which no more
+  /// than `most_m` would be left, and perhaps for others. Any thread while nothing is cut.
+  template <typename Asks, typename Visit>
+  void for_each_cut(const Vec3& from, const Vec3& to, double radius, double most_m, const Asks& asks,
+                    const Visit& visit) const {
+    for_each_near((from + to) / 2, radius + most_m + (to - from).norm() / 2, [&](std::uint32_t at) {
+      if (!asks(at)) return;
+      if (const auto left = excess_under(nails_[at], from, to, radius, most_m)) visit(at, *left);
+    });
+  }
 
-  /// Calls `visit(number)` with all that are in the boxes around a place, those within `reach_m` and some others.
+  /// Calls `visit(number)` with all that are no farther from a place than this, and some others.
   template <typename Visit>
   void for_each_near(const Vec3& at, double reach_m, const Visit& visit) const {
-    for_each_in(at - Vec3::Constant(reach_m), at + Vec3::Constant(reach_m), visit);
+    const auto first = [&](int axis, double reach) { return std::max(0, box_along(axis, at[axis] - reach)); };
+    const auto last = [&](int axis, double reach) {
+      return std::min(boxes_[static_cast<std::size_t>(axis)] - 1, box_along(axis, at[axis] + reach));
+    };
+    const auto off = [&](int axis, int box) {
+      const double low = low_[axis] + box * edge_;
+      return std::max({0.0, low - at[axis], at[axis] - low - edge_});
+    };
+    const int widest_from = first(0, reach_m), widest_to = last(0, reach_m);
+    if (widest_from > widest_to) return;
+    for (int k = first(2, reach_m); k <= last(2, reach_m); ++k)
+      for (int j = first(1, reach_m); j <= last(1, reach_m); ++j) {
+        const std::size_t row = boxes_row(j, k);
+        if (begin_of(widest_from, row) == begin_of(widest_to + 1, row)) continue;
+        const double off_j = off(1, j), off_k = off(2, k), left = reach_m * reach_m - off_j * off_j - off_k * off_k;
+        if (left < 0) continue;
+        const double along = std::sqrt(left);
+        const std::uint32_t end = begin_of(std::max(last(0, along), -1) + 1, row);
+        for (std::uint32_t nail = begin_of(std::min(first(0, along), boxes_[0]), row); nail < end; ++nail) visit(nail);
+      }
   }
 
  private:
+  static std::optional<double> excess_under(const Nail& nail, const Vec3& from, const Vec3& to, double radius,
+                                            double most_m);
   void sort_into_boxes(const std::vector<Nail>& nails);
-  template <typename Visit>
-  void for_each_in(const Vec3& low, const Vec3& high, const Visit& visit) const {
-    std::array<int, 3> first{}, last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto box = [&](const Vec3& point) {
-        return static_cast<int>(std::floor((point[static_cast<int>(axis)] - low_[static_cast<int>(axis)]) / edge_));
-      };
-      first[axis] = std::max(0, box(low));
-      last[axis] = std::min(boxes_[axis] - 1, box(high));
-    }
-    for (int k = first[2]; k <= last[2]; ++k)
-      for (int j = first[1]; j <= last[1]; ++j) {
-        const std::size_t row = boxes_row(j, k);
-        if (first[0] > last[0]) continue;
-        // Boxes of a row are one after the other.
-        const std::uint32_t end = begin_[row + static_cast<std::size_t>(last[0]) + 1];
-        for (std::uint32_t at = begin_[row + static_cast<std::size_t>(first[0])]; at < end; ++at) visit(at);
-      }
-  }
+  /// Boxes of a row, along x, are one after the other.
+  std::uint32_t begin_of(int i, std::size_t row) const { return begin_[row + static_cast<std::size_t>(i)]; }
+  int box_along(int axis, double at) const { return static_cast<int>(std::floor((at - low_[axis]) / edge_)); }
   std::size_t boxes_row(int j, int k) const {
     return static_cast<std::size_t>(boxes_[0]) *
            (static_cast<std::size_t>(j) + static_cast<std::size_t>(boxes_[1]) * static_cast<std::size_t>(k));
@@ -94,7 +95,6 @@ class Nails {
 
   std::vector<Nail> nails_;  ///< by box
   std::vector<float> excess_;
-  std::vector<Change> changes_;  ///< by the last cut
   std::vector<char> reachable_;
   double area_m2_ = 0, edge_ = 1;
   Vec3 low_ = Vec3::Zero();

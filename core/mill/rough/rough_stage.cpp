@@ -20,6 +20,8 @@ constexpr double rough_share = 0.03;
 /// A direction is worth its while from this share of the stock's volume on; to a ball, which takes off less than that
 /// when it finishes, from so many passes on.
 constexpr double min_gain_share = 1e-3, min_gain_passes = 15;
+/// Of a depth of cut: what stands less above the lowest that the tool comes to is for finishing.
+constexpr double finished_share = 0.25;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
 constexpr int max_failures = 12;
@@ -58,27 +60,34 @@ class RoughStage {
   }
   SiteMargins margins() const { return {rough_share * tool().cutter.radius_m + stray_m(), body_margin_m}; }
 
-  /// Of each direction which of some voxels that are to be removed the tool comes to.
-  void find_prospects() {
-    const int stride = std::max(1, job_.grid.n / samples_along);
+  void find_samples(int stride) {
     VoxelSet wanted = carver_.left().voxels();
     wanted -= job_.voxels.keep;
     for (int k = stride / 2; k < job_.grid.n; k += stride)
       for (int j = stride / 2; j < job_.grid.n; j += stride)
         for (int i = stride / 2; i < job_.grid.n; i += stride)
           if (wanted.contains({i, j, k})) samples_.push_back({i, j, k});
+  }
+
+  /// Of each direction which of some voxels that are to be removed the tool comes to.
+  void find_prospects() {
+    const int stride = std::max(1, job_.grid.n / samples_along);
+    find_samples(stride);
+    const bool is_ball = tool().cutter.kind == CutterKind::ball;
     prospects_.resize(mill_directions().size());
     run_.helpers.for_each_index(prospects_.size(), [&](std::size_t number) {
       const auto site = carver_.make_site(number, margins(), 2 * step_m());
       const HeightMap& lowest = site->lowest_cut();
+      const double above = is_ball ? finished_share * tool().max_depth_m : 0;
       for (const Voxel sample : samples_) {
         const Vec3 at = site->frame().of(job_.grid.centre(sample));
         const int a = lowest.lattice.cell_u(at.x()), b = lowest.lattice.cell_v(at.y());
-        prospects_[number].push_back(lowest.lattice.contains(a, b) && at.z() > static_cast<double>(lowest.at(a, b)));
+        prospects_[number].push_back(lowest.lattice.contains(a, b) &&
+                                     at.z() > static_cast<double>(lowest.at(a, b)) + above);
       }
     });
     min_gain_ = min_gain_share * std::pow(job_.grid.n / stride, 3);
-    if (tool().cutter.kind == CutterKind::ball)
+    if (is_ball)
       min_gain_ = std::max(min_gain_, min_gain_passes * min_pass_m3(tool()) / std::pow(stride * job_.grid.voxel_m, 3));
   }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/helpers.hpp"
 #include "core/mill/finish/rows/plan_patch.hpp"
 #include "core/mill/map/level_curves.hpp"
 
@@ -10,6 +11,6 @@ namespace sculpt {
 
 /// The first so far from the border of a patch, each of the others one spacing from the one before it, over the
 /// surface. Rings; where the patch is narrower than twice the first there are none.
-std::vector<Curve> offset_curves(const PlanPatch& patch, double first_m, double spacing_m);
+std::vector<Curve> offset_curves(const PlanPatch& patch, double first_m, double spacing_m, const Helpers& helpers);
 
 }  // namespace sculpt

@@ -11,7 +11,7 @@ constexpr double edge = LevelSquare::edge, spacing = 1e-3;
 constexpr PatchTask patch{spacing / 4, spacing, 3 * spacing, 0.35};
 
 std::vector<Curve> rings(const LevelSquare& level, const std::vector<RestingBall>& balls) {
-  return offset_curves(make_patch(patch, level.frame, level.nails, balls), 1.5 * spacing, spacing);
+  return offset_curves(make_patch(patch, level.frame, level.nails, balls), 1.5 * spacing, spacing, Helpers(2));
 }
 
 TEST(OffsetCurves, OverASquareAreClosedAndOneSpacingApart) {
