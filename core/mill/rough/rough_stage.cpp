@@ -20,10 +20,10 @@ constexpr double rough_share = 0.03;
 /// A direction is worth its while from this share of the stock's volume on; to a ball, which takes off less than that
 /// when it finishes, from so many passes on.
 constexpr double min_gain_share = 1e-3, min_gain_passes = 15;
-/// Of a depth of cut: what stands less above the lowest that the tool comes to is for finishing.
-constexpr double finished_share = 0.25;
 /// Voxels that are looked at to find that out, along an edge.
 constexpr int samples_along = 64;
+/// Of a ball's depth of cut: what stands less above the lowest that it comes to is for finishing.
+constexpr double finished_share = 0.25;
 constexpr int max_failures = 12;
 /// What is less uneven is flat.
 constexpr double flat_m = 1e-4;
@@ -74,11 +74,11 @@ class RoughStage {
     const int stride = std::max(1, job_.grid.n / samples_along);
     find_samples(stride);
     const bool is_ball = tool().cutter.kind == CutterKind::ball;
+    const double above = is_ball ? finished_share * tool().max_depth_m : 0;
     prospects_.resize(mill_directions().size());
     run_.helpers.for_each_index(prospects_.size(), [&](std::size_t number) {
       const auto site = carver_.make_site(number, margins(), 2 * step_m());
       const HeightMap& lowest = site->lowest_cut();
-      const double above = is_ball ? finished_share * tool().max_depth_m : 0;
       for (const Voxel sample : samples_) {
         const Vec3 at = site->frame().of(job_.grid.centre(sample));
         const int a = lowest.lattice.cell_u(at.x()), b = lowest.lattice.cell_v(at.y());

@@ -115,6 +115,7 @@ class LocalSearch {
   double improve(std::uint32_t arc) {
     if (const double gain = turn_after(arc); gain > 0) return gain;
     if (const double gain = turn_before(arc); gain > 0) return gain;
+    // The first or the last of some.
     for (std::size_t count = 1; count <= most_moved; ++count)
       for (std::size_t before = 0; before < count; before += std::max<std::size_t>(1, count - 1))
         if (const double gain = move(arc, before, count); gain > 0) return gain;
