@@ -45,7 +45,7 @@ bool AirWays::is_free(const Vec3& at) const {
 }
 
 bool AirWays::is_clear(const Vec3& a, const Vec3& b) const {
-  return site_.clear_height(a, b, air_clearance_m) <= a.z();
+  return site_.clear_height(a, b, air_clearance_m, air_beside_m) <= a.z();
 }
 
 Vec3 AirWays::middle(const Cell& cell) const {

@@ -32,7 +32,7 @@ std::optional<Vec3> find_hub(const Site& site, const ReachFloor& reach, const Po
   };
   const auto low = [&](const Point2& column) {
     const Vec3 at(column.x(), column.y(), 0);
-    return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m));
+    return Vec3(column.x(), column.y(), site.clear_height(at, at, 2 * air_clearance_m, air_beside_m));
   };
   const double top = site.top();
   for (const auto& [above_m, comes_down] : {std::pair{room_m, true},

@@ -165,7 +165,7 @@ std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at,
 
 /// Does the robot hold the tip as high as it goes over?
 bool ContourRunner::comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const {
-  const double height = std::max(site_.clear_height(from, to, air_clearance_m), ways.min_height);
+  const double height = std::max(site_.clear_height(from, to, air_clearance_m, air_beside_m), ways.min_height);
   const auto is_held = [&](const Vec3& at) { return carver_.reach().allows({at.x(), at.y(), height}); };
   return is_held(from) && is_held(to);
 }

@@ -12,6 +12,9 @@
 
 namespace sculpt {
 
+/// Of a contour, by edge, the numbers of some nails.
+using EdgeNails = std::vector<std::vector<std::uint32_t>>;
+
 /// Of a ball cutter that is held in one direction. Not shared between threads.
 class CutPreview {
  public:
@@ -27,15 +30,18 @@ class CutPreview {
   /// As if they were cut, one after the other; those that are not worth it are left out. `least_worth`: of a contour's
   /// length, and of a way to it of some spacings, so much at least must be what it serves. Throws Cancelled.
   std::vector<Contour> cut(std::vector<Contour> contours, double least_worth);
-  /// As if they were cut, one after the other: what each serves, the length (m) of a row that finishes as much surface
-  /// one spacing wide. Throws Cancelled.
-  std::vector<double> served(const std::vector<Contour>& contours);
+  /// Of a contour, by edge, the nails, open until now, that this edge finishes alone. Any thread. Throws Cancelled.
+  EdgeNails finished_by_edges(const Contour& contour) const;
+  /// What finishes one nail serves as much surface as so long a row (m) one spacing wide.
+  double nail_m() const { return nails_.area_m2() / task_.spacing_m; }
+  /// How many nails there are.
+  std::size_t nails() const { return nails_.size(); }
   /// Would a nail still be above the tolerance?
   bool is_open(std::size_t nail) const { return is_open_[nail] != 0; }
 
  private:
-  std::vector<std::vector<std::uint32_t>> find_finished(const std::vector<Contour>& contours) const;
-  double served_m(const std::vector<std::uint32_t>& finished) const;
+  std::vector<std::uint32_t> finished_by(const Contour& contour) const;
+  void add_finished(const Vec3& from, const Vec3& to, std::vector<std::uint32_t>& nails) const;
 
   Task task_;
   const NailReach& reach_;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "core/mill/finish/rows/middle_curves.hpp"
 #include "core/mill/finish/rows/offset_curves.hpp"
 #include "core/mill/finish/rows/parallel_curves.hpp"
 #include "core/mill/finish/rows/plan_patch.hpp"
-#include "core/mill/finish/tour/profitable_tour.hpp"
-#include "core/mill/finish/tour/tour.hpp"
 
 namespace sculpt {
 namespace {
@@ -30,10 +29,6 @@ constexpr double jump = 3;
 constexpr double look_between = 2;
 /// How often lines are laid through what is left.
 constexpr int lines_laid = 2;
-/// Contours no farther apart may be gone over to in the middle; and ways longer than so many are no dearer.
-constexpr double near_spacings = 6, far_spacings = 60;
-/// Among those that are kept of a tour there is a shorter one.
-constexpr int tours_made = 2;
 /// Rows whose ends are no farther apart go on as one.
 constexpr double joined_m = 1e-9;
 
@@ -46,7 +41,7 @@ CutPreview DirectionContours::preview() const {
   return {{task_.site.frame(), task_.envelope.radius_m, task_.stray_m, task_.spacing_m}, reach_, nails_, run_};
 }
 
-std::vector<Contour> DirectionContours::run(const std::vector<std::uint32_t>& wanted) {
+WorthwhileTour DirectionContours::run(const std::vector<std::uint32_t>& wanted) {
   for (const std::uint32_t nail : wanted)
     if (!reach_.is_beside(nail)) balls_.push_back(resting(nail));
   lay(rows());
@@ -56,20 +51,8 @@ std::vector<Contour> DirectionContours::run(const std::vector<std::uint32_t>& wa
   else
     add_between(wanted);
   for (int time = 0; time < lines_laid; ++time) lay(middle_lines());
-  return profitable_tour();
-}
-
-std::vector<Contour> DirectionContours::profitable_tour() const {
-  std::vector<Contour> kept = contours_;
-  for (int time = 0; time < tours_made; ++time) {
-    std::vector<Contour> tour = tour_of(kept, near_spacings * task_.spacing_m);
-    std::vector<double> worth_m = preview().served(tour);
-    for (double& worth : worth_m) worth *= task_.worth;
-    kept.clear();
-    for (const std::size_t contour : profitable(tour, worth_m, far_spacings * task_.spacing_m))
-      kept.push_back(std::move(tour[contour]));
-  }
-  return kept;
+  return worthwhile_tour({task_.spacing_m, task_.worth, task_.is_trimmed, task_.envelope}, std::move(contours_),
+                         preview(), run_);
 }
 
 RestingBall DirectionContours::resting(std::uint32_t nail) const {

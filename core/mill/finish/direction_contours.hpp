@@ -11,6 +11,7 @@
 #include "core/mill/finish/nail_reach.hpp"
 #include "core/mill/finish/rows/resting_ball.hpp"
 #include "core/mill/finish/rows/wall_rows.hpp"
+#include "core/mill/finish/tour/worthwhile_tour.hpp"
 #include "core/mill/map/level_curves.hpp"
 
 namespace sculpt {
@@ -19,12 +20,13 @@ struct DirectionTask {
   std::size_t direction = 0;
   const Site& site;
   const EnvelopeTask& envelope;
-  double spacing_m = 0;    ///< of rows
-  double stray_m = 0;      ///< of the cutter
-  double least_worth = 0;  ///< `CutPreview::cut`; rows by walls always go
-  int time = 0;            ///< that directions are gone through: rows by walls are nearer to each other in each
-  double worth = 0;        ///< for a length of row that it finishes, so many times as long a path is worth it
-  bool is_last = false;    ///< the last tool that finishes: goes into creases too
+  double spacing_m = 0;     ///< of rows
+  double stray_m = 0;       ///< of the cutter
+  double least_worth = 0;   ///< `CutPreview::cut`; rows by walls always go
+  int time = 0;             ///< that directions are gone through: rows by walls are nearer to each other in each
+  double worth = 0;         ///< for a length of row that it finishes, so many times as long a path is worth it
+  bool is_trimmed = false;  ///< `TourTask`
+  bool is_last = false;     ///< the last tool that finishes: goes into creases too
 };
 
 /// Not shared between threads.
@@ -36,8 +38,8 @@ class DirectionContours {
   /// All must outlive it.
   DirectionContours(const DirectionTask& task, NailReach& reach, Carver& carver, const RunContext& run);
 
-  /// A tour for some nails. Throws Cancelled.
-  std::vector<Contour> run(const std::vector<std::uint32_t>& wanted);
+  /// A tour for some nails, once. Throws Cancelled.
+  WorthwhileTour run(const std::vector<std::uint32_t>& wanted);
 
  private:
   RestingBall resting(std::uint32_t nail) const;
@@ -51,7 +53,6 @@ class DirectionContours {
   void lay(const std::vector<Curve>& curves);
   std::vector<Contour> follow(const std::vector<Row>& rows) const;
   CutPreview preview() const;
-  std::vector<Contour> profitable_tour() const;
 
   DirectionTask task_;
   NailReach& reach_;

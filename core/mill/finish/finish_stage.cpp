@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -24,7 +25,7 @@ constexpr double facing_cosine = 0.4, better_cosine = 0.1;
 constexpr double least_worth = 0.12, last_least_worth = 0.05;
 /// `DirectionTask::worth`: so many times as long as its rows would be the path of the next tool is; and so many times
 /// as long the last one may go.
-constexpr double next_overhead = 1.4, last_worth = 13;
+constexpr double next_overhead = 1.6, last_worth = 13;
 /// Of what stood in the way: down a wall, a row serves only its lower end.
 constexpr double again_worth = 100;
 
@@ -97,15 +98,33 @@ class FinishStage {
     if (wanted.empty()) return;
     const auto columns = views_.along(direction, along.frame());
     const EnvelopeTask task = make_task(along, *columns);
-    DirectionContours contours({direction, along, task, spacing_m_, job_.wishes.stray_m(),
-                                least_worth_along(along.frame()), time_, time_ > 0 ? again_worth : worth_, is_last_},
-                               reach_, carver_, run_);
-    ContourRunner(job_, carver_, run_, along, task, spacing_m_).run(contours.run(wanted));
+    const std::vector<std::uint32_t> broken_off = cut(wanted, direction, along, task, true);
+    // By now less stands where contours begin; and these are not trimmed.
+    along.see(carver_.standing(), job_.grid, run_.helpers);
+    const std::vector<std::uint32_t> left = cut(broken_off, direction, along, task, false);
     for (const std::uint32_t nail : wanted) {
       if (!reach_.is_open(nail)) continue;
       if (!is_last_) tried_[nail] = ~std::uint32_t{0};
-      if (reach_.cosine(nail, direction) < DirectionContours::wall_cosine) again_.emplace_back(nail, direction);
+      if (reach_.cosine(nail, direction) < DirectionContours::wall_cosine || std::ranges::binary_search(left, nail))
+        again_.emplace_back(nail, direction);
     }
+  }
+
+  /// Gives those of the nails that were to be finished, but where the tool would have taken off too much at once.
+  std::vector<std::uint32_t> cut(const std::vector<std::uint32_t>& wanted, std::size_t direction, const Site& along,
+                                 const EnvelopeTask& task, bool is_trimmed) {
+    if (wanted.empty()) return {};
+    DirectionContours contours(
+        {direction, along, task, spacing_m_, job_.wishes.stray_m(), least_worth_along(along.frame()), time_,
+         time_ > 0 ? again_worth : worth_, is_trimmed, is_last_},
+        reach_, carver_, run_);
+    WorthwhileTour tour = contours.run(wanted);
+    ContourRunner(job_, carver_, run_, along, task, spacing_m_).run(std::move(tour.contours));
+    std::vector<std::uint32_t> broken_off;
+    std::ranges::copy_if(wanted, std::back_inserter(broken_off), [&](std::uint32_t nail) {
+      return reach_.is_open(nail) && std::ranges::binary_search(tour.nails, nail);
+    });
+    return broken_off;
   }
 
   double least_worth_along(const ToolFrame& frame) const {

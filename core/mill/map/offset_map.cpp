@@ -87,15 +87,19 @@ class WindowMaxima {
 
 }  // namespace
 
+Cutter grown_by(const Cutter& cutter, double more_m) {
+  Cutter grown = cutter;
+  grown.radius_m += more_m;
+  grown.corner_radius_m += more_m;
+  return grown;
+}
+
 HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double more_m) {
   const Lattice& lattice = stands.lattice;
   HeightMap limit(lattice);
   const double step = lattice.step;
   const int reach = static_cast<int>(std::floor((cutter.radius_m + more_m) / step)) + 1;
-  // Grown by `more`, a cutter is one with a larger radius and corner whose tip is that much lower.
-  Cutter grown = cutter;
-  grown.radius_m += more_m;
-  grown.corner_radius_m += more_m;
+  const Cutter grown = grown_by(cutter, more_m);
   const CellBox filled = filled_of(stands);
   for (int db = -reach; db <= reach; ++db)
     for (int da = -reach; da <= reach; ++da) {

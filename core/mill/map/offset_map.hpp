@@ -12,6 +12,9 @@
 
 namespace sculpt {
 
+/// On all sides: with a larger radius and corner, and its tip that much lower.
+Cutter grown_by(const Cutter& cutter, double more_m);
+
 /// For the cutter, grown by `more_m` on all sides.
 HeightMap offset_by_cutter(const HeightMap& stands, const Cutter& cutter, double more_m);
 

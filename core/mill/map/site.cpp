@@ -1,6 +1,7 @@
 #include "core/mill/map/site.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sculpt {
 namespace {
@@ -40,15 +41,30 @@ void Site::see(const VoxelSet& standing, const Grid& grid, const Helpers& helper
   body_limit_ = offset_by_rings(stands_, rings_, margins_.body_m, &helpers);
 }
 
-double Site::clear_height(const Vec3& from, const Vec3& to, double clearance_m) const {
-  float highest = no_height;
+double Site::clear_height(const Vec3& from, const Vec3& to, double above_m, double beside_m) const {
   const Lattice& cells = limit_.lattice;
-  for_each_cell_near(cells, from, to, cutter_.radius_m + margins_.body_m,
+  const double beside = std::max(margins_.body_m, beside_m);
+  float highest = no_height;
+  for_each_cell_near(cells, from, to, cutter_.radius_m + beside,
                      [&](int a, int b) { highest = std::max(highest, stands_.at(a, b)); });
-  for_each_cell_near(cells, from, to, margins_.body_m, [&](int a, int b) {
+  for_each_cell_near(cells, from, to, beside, [&](int a, int b) {
     highest = std::max({highest, limit_.at(a, b), body_limit_.at(a, b)});
   });
-  return static_cast<double>(highest) + clearance_m;
+  return static_cast<double>(highest) + above_m;
+}
+
+double Site::free_height(const Vec3& at, double clearance_m) const {
+  const Cutter grown = grown_by(cutter_, clearance_m);
+  const Lattice& cells = stands_.lattice;
+  double lowest = static_cast<double>(no_height);
+  for_each_cell_near(cells, at, at, grown.radius_m, [&](int a, int b) {
+    const double off_u = std::max(0.0, std::abs(at.x() - cells.u(a)) - cells.step / 2),
+                 off_v = std::max(0.0, std::abs(at.y() - cells.v(b)) - cells.step / 2);
+    const double off = std::hypot(off_u, off_v);
+    if (off > grown.radius_m) return;
+    lowest = std::max(lowest, static_cast<double>(stands_.at(a, b)) - grown.height_m(off) + clearance_m);
+  });
+  return lowest;
 }
 
 }  // namespace sculpt

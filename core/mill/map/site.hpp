@@ -46,8 +46,10 @@ class Site {
   double top() const { return static_cast<double>(*std::ranges::max_element(stands_.heights)); }
 
   /// The lowest height at which the whole tool goes over from one place to the other (tool frame) and touches nothing,
-  /// `clearance_m` above all that the cutter could.
-  double clear_height(const Vec3& from, const Vec3& to, double clearance_m) const;
+  /// `above_m` above all that the cutter could that is no farther than `beside_m` from it.
+  double clear_height(const Vec3& from, const Vec3& to, double above_m, double beside_m) const;
+  /// The lowest height of the tip over a place at which, and above which, the cutter keeps off what stands by so much.
+  double free_height(const Vec3& at, double clearance_m) const;
 
   /// Of each cell how low the cutter comes to it, once no stock is in the body's way; found when first asked for. Any
   /// thread.

@@ -26,7 +26,7 @@ TEST_F(AirWaysTest, LeadAroundWhatTheArmDoesNotReachAndTouchNothing) {
   const ReachFloor reach(*fields(direction).front(), around, site, frame.of(middle).z() + 0.25, helpers);
   const Lattice& all = site.lattice();
   const auto is_clear = [&](const Vec3& a, const Vec3& b) {
-    return site.clear_height(a, b, air_clearance_m) <= std::min(a.z(), b.z()) + 1e-9;
+    return site.clear_height(a, b, air_clearance_m, air_beside_m) <= std::min(a.z(), b.z()) + 1e-9;
   };
   // From where it comes down farthest.
   std::optional<Vec3> from;

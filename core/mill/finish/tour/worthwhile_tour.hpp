@@ -1,0 +1,29 @@
+// Contours that finish a part of the surface -> a tour of what of them is worth the way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/run_context.hpp"
+#include "core/mill/finish/cut_preview.hpp"
+#include "core/mill/finish/envelope.hpp"
+
+namespace sculpt {
+
+struct TourTask {
+  double spacing_m = 0;     ///< of rows
+  double worth = 0;         ///< for a length of row that is finished, so many times as long a path is worth it
+  bool is_trimmed = false;  ///< only where they need not begin where they would come down from above
+  const EnvelopeTask& envelope;
+};
+
+struct WorthwhileTour {
+  std::vector<Contour> contours;
+  std::vector<std::uint32_t> nails;  ///< that they finish; ascending
+};
+
+/// `preview`: of nothing cut yet. Throws Cancelled.
+WorthwhileTour worthwhile_tour(const TourTask& task, std::vector<Contour> contours, const CutPreview& preview,
+                               const RunContext& run);
+
+}  // namespace sculpt
