@@ -102,59 +102,60 @@ ContourRunner::Batch ContourRunner::lay_batch(const Ways& ways, std::vector<Cont
   return batch;
 }
 
-/// False where nothing leads on from the last one.
+/// False where nothing leads on from the last one, or to none of them.
 bool ContourRunner::lay_next(const Ways& ways, std::vector<Contour>& contours, ContourStrokes& laid,
                              Batch& batch) const {
   Course course;
-  const bool comes = turn_to_next(ways, contours, laid, course);
-  if (!comes && laid.has_laid()) return false;
+  if (!turn_to_next(ways, contours, laid, course)) {
+    if (!laid.has_laid()) batch.apart = std::exchange(contours, {});
+    return false;
+  }
   Contour contour = std::move(contours.front());
   contours.erase(contours.begin());
-  if (comes) {
-    const std::size_t begin = laid.strokes().size();
-    laid.lay(contour, course.way, course.air);
-    batch.contours.push_back({std::move(contour), begin, !course.air.empty()});
-  } else {
-    batch.apart.push_back(std::move(contour));
-  }
+  const std::size_t begin = laid.strokes().size();
+  laid.lay(contour, course.way, course.air);
+  batch.contours.push_back({std::move(contour), begin, !course.air.empty()});
   return true;
 }
 
-/// Along the surface to the next of the tour or to where it may be gone on with; else from above. The contours begin
-/// there then; false where that is too far for the robot.
+/// To the next of the tour, along the surface or from above; where that is too far for the robot, to where it may be
+/// gone on with. The contours begin there then; false where there is no such place.
 bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid,
                                  Course& course) const {
   const auto goes_beside = [&](const Vec3& to) {
     if (laid.is_down()) course.way = laid.way_to(to);
     return !course.way.empty();
   };
-  if (goes_beside(contours.front().front())) return true;
-  const std::vector<Entry> entries = nearest_entries(laid.at(), contours);
+  const auto goes_over = [&](const Vec3& to) { return comes_over(ways, laid.at(), to); };
+  const Vec3& next = contours.front().front();
+  if (goes_beside(next) || goes_over(next)) return true;
+  const std::vector<Entry> entries =
+      nearest_entries(laid.at(), contours, laid.has_laid() ? looked_at : 2 * contours.size());
   const auto find = [&](const auto& goes_to) {
     return std::ranges::find_if(entries, [&](const Entry& entry) {
       return goes_to(entry.is_back ? contours[entry.number].back() : contours[entry.number].front());
     });
   };
   auto found = find(goes_beside);
-  if (found == entries.end()) found = find([&](const Vec3& to) { return comes_over(ways, laid.at(), to); });
+  if (found == entries.end()) found = find(goes_over);
   if (found == entries.end() && ways.by_air && !laid.has_laid())
     found = find([&](const Vec3& to) {
       course.air = air_->to(to);
       return !course.air.empty();
     });
-  const bool comes = found != entries.end();
-  const Entry& entry = comes ? *found : entries.front();
-  turn_to(contours, entry.number, entry.is_back);
-  return comes;
+  if (found == entries.end()) return false;
+  turn_to(contours, found->number, found->is_back);
+  return true;
 }
 
-std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at, const std::vector<Contour>& contours) {
+std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at, const std::vector<Contour>& contours,
+                                                                 std::size_t most) {
   std::vector<Entry> entries;
   for (std::size_t number = 0; number < contours.size(); ++number) {
     entries.push_back({(contours[number].front() - at).squaredNorm(), number, false});
     entries.push_back({(contours[number].back() - at).squaredNorm(), number, true});
   }
-  const std::size_t some = std::min(looked_at, entries.size());
+  const std::size_t some = std::min(most, entries.size());
   std::ranges::partial_sort(entries, entries.begin() + static_cast<std::ptrdiff_t>(some),
                             [](const Entry& a, const Entry& b) {
                               return std::tie(a.far2, a.number, a.is_back) < std::tie(b.far2, b.number, b.is_back);

@@ -9,6 +9,8 @@ namespace {
 
 /// A way along the surface may be so many times as long as straight.
 constexpr double detour = 3;
+/// Where something is in the way on the surface it is gone over, where that is no longer; in steps (radii).
+constexpr double longest_over = 8, over_step = 0.25;
 /// Of the radius: an edge is cut in part in steps no shorter.
 constexpr double shortest_share = 1.0 / 16;
 
@@ -26,8 +28,24 @@ Contour ContourStrokes::way_to(const Vec3& to) const {
   const double far = (to - at_).norm();
   if (far > task_.beside_m) return {};
   Contour way = follow_whole(task_.envelope, at_.head<2>(), to.head<2>(), detour * far);
-  if (!way.empty() && ((way.front() - at_).norm() > 1e-6 || (way.back() - to).norm() > 1e-6)) return {};
+  if (way.empty()) return way_over(to);
+  if ((way.front() - at_).norm() > 1e-6 || (way.back() - to).norm() > 1e-6) return {};
   return way;
+}
+
+/// Up, straight over what is in the way, and down; nothing where that is far.
+Contour ContourStrokes::way_over(const Vec3& to) const {
+  const EnvelopeTask& envelope = task_.envelope;
+  const double step = over_step * envelope.radius_m;
+  const Vec3 middle(0, 0, envelope.radius_m);
+  for (double height = std::max(at_.z(), to.z()) + step;; height += step) {
+    const Vec3 from_top(at_.x(), at_.y(), height), to_top(to.x(), to.y(), height);
+    Contour way{at_, from_top, to_top, to};
+    if (length_m(way) > longest_over * envelope.radius_m) return {};
+    if (envelope.is_allowed(from_top, to_top) &&
+        envelope.columns.is_clear(from_top + middle, to_top + middle, envelope.radius_m + envelope.clear_m))
+      return way;
+  }
 }
 
 /// Volume (m^3).

@@ -49,6 +49,7 @@ class ContourStrokes {
   std::vector<MillStroke> take_strokes() { return std::exchange(strokes_, {}); }
 
  private:
+  Contour way_over(const Vec3& to) const;
   void add(const Contour& contour);
   void go_by_air(const std::vector<Vec3>& air);
   bool let_down(const Vec3& to);

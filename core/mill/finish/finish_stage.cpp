@@ -25,7 +25,7 @@ constexpr double facing_cosine = 0.4, better_cosine = 0.1;
 constexpr double least_worth = 0.12, last_least_worth = 0.05;
 /// `DirectionTask::worth`: so many times as long as its rows would be the path of the next tool is; and so many times
 /// as long the last one may go.
-constexpr double next_overhead = 1.6, last_worth = 13;
+constexpr double next_overhead = 1.8, last_worth = 13;
 /// Of what stood in the way: down a wall, a row serves only its lower end.
 constexpr double again_worth = 100;
 

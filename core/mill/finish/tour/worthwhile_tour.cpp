@@ -18,7 +18,7 @@ namespace {
 constexpr double near = 6, far = 60;
 /// What is worth it is found out step by step.
 constexpr double step = 0.25;
-constexpr std::size_t spare_steps = 3;
+constexpr std::size_t spare_steps = 2;
 /// Among those that are kept of a tour there is a shorter one.
 constexpr int tours_made = 2;
 
