@@ -19,7 +19,7 @@ constexpr double burst_share = 0.1, bits_a_radius = 4;
 /// Of what may be taken off over a radius, where a pass begins.
 constexpr double little_share = 0.05;
 /// Of what may be taken off: rows that take off less are left to a smaller tool.
-constexpr double min_share = 0.15;
+constexpr double min_share = 0.2;
 /// Ways from pass to pass that are gone at this height (radii).
 constexpr double linked_radii = 12;
 /// How often half a width is laid before a place that would take off too much.
