@@ -100,7 +100,7 @@ class FinishStage {
     const EnvelopeTask task = make_task(along, *columns);
     const std::vector<std::uint32_t> broken_off = cut(wanted, direction, along, task, true);
     // By now less stands where contours begin; and these are not trimmed.
-    along.see(carver_.standing(), job_.grid, run_.helpers);
+    if (!broken_off.empty()) along.see(carver_.standing(), job_.grid, run_.helpers);
     const std::vector<std::uint32_t> left = cut(broken_off, direction, along, task, false);
     for (const std::uint32_t nail : wanted) {
       if (!reach_.is_open(nail)) continue;

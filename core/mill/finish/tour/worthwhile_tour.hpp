@@ -13,7 +13,7 @@ namespace sculpt {
 struct TourTask {
   double spacing_m = 0;     ///< of rows
   double worth = 0;         ///< for a length of row that is finished, so many times as long a path is worth it
-  bool is_trimmed = false;  ///< only where they need not begin where they would come down from above
+  bool is_trimmed = false;  ///< without what is not worth it at their ends; so they need not begin above what stands
   const EnvelopeTask& envelope;
 };
 
