@@ -1,5 +1,6 @@
 #include "core/mill/finish/contour_strokes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/mill/drive/hop.hpp"
@@ -35,16 +36,12 @@ Contour ContourStrokes::way_to(const Vec3& to) const {
 
 /// Up, straight over what is in the way, and down; nothing where that is far.
 Contour ContourStrokes::way_over(const Vec3& to) const {
-  const EnvelopeTask& envelope = task_.envelope;
-  const double step = over_step * envelope.radius_m;
-  const Vec3 middle(0, 0, envelope.radius_m);
+  const double radius = task_.envelope.radius_m, step = over_step * radius;
   for (double height = std::max(at_.z(), to.z()) + step;; height += step) {
     const Vec3 from_top(at_.x(), at_.y(), height), to_top(to.x(), to.y(), height);
     Contour way{at_, from_top, to_top, to};
-    if (length_m(way) > longest_over * envelope.radius_m) return {};
-    if (envelope.is_allowed(from_top, to_top) &&
-        envelope.columns.is_clear(from_top + middle, to_top + middle, envelope.radius_m + envelope.clear_m))
-      return way;
+    if (length_m(way) > longest_over * radius) return {};
+    if (may_go(task_.envelope, from_top, to_top)) return way;
   }
 }
 

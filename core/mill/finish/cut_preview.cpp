@@ -35,30 +35,24 @@ std::vector<Contour> CutPreview::cut(std::vector<Contour> contours, double least
 
 EdgeNails CutPreview::finished_by_edges(const Contour& contour) const {
   if (run_.watch.stop.stop_requested()) throw Cancelled{};
+  const auto middle = [&](const Vec3& tip) { return task_.frame.point(tip + Vec3(0, 0, task_.radius_m)); };
   EdgeNails found(contour.size() - 1);
   for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge)
-    add_finished(contour[edge], contour[edge + 1], found[edge]);
+    nails_.for_each_cut(
+        middle(contour[edge]), middle(contour[edge + 1]), task_.radius_m - task_.stray_m, reach_.most_left_m(),
+        [&](std::uint32_t nail) { return is_open(nail); },
+        [&](std::uint32_t nail, double left) {
+          if (!reach_.is_open(nail, left)) found[edge].push_back(nail);
+        });
   return found;
 }
 
 std::vector<std::uint32_t> CutPreview::finished_by(const Contour& contour) const {
-  if (run_.watch.stop.stop_requested()) throw Cancelled{};
   std::vector<std::uint32_t> nails;
-  for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) add_finished(contour[edge], contour[edge + 1], nails);
+  for (const auto& of_edge : finished_by_edges(contour)) nails.insert(nails.end(), of_edge.begin(), of_edge.end());
   std::ranges::sort(nails);
   nails.erase(std::unique(nails.begin(), nails.end()), nails.end());
   return nails;
-}
-
-/// Open until now, alone.
-void CutPreview::add_finished(const Vec3& from, const Vec3& to, std::vector<std::uint32_t>& nails) const {
-  const auto middle = [&](const Vec3& tip) { return task_.frame.point(tip + Vec3(0, 0, task_.radius_m)); };
-  nails_.for_each_cut(
-      middle(from), middle(to), task_.radius_m - task_.stray_m, reach_.most_left_m(),
-      [&](std::uint32_t nail) { return is_open(nail); },
-      [&](std::uint32_t nail, double left) {
-        if (!reach_.is_open(nail, left)) nails.push_back(nail);
-      });
 }
 
 }  // namespace sculpt

@@ -41,7 +41,6 @@ class CutPreview {
 
  private:
   std::vector<std::uint32_t> finished_by(const Contour& contour) const;
-  void add_finished(const Vec3& from, const Vec3& to, std::vector<std::uint32_t>& nails) const;
 
   Task task_;
   const NailReach& reach_;

@@ -148,10 +148,7 @@ class Follower {
     return tip;
   }
 
-  bool is_proved(const Vec3& from, const Vec3& to) const {
-    const Vec3 up(0, 0, task_.radius_m);
-    return task_.is_allowed(from, to) && task_.columns.is_clear(from + up, to + up, task_.radius_m + task_.clear_m);
-  }
+  bool is_proved(const Vec3& from, const Vec3& to) const { return may_go(task_, from, to); }
 
   bool is_near(std::size_t from, std::size_t to) const {
     const Vec3 &a = *looks_[from], way = *looks_[to] - a;
@@ -215,6 +212,11 @@ double length_m(const Contour& contour) {
   double length = 0;
   for (std::size_t edge = 0; edge + 1 < contour.size(); ++edge) length += (contour[edge + 1] - contour[edge]).norm();
   return length;
+}
+
+bool may_go(const EnvelopeTask& task, const Vec3& from, const Vec3& to) {
+  const Vec3 up(0, 0, task.radius_m);
+  return task.is_allowed(from, to) && task.columns.is_clear(from + up, to + up, task.radius_m + task.clear_m);
 }
 
 std::vector<Contour> follow_envelope(const EnvelopeTask& task, const Point2& from, const Point2& to,

@@ -24,6 +24,9 @@ using Contour = std::vector<Vec3>;
 
 double length_m(const Contour& contour);
 
+/// The tip straight from one place to another: for the part and all the rest?
+bool may_go(const EnvelopeTask& task, const Vec3& from, const Vec3& to);
+
 /// Where the tip is beside a wall whose foot it does not come to.
 struct WallStop {
   double along_m = 0;  ///< from where the line begins, in plan

@@ -110,7 +110,8 @@ class FinishStage {
     }
   }
 
-  /// Gives those of the nails that were to be finished, but where the tool would have taken off too much at once.
+  /// Gives those of the nails that the tour finishes but that are still open, ascending: the tool would have taken off
+  /// too much at once, or the robot did not come.
   std::vector<std::uint32_t> cut(const std::vector<std::uint32_t>& wanted, std::size_t direction, const Site& along,
                                  const EnvelopeTask& task, bool is_trimmed) {
     if (wanted.empty()) return {};
@@ -121,9 +122,8 @@ class FinishStage {
     WorthwhileTour tour = contours.run(wanted);
     ContourRunner(job_, carver_, run_, along, task, spacing_m_).run(std::move(tour.contours));
     std::vector<std::uint32_t> broken_off;
-    std::ranges::copy_if(wanted, std::back_inserter(broken_off), [&](std::uint32_t nail) {
-      return reach_.is_open(nail) && std::ranges::binary_search(tour.nails, nail);
-    });
+    std::ranges::copy_if(wanted, std::back_inserter(broken_off),
+                         [&](std::uint32_t nail) { return reach_.is_open(nail) && tour.finishes[nail] != 0; });
     return broken_off;
   }
 

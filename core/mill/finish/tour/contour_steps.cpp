@@ -11,7 +11,7 @@ namespace {
 constexpr double detour = 3, detour_m = 1e-5;
 constexpr double same_m = 1e-6;
 
-/// At rest all the way; just the two where that is not found.
+/// At rest all the way; nothing where that is not found.
 Contour edge_between(const Vec3& from, const Vec3& to, const EnvelopeTask& task) {
   return follow_whole(task, from.head<2>(), to.head<2>(), detour * (to - from).norm() + detour_m);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <utility>
 
 #include "core/mill/finish/tour/contour_steps.hpp"
@@ -78,11 +77,10 @@ class TourMaker {
     run_.helpers.for_each_index(steps.size(), [&](std::size_t number) {
       made.contours[number] = part_of(steps[number], spans[number], task_.envelope);
     });
+    made.finishes.resize(preview_.nails());
     for (std::size_t number = 0; number < steps.size(); ++number)
       for (std::size_t step = spans[number].first; step < spans[number].last; ++step)
-        std::ranges::copy(finished[number][step], std::back_inserter(made.nails));
-    std::ranges::sort(made.nails);
-    made.nails.erase(std::unique(made.nails.begin(), made.nails.end()), made.nails.end());
+        for (const std::uint32_t nail : finished[number][step]) made.finishes[nail] = 1;
     return made;
   }
 

@@ -1,7 +1,6 @@
 // Contours that finish a part of the surface -> a tour of what of them is worth the way.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/base/run_context.hpp"
@@ -19,7 +18,7 @@ struct TourTask {
 
 struct WorthwhileTour {
   std::vector<Contour> contours;
-  std::vector<std::uint32_t> nails;  ///< that they finish; ascending
+  std::vector<char> finishes;  ///< each nail, or not
 };
 
 /// `preview`: of nothing cut yet. Throws Cancelled.

@@ -29,9 +29,8 @@ class RubbleSite {
   }
 
   const Site& site() const { return site_; }
-  /// Of voxels that stand, corners and middles (tool frame).
-  const std::vector<Vec3>& points() const { return points_; }
-  /// From the cutter with its tip there, and all above it, to the nearest of them (m); negative where one is inside.
+  /// From the cutter with its tip there, and all above it, to the nearest corner, middle of an edge or a face, or
+  /// centre of a voxel that stands (m); negative where one is inside.
   double room_m(const Vec3& tip) const {
     double room = 1;
     for (const Vec3& point : points_) room = std::min(room, room_to(point - tip));
@@ -72,7 +71,7 @@ class RubbleSite {
 
   Cutter cutter_;
   Site site_;
-  std::vector<Vec3> points_;
+  std::vector<Vec3> points_;  ///< tool frame
 };
 
 /// A ball, or a flat one.
