@@ -2,27 +2,37 @@
 // at.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "core/cell/milling/mill_tool.hpp"
 
 namespace sculpt {
 
+/// What a stretch of a run, begun and ended anywhere within edges, may take off.
+struct ChipLimit {
+  double chip_m2 = 0, burst_m3 = 0;    ///< no more than `chip_m2` times its length and `burst_m3`
+  double window_m = 0, window_m2 = 0;  ///< where it is `window_m` long, no more than `window_m2` times its length
+};
+
 /// Of edges one after the other.
 class ChipLoad {
  public:
-  /// A stretch of the run, begun and ended anywhere within edges, takes off no more than `chip_m2` times its length and
-  /// `max_m3`.
-  ChipLoad(double chip_m2, double max_m3) : chip_m2_(chip_m2), max_m3_(max_m3) {}
+  explicit ChipLoad(const ChipLimit& limit) : limit_(limit) {}
 
   /// The run ends; what comes is not weighed with it.
-  void begin() { load_m3_ = 0; }
+  void begin();
   /// Takes the next edge, if no stretch is too heavy with it.
   bool bears(double volume_m3, double length_m);
+  /// Of a burst: how much of it the stretches that end here have used up.
+  double used() const { return load_m3_ / limit_.burst_m3; }
 
  private:
-  double chip_m2_, max_m3_;
+  ChipLimit limit_;
   /// The heaviest stretch that ends with the last edge, above what its length allows; of the first edge the length does
   /// not count, as the stretch may begin at its end.
   double load_m3_ = 0;
+  std::vector<std::pair<double, double>> last_;  ///< edges as long as the window: volumes, lengths
 };
 
 /// Where volumes are known by whole voxels some more come off at once than depth times width: what a replay lets pass.

@@ -12,14 +12,19 @@ namespace {
 
 /// Of the cutter's radius: how long an edge is.
 constexpr double step_share = 0.8;
-/// Of depth times width of cut: what may be taken off.
-constexpr double cap_share = 1.07;
+/// Of a width of cut: from row to row.
+constexpr double row_share = 1.04;
+/// Of depth times width of cut: what may be taken off, and over a diameter. (Counted in voxels it may look like a
+/// twentieth more.)
+constexpr double cap_share = 1.02, window_share = 1.03;
 /// Of what may be taken off over a diameter: at once. Edges are weighed in so many bits a radius.
-constexpr double burst_share = 0.1, bits_a_radius = 4;
+constexpr double burst_share = 0.12, bits_a_radius = 16;
+/// Of that a row uses up no more where it goes farther inside than it need.
+constexpr double used_inside = 0.5;
 /// Of what may be taken off over a radius, where a pass begins.
 constexpr double little_share = 0.05;
 /// Of what may be taken off: rows that take off less are left to a smaller tool.
-constexpr double min_share = 0.2;
+constexpr double min_share = 0.5;
 /// Ways from pass to pass that are gone at this height (radii).
 constexpr double linked_radii = 12;
 /// How often half a width is laid before a place that would take off too much.
@@ -38,7 +43,8 @@ Clearing::Clearing(const ClearingTask& task, RowLayout layout, StockTop& surface
       surface_(surface),
       lattice_(surface.lattice()),
       cap_m2_(cap_share * task.tool.max_depth_m * task.tool.max_width_m),
-      width_m_(cap_share * task.tool.max_width_m) {
+      width_m_(row_share * task.tool.max_width_m),
+      load_(no_load()) {
   const Cutter& cutter = task.tool.cutter;
   double cleared = 0;
   while (cleared < cutter.radius_m - task.seam_m && cutter.height_m(cleared) <= task.cusp_m)
@@ -62,7 +68,13 @@ double Clearing::volume(const Point2& from, const Point2& to) const {
 
 ChipLoad Clearing::no_load() const {
   const double radius = task_.tool.cutter.radius_m;
-  return {cap_m2_, cap_m2_ * radius / bits_a_radius + burst_share * cap_m2_ * 2 * radius};
+  return ChipLoad({cap_m2_, cap_m2_ * radius / bits_a_radius + burst_share * cap_m2_ * 2 * radius, 2 * radius,
+                   window_share / cap_share * cap_m2_});
+}
+
+/// Where a pass begins: that of the last one, if the tip is there still.
+ChipLoad Clearing::load_at(const Point2& begin, const std::optional<Point2>& tip) const {
+  return tip && begin == *tip ? load_ : no_load();
 }
 
 /// Bit by bit, for what a long edge takes off at its end does not count by all of its length. `before_m3` of it is gone
@@ -79,8 +91,7 @@ bool Clearing::bears(ChipLoad& load, const Vec3& from, const Vec3& to, double be
 }
 
 /// Nowhere more than it may?
-bool Clearing::may_cut(const LevelWay& way) const {
-  ChipLoad load = no_load();
+bool Clearing::may_cut(const LevelWay& way, ChipLoad load) const {
   for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
     const Point2 &from = way[edge], &to = way[edge + 1];
     // The edge before it has been where it begins.
@@ -132,12 +143,12 @@ std::optional<std::size_t> Clearing::nearest(const Point2& at) const {
 /// From where the tip is, if that is near; or from where it is open, the shortest with the way to there.
 LevelWay Clearing::enter(const LevelRow& row, const std::optional<Point2>& tip) const {
   const Point2& begin = row.points.front();
-  if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}))
+  if (tip && (begin - *tip).norm() <= linked_radii * task_.tool.cutter.radius_m && may_cut({*tip, begin}, load_))
     return {*tip, begin};
   LevelWay best;
   double least_m = 0;
   for (LevelWay& way : ways_into(row, task_.tool.cutter.radius_m, width_m_)) {
-    if (!is_open(way.front()) || !may_cut(way)) continue;
+    if (!is_open(way.front()) || !may_cut(way, load_at(way.front(), tip))) continue;
     const auto over_m = task_.way_over_m(at_level(way.front()));
     if (!over_m) continue;
     const double all_m = *over_m + length_of(way);
@@ -182,6 +193,7 @@ bool Clearing::go_down(const LevelPass& pass) {
     taken_m3_ = taken_before;
     return false;
   }
+  load_ = std::move(load);
   return true;
 }
 
@@ -229,7 +241,8 @@ std::optional<Point2> Clearing::keep_engagement(const Point2& from, const Point2
     const Point2 place = to + steps * out;
     ChipLoad after = load;
     if (!edge_is_free(from, place) || !bears(after, at_level(from), at_level(place), 0)) continue;
-    load = after;
+    if (steps < 0 && after.used() > used_inside) continue;
+    load = std::move(after);
     return place;
   }
   return std::nullopt;
@@ -251,9 +264,9 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
     taken_m3_ += surface_.cut(pass.back(), at_level(to));
     pass.push_back(at_level(to));
   };
-  ChipLoad load = no_load();
+  load_ = load_at(way.front(), tip);
   for (std::size_t at = 1; at < way.size(); ++at) {
-    bears(load, pass.back(), at_level(way[at]), 0);
+    bears(load_, pass.back(), at_level(way[at]), at == 1 ? volume(way[0], way[0]) : 0);
     go(way[at]);
   }
   for (std::size_t at = 0; at + 1 < row.points.size(); ++at) {
@@ -263,7 +276,7 @@ LevelPass Clearing::follow(std::size_t number, const std::optional<Point2>& tip)
         turns_.push_back({{row.field, {row.points.begin() + static_cast<std::ptrdiff_t>(at) + 1, row.points.end()}}});
       break;
     }
-    const auto place = keep_engagement(from, to, *row.field, load);
+    const auto place = keep_engagement(from, to, *row.field, load_);
     if (!place) {
       put_off(number, at);
       break;

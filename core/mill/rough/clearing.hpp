@@ -62,8 +62,9 @@ class Clearing {
     return sculpt::edge_is_free(lattice_, task_.is_free, from, to);
   }
   ChipLoad no_load() const;
+  ChipLoad load_at(const Point2& begin, const std::optional<Point2>& tip) const;
   bool bears(ChipLoad& load, const Vec3& from, const Vec3& to, double before_m3) const;
-  bool may_cut(const LevelWay& way) const;
+  bool may_cut(const LevelWay& way, ChipLoad load) const;
   bool is_open(const Point2& p) const;
   bool is_worth_it(const LevelRow& row) const;
   std::optional<std::size_t> nearest(const Point2& at) const;
@@ -81,6 +82,7 @@ class Clearing {
   const Lattice& lattice_;
   double cap_m2_;   ///< volume by length
   double width_m_;  ///< from row to row
+  ChipLoad load_;   ///< of the run that the last pass ended
   std::optional<LevelRows> rows_;
   std::vector<Turn> turns_;
   double taken_m3_ = 0;

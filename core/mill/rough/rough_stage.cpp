@@ -135,11 +135,11 @@ class RoughStage {
   }
 
   /// What is to be cut and can be: not all that may stand.
-  HeightMap tops_to_cut(const Site& site) const {
-    return heights_of(carver_.left().voxels(), job_.grid, site.frame(), site.lattice(), run_.helpers,
-                      &site.lowest_cut());
+  StockTop surface_of(const Site& site) const {
+    return {
+        heights_of(carver_.left().voxels(), job_.grid, site.frame(), site.lattice(), run_.helpers, &site.lowest_cut()),
+        tool().cutter, stray_m()};
   }
-  StockTop surface_of(const Site& site) const { return {tops_to_cut(site), tool().cutter, stray_m()}; }
 
   /// Would the tool, if it came everywhere down to this height, take off enough for a pass?
   bool is_worth_it(const Site& site, const StockTop& surface, double height) const {
@@ -196,7 +196,7 @@ class RoughStage {
       }
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) {
-        surface.lower_to(tops_to_cut(site));
+        surface = surface_of(site);  // what two sweep by halves stands after all
         ++rounds;
         continue;
       }
