@@ -112,7 +112,7 @@ std::unique_ptr<HeldTool> Carver::make_held(const MillTool& tool) {
 }
 
 std::unique_ptr<ToolMeter> Carver::make_meter(const MillTool& tool, ToolFigures figures) const {
-  return std::make_unique<ToolMeter>(tool, std::pow(job_.grid.voxel_m, 3), std::move(figures));
+  return std::make_unique<ToolMeter>(tool, job_.grid.voxel_m, std::move(figures));
 }
 
 void Carver::count(const std::vector<Keyframe>& keyframes) {

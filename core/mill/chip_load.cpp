@@ -7,6 +7,8 @@ namespace {
 
 /// What a replay allows is 1.1.
 constexpr double slack = 1.08;
+/// Layers of voxels, of which two are a tenth.
+constexpr double layers = 20;
 /// Of depth times width times radius.
 constexpr double plunged_share = 0.5;
 
@@ -33,12 +35,17 @@ bool ChipLoad::bears(double volume_m3, double length_m) {
   return true;
 }
 
+double counted_window_m(const MillTool& tool, double voxel_m) {
+  return std::max(2 * tool.cutter.radius_m, layers * voxel_m);
+}
+
 ChipLoad counted_load(const MillTool& tool, double voxel_m) {
   const double chip_m2 = tool.max_depth_m * tool.max_width_m, diameter_m = 2 * tool.cutter.radius_m;
   // A box holds the centres of no more voxels than (side / voxel + 1), along each side. A replay looks at stretches of
   // a diameter or longer.
   const double counted_m2 = slack * chip_m2 + voxel_m * (tool.max_depth_m + tool.max_width_m + voxel_m);
-  return ChipLoad({chip_m2, (counted_m2 - chip_m2) * diameter_m + counted_m2 * voxel_m, diameter_m, counted_m2});
+  return ChipLoad(
+      {chip_m2, (counted_m2 - chip_m2) * diameter_m + counted_m2 * voxel_m, counted_window_m(tool, voxel_m), chip_m2});
 }
 
 double max_plunged_m3(const MillTool& tool, double voxel_m) {

@@ -35,8 +35,11 @@ class ChipLoad {
   std::vector<std::pair<double, double>> last_;  ///< edges as long as the window: volumes, lengths
 };
 
-/// Where volumes are known by whole voxels some more come off at once than depth times width: what a replay lets pass.
-/// `voxel_m`: of the grid that the volumes are counted in.
+/// Over so much path (m) the volume that is counted in voxels says what is taken off: a diameter, or where a layer of
+/// voxels more at either end is no more than a tenth.
+double counted_window_m(const MillTool& tool, double voxel_m);
+/// Where volumes are known by whole voxels some more come off at once than depth times width: what a replay lets pass;
+/// but not over a `counted_window_m`. `voxel_m`: of the grid that the volumes are counted in.
 ChipLoad counted_load(const MillTool& tool, double voxel_m);
 /// So much, counted in voxels, may be taken off where the cutter is let down (m^3).
 double max_plunged_m3(const MillTool& tool, double voxel_m);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <utility>
 
 #include "core/cell/milling/mill_tool.hpp"
+#include "core/mill/chip_load.hpp"
 #include "core/mill/tool_figures.hpp"
 #include "core/trajectory/keyframe.hpp"
 
@@ -15,8 +17,11 @@ namespace sculpt {
 class ToolMeter {
  public:
   /// `figures`: what came of the tool before it cut anything.
-  ToolMeter(const MillTool& tool, double voxel_m3, ToolFigures figures)
-      : tool_(tool), voxel_m3_(voxel_m3), figures_(std::move(figures)) {}
+  ToolMeter(const MillTool& tool, double voxel_m, ToolFigures figures)
+      : tool_(tool),
+        voxel_m3_(std::pow(voxel_m, 3)),
+        window_m_(counted_window_m(tool, voxel_m)),
+        figures_(std::move(figures)) {}
 
   void count(const Keyframe& keyframe, double length_m) {
     ++figures_.keyframes;
@@ -41,24 +46,24 @@ class ToolMeter {
   }
 
  private:
-  /// Over a diameter of path, as the replay does: in a shorter one a layer of voxels more or less would decide.
+  /// Over as much path as it takes: in a shorter one a layer of voxels more or less would decide.
   void weigh(std::uint32_t voxels, double length_m) {
     chips_.emplace_back(voxels, length_m);
     chips_voxels_ += voxels;
     chips_m_ += length_m;
-    while (chips_.size() > 1 && chips_m_ - chips_.front().second >= 2 * tool_.cutter.radius_m) {
+    while (chips_.size() > 1 && chips_m_ - chips_.front().second >= window_m_) {
       chips_voxels_ -= chips_.front().first;
       chips_m_ -= chips_.front().second;
       chips_.pop_front();
     }
-    if (chips_m_ < 2 * tool_.cutter.radius_m) return;
+    if (chips_m_ < window_m_) return;
     const double chip_m2 = chips_voxels_ * voxel_m3_ / chips_m_;
     figures_.engagement.largest =
         std::max(figures_.engagement.largest, chip_m2 / (tool_.max_depth_m * tool_.max_width_m));
   }
 
   const MillTool& tool_;
-  double voxel_m3_;
+  double voxel_m3_, window_m_;
   ToolFigures figures_;
   bool cutting_ = false;
   std::deque<std::pair<std::uint32_t, double>> chips_;  ///< voxels and lengths of the last cuts

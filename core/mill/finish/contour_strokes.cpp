@@ -1,6 +1,7 @@
 #include "core/mill/finish/contour_strokes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/mill/drive/hop.hpp"
@@ -14,6 +15,8 @@ constexpr double detour = 3;
 constexpr double longest_over = 8, over_step = 0.25;
 /// Of the radius: an edge is cut in part in steps no shorter.
 constexpr double shortest_share = 1.0 / 16;
+/// Of the depth of cut: how much higher it goes over what is too much at once.
+constexpr std::array layer_shares{0.25, 0.5, 1.0};
 
 }  // namespace
 
@@ -45,9 +48,8 @@ Contour ContourStrokes::way_over(const Vec3& to) const {
   }
 }
 
-/// Volume (m^3).
+/// Volume (m^3); adds to what is taken.
 double ContourStrokes::take(const Vec3& from, const Vec3& to) {
-  taken_.clear();
   const auto quanta = [&](const Vec3& tip) { return quanta_of(task_.site.frame().point(tip)); };
   return stock_.take(task_.swept, quanta(from), quanta(to), &taken_) * std::pow(task_.voxel_m, 3);
 }
@@ -61,6 +63,7 @@ void ContourStrokes::go_by_air(const std::vector<Vec3>& air) {
 /// From above, if little stands there.
 bool ContourStrokes::let_down(const Vec3& to) {
   const Vec3 above = to + Vec3(0, 0, task_.tool.cutter.radius_m);
+  taken_.clear();
   if (take(above, to) > max_plunged_m3(task_.tool, task_.voxel_m)) {
     stock_.give_back(taken_);
     return false;
@@ -72,25 +75,44 @@ bool ContourStrokes::let_down(const Vec3& to) {
   return true;
 }
 
-/// As far as the cutter bears it.
+/// As far as the cutter bears it at once, the rest in layers.
 void ContourStrokes::cut(const Vec3& to) {
   const Vec3 from = at_;
-  const double length = (to - from).norm(), shortest = shortest_share * task_.tool.cutter.radius_m / length;
-  double share = 0;
-  for (double step = 1; share < 1;) {
+  const double shortest = shortest_share * task_.tool.cutter.radius_m / (to - from).norm();
+  for (double share = 0, step = 1; share < 1;) {
     const double next = std::min(1.0, share + step);
-    const Vec3 end = next < 1 ? Vec3(from + next * (to - from)) : to;
-    if (load_.bears(take(at_, end), (next - share) * length)) {
+    if (go({at_, next < 1 ? Vec3(from + next * (to - from)) : to})) {
       share = next;
-      at_ = end;
-      continue;
+    } else if (step /= 2; step < shortest) {
+      is_down_ = cut_in_layers(to);
+      return;
     }
-    stock_.give_back(taken_);
-    is_down_ = step / 2 >= shortest;
-    if (!is_down_) break;
-    step /= 2;
   }
-  if (share > 0) strokes_.push_back({task_.site.frame().point(at_), true, task_.stray_m});
+}
+
+/// Rising to above it first, and back: so that the cutter takes off a part of it each time.
+bool ContourStrokes::cut_in_layers(const Vec3& to) {
+  return std::ranges::any_of(layer_shares, [&](double share) {
+    const Vec3 up(0, 0, share * task_.tool.max_depth_m);
+    return go({at_, at_ + up, to + up, at_, to});
+  });
+}
+
+/// All of the way, or nothing where that is more than the cutter bears.
+bool ContourStrokes::go(const Contour& way) {
+  ChipLoad load = load_;
+  taken_.clear();
+  for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
+    const Vec3 &from = way[edge], &to = way[edge + 1];
+    if (load.bears(take(from, to), (to - from).norm())) continue;
+    stock_.give_back(taken_);
+    return false;
+  }
+  load_ = std::move(load);
+  for (auto place = way.begin() + 1; place != way.end(); ++place)
+    strokes_.push_back({task_.site.frame().point(*place), true, task_.stray_m});
+  at_ = way.back();
+  return true;
 }
 
 void ContourStrokes::add(const Contour& contour) {

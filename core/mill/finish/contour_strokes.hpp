@@ -54,11 +54,13 @@ class ContourStrokes {
   void go_by_air(const std::vector<Vec3>& air);
   bool let_down(const Vec3& to);
   void cut(const Vec3& to);
+  bool cut_in_layers(const Vec3& to);
+  bool go(const Contour& way);
   double take(const Vec3& from, const Vec3& to);
 
   Task task_;
   SweptSet stock_;
-  SweptSet::Taken taken_;  ///< by the last motion
+  SweptSet::Taken taken_;  ///< by the last way
   ChipLoad load_;
   Vec3 at_;
   bool has_laid_ = false;
