@@ -14,9 +14,9 @@ constexpr double plunged_share = 0.5;
 
 }  // namespace
 
-void ChipLoad::begin() {
+void ChipLoad::begin(double plunged_m3) {
   load_m3_ = 0;
-  last_.clear();
+  last_ = {{plunged_m3, 0.0}};
 }
 
 bool ChipLoad::bears(double volume_m3, double length_m) {
@@ -28,7 +28,8 @@ bool ChipLoad::bears(double volume_m3, double length_m) {
     window_m3 += first->first;
     window_m += first->second;
   }
-  if (window_m3 > limit_.window_m2 * std::max(window_m, limit_.window_m)) return false;
+  // Of the first one in it all may come off at its end.
+  if (window_m3 > limit_.window_m2 * std::max(length_m, limit_.window_m)) return false;
   last_.erase(last_.begin(), first);
   last_.emplace_back(volume_m3, length_m);
   load_m3_ = std::max(volume_m3, load_m3_ + volume_m3 - limit_.chip_m2 * length_m);
@@ -44,8 +45,8 @@ ChipLoad counted_load(const MillTool& tool, double voxel_m) {
   // A box holds the centres of no more voxels than (side / voxel + 1), along each side. A replay looks at stretches of
   // a diameter or longer.
   const double counted_m2 = slack * chip_m2 + voxel_m * (tool.max_depth_m + tool.max_width_m + voxel_m);
-  return ChipLoad(
-      {chip_m2, (counted_m2 - chip_m2) * diameter_m + counted_m2 * voxel_m, counted_window_m(tool, voxel_m), chip_m2});
+  return ChipLoad({chip_m2, (counted_m2 - chip_m2) * diameter_m + counted_m2 * voxel_m, counted_window_m(tool, voxel_m),
+                   slack * chip_m2});
 }
 
 double max_plunged_m3(const MillTool& tool, double voxel_m) {

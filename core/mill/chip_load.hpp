@@ -20,8 +20,9 @@ class ChipLoad {
  public:
   explicit ChipLoad(const ChipLimit& limit) : limit_(limit) {}
 
-  /// The run ends; what comes is not weighed with it.
-  void begin();
+  /// The run ends, and what comes is not weighed with it. `plunged_m3`: the next one takes off so much as it begins,
+  /// which counts over the window only.
+  void begin(double plunged_m3);
   /// Takes the next edge, if no stretch is too heavy with it.
   bool bears(double volume_m3, double length_m);
   /// Of a burst: how much of it the stretches that end here have used up.

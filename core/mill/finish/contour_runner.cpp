@@ -12,7 +12,7 @@ namespace {
 
 /// From contour to contour along the surface, where that is no farther (row spacings); and where there is no other way.
 constexpr double beside_spacings = 60, far_beside_spacings = 240;
-constexpr std::size_t strokes_a_batch = 100, looked_at = 6;
+constexpr std::size_t strokes_a_batch = 100, looked_at = 6, ends_looked_at = 200;
 constexpr int max_refused = 60;
 
 /// Goes on around from the contour of this number, backwards from its end.
@@ -128,15 +128,23 @@ bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contour
   };
   const auto goes_over = [&](const Vec3& to) { return comes_over(ways, laid.at(), to); };
   const Vec3& next = contours.front().front();
-  if (goes_beside(next) || goes_over(next)) return true;
+  if (laid.has_laid() && (goes_beside(next) || goes_over(next))) return true;
   const std::vector<Entry> entries =
       nearest_entries(laid.at(), contours, laid.has_laid() ? looked_at : 2 * contours.size());
+  const auto begin_of = [&](const Entry& entry) {
+    return entry.is_back ? contours[entry.number].back() : contours[entry.number].front();
+  };
   const auto find = [&](const auto& goes_to) {
-    return std::ranges::find_if(entries, [&](const Entry& entry) {
-      return goes_to(entry.is_back ? contours[entry.number].back() : contours[entry.number].front());
-    });
+    return std::ranges::find_if(entries, [&](const Entry& entry) { return goes_to(begin_of(entry)); });
   };
   auto found = find(goes_beside);
+  if (!laid.has_laid()) {
+    const auto some = entries.begin() + static_cast<std::ptrdiff_t>(std::min(ends_looked_at, entries.size()));
+    found = std::find_if(entries.begin(), some, [&](const Entry& entry) {
+      return comes_over(ways, end_of_tour(contours, entry), carver_.hub()) && goes_over(begin_of(entry));
+    });
+    if (found == some) found = entries.end();
+  }
   if (found == entries.end()) found = find(goes_over);
   if (found == entries.end() && ways.by_air && !laid.has_laid())
     found = find([&](const Vec3& to) {
@@ -146,6 +154,13 @@ bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contour
   if (found == entries.end()) return false;
   turn_to(contours, found->number, found->is_back);
   return true;
+}
+
+/// Where a tour that is begun there ends: around, at the contour beside.
+const Vec3& ContourRunner::end_of_tour(const std::vector<Contour>& contours, const Entry& begin) {
+  const std::size_t beside = begin.is_back ? begin.number + 1 : begin.number + contours.size() - 1;
+  const Contour& last = contours[beside % contours.size()];
+  return begin.is_back ? last.front() : last.back();
 }
 
 std::vector<ContourRunner::Entry> ContourRunner::nearest_entries(const Vec3& at, const std::vector<Contour>& contours,

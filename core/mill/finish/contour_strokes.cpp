@@ -64,14 +64,15 @@ void ContourStrokes::go_by_air(const std::vector<Vec3>& air) {
 bool ContourStrokes::let_down(const Vec3& to) {
   const Vec3 above = to + Vec3(0, 0, task_.tool.cutter.radius_m);
   taken_.clear();
-  if (take(above, to) > max_plunged_m3(task_.tool, task_.voxel_m)) {
+  const double plunged_m3 = take(above, to);
+  if (plunged_m3 > max_plunged_m3(task_.tool, task_.voxel_m)) {
     stock_.give_back(taken_);
     return false;
   }
   hop(task_.site, at_, to, std::max(to.z(), task_.min_height), task_.stray_m, strokes_);
   at_ = to;
   is_down_ = true;
-  load_.begin();
+  load_.begin(plunged_m3);
   return true;
 }
 

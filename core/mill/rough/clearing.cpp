@@ -16,7 +16,7 @@ constexpr double step_share = 0.8;
 constexpr double row_share = 1.04;
 /// Of depth times width of cut: what may be taken off, and over a diameter. (Counted in voxels it may look like a
 /// twentieth more.)
-constexpr double cap_share = 1.02, window_share = 1.03;
+constexpr double cap_share = 1.01, window_share = 1.05;
 /// Of what may be taken off over a diameter: at once. Edges are weighed in so many bits a radius.
 constexpr double burst_share = 0.12, bits_a_radius = 16;
 /// Of that a row uses up no more where it goes farther inside than it need.

@@ -37,7 +37,7 @@ TEST(ChipLoad, ForgetsWhatWasBeforeTheRun) {
   ChipLoad load = counted_load(d12(), 1e-3);
   while (load.bears(2 * chip_m2 * 1e-3, 1e-3)) {
   }
-  load.begin();
+  load.begin(0);
   EXPECT_TRUE(load.bears(2 * chip_m2 * 1e-3, 1e-3));
 }
 
@@ -59,7 +59,7 @@ TEST(ChipLoad, IsStricterThanTheReplay) {
           static_cast<std::uint64_t>(uniform(0, uniform(0, 4)) * chip_m2 * length_m / voxel_m3 + uniform(0, 1));
       if (!load.bears(static_cast<double>(voxels) * voxel_m3, length_m)) {
         if (uniform(0, 1) < 0.5) continue;  // left out, the next one is tried in the same run
-        load.begin();
+        load.begin(0);
         scale.end();
         continue;
       }
