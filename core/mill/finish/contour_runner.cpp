@@ -118,42 +118,57 @@ bool ContourRunner::lay_next(const Ways& ways, std::vector<Contour>& contours, C
   return true;
 }
 
-/// To the next of the tour, along the surface or from above; where that is too far for the robot, to where it may be
-/// gone on with. The contours begin there then; false where there is no such place.
+/// To the next of the tour; where that is too far for the robot, to where it may be gone on with. The contours begin
+/// there then; false where there is no such place.
 bool ContourRunner::turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid,
                                  Course& course) const {
-  const auto goes_beside = [&](const Vec3& to) {
-    if (laid.is_down()) course.way = laid.way_to(to);
+  const std::optional<Entry> entry =
+      laid.has_laid() ? find_next(ways, contours, laid, course) : find_begin(ways, contours, laid.at(), course);
+  if (!entry) return false;
+  turn_to(contours, entry->number, entry->is_back);
+  return true;
+}
+
+/// Along the surface or from above.
+std::optional<ContourRunner::Entry> ContourRunner::find_next(const Ways& ways, const std::vector<Contour>& contours,
+                                                             const ContourStrokes& laid, Course& course) const {
+  const auto goes_beside = [&](const Entry& entry) {
+    if (laid.is_down()) course.way = laid.way_to(place_of(contours, entry));
     return !course.way.empty();
   };
-  const auto goes_over = [&](const Vec3& to) { return comes_over(ways, laid.at(), to); };
-  const Vec3& next = contours.front().front();
-  if (laid.has_laid() && (goes_beside(next) || goes_over(next))) return true;
-  const std::vector<Entry> entries =
-      nearest_entries(laid.at(), contours, laid.has_laid() ? looked_at : 2 * contours.size());
-  const auto begin_of = [&](const Entry& entry) {
-    return entry.is_back ? contours[entry.number].back() : contours[entry.number].front();
+  const auto goes_over = [&](const Entry& entry) { return comes_over(ways, laid.at(), place_of(contours, entry)); };
+  const Entry next{0, 0, false};
+  if (goes_beside(next) || goes_over(next)) return next;
+  const std::vector<Entry> entries = nearest_entries(laid.at(), contours, looked_at);
+  auto found = std::ranges::find_if(entries, goes_beside);
+  if (found == entries.end()) found = std::ranges::find_if(entries, goes_over);
+  return found != entries.end() ? std::optional(*found) : std::nullopt;
+}
+
+/// From above or through the air; if it can be so that the tour ends where the robot draws back from, for else it goes
+/// back all of the way that it has cut.
+std::optional<ContourRunner::Entry> ContourRunner::find_begin(const Ways& ways, const std::vector<Contour>& contours,
+                                                              const Vec3& at, Course& course) const {
+  const auto goes_over = [&](const Entry& entry) { return comes_over(ways, at, place_of(contours, entry)); };
+  const auto goes_there_and_back = [&](const Entry& entry) {
+    return comes_over(ways, end_of_tour(contours, entry), at) && goes_over(entry);
   };
-  const auto find = [&](const auto& goes_to) {
-    return std::ranges::find_if(entries, [&](const Entry& entry) { return goes_to(begin_of(entry)); });
-  };
-  auto found = find(goes_beside);
-  if (!laid.has_laid()) {
-    const auto some = entries.begin() + static_cast<std::ptrdiff_t>(std::min(ends_looked_at, entries.size()));
-    found = std::find_if(entries.begin(), some, [&](const Entry& entry) {
-      return comes_over(ways, end_of_tour(contours, entry), carver_.hub()) && goes_over(begin_of(entry));
-    });
-    if (found == some) found = entries.end();
-  }
-  if (found == entries.end()) found = find(goes_over);
-  if (found == entries.end() && ways.by_air && !laid.has_laid())
-    found = find([&](const Vec3& to) {
-      course.air = air_->to(to);
+  const Entry first{0, 0, false};
+  if (goes_there_and_back(first)) return first;
+  const std::vector<Entry> entries = nearest_entries(at, contours, 2 * contours.size());
+  const auto near = entries.begin() + static_cast<std::ptrdiff_t>(std::min(ends_looked_at, entries.size()));
+  auto found = std::find_if(entries.begin(), near, goes_there_and_back);
+  if (found == near) found = std::ranges::find_if(entries, goes_over);
+  if (found == entries.end() && ways.by_air)
+    found = std::ranges::find_if(entries, [&](const Entry& entry) {
+      course.air = air_->to(place_of(contours, entry));
       return !course.air.empty();
     });
-  if (found == entries.end()) return false;
-  turn_to(contours, found->number, found->is_back);
-  return true;
+  return found != entries.end() ? std::optional(*found) : std::nullopt;
+}
+
+const Vec3& ContourRunner::place_of(const std::vector<Contour>& contours, const Entry& entry) {
+  return entry.is_back ? contours[entry.number].back() : contours[entry.number].front();
 }
 
 /// Where a tour that is begun there ends: around, at the contour beside.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,11 @@ class ContourRunner {
     std::vector<Vec3> air;
   };
   bool turn_to_next(const Ways& ways, std::vector<Contour>& contours, const ContourStrokes& laid, Course& course) const;
+  std::optional<Entry> find_next(const Ways& ways, const std::vector<Contour>& contours, const ContourStrokes& laid,
+                                 Course& course) const;
+  std::optional<Entry> find_begin(const Ways& ways, const std::vector<Contour>& contours, const Vec3& at,
+                                  Course& course) const;
+  static const Vec3& place_of(const std::vector<Contour>& contours, const Entry& entry);
   static const Vec3& end_of_tour(const std::vector<Contour>& contours, const Entry& begin);
   static std::vector<Entry> nearest_entries(const Vec3& at, const std::vector<Contour>& contours, std::size_t most);
   bool comes_over(const Ways& ways, const Vec3& from, const Vec3& to) const;

@@ -14,8 +14,7 @@ namespace {
 constexpr double step_share = 0.8;
 /// Of a width of cut: from row to row.
 constexpr double row_share = 1.04;
-/// Of depth times width of cut: what may be taken off, and over a diameter. (Counted in voxels it may look like a
-/// twentieth more.)
+/// Of depth times width of cut: what may be taken off, and over a diameter; by whole voxels it may look like more.
 constexpr double cap_share = 1.01, window_share = 1.05;
 /// Of what may be taken off over a diameter: at once. Edges are weighed in so many bits a radius.
 constexpr double burst_share = 0.12, bits_a_radius = 16;
@@ -77,8 +76,7 @@ ChipLoad Clearing::load_at(const Point2& begin, const std::optional<Point2>& tip
   return tip && begin == *tip ? load_ : no_load();
 }
 
-/// Bit by bit, for what a long edge takes off at its end does not count by all of its length. `before_m3` of it is gone
-/// already.
+/// Bit by bit: what a long edge takes off at its end does not count by all of it. `before_m3` of it is gone already.
 bool Clearing::bears(ChipLoad& load, const Vec3& from, const Vec3& to, double before_m3) const {
   const double length = (to - from).norm();
   const int bits = std::max(1, static_cast<int>(std::ceil(length * bits_a_radius / task_.tool.cutter.radius_m)));
@@ -94,7 +92,6 @@ bool Clearing::bears(ChipLoad& load, const Vec3& from, const Vec3& to, double be
 bool Clearing::may_cut(const LevelWay& way, ChipLoad load) const {
   for (std::size_t edge = 0; edge + 1 < way.size(); ++edge) {
     const Point2 &from = way[edge], &to = way[edge + 1];
-    // The edge before it has been where it begins.
     if (!edge_is_free(from, to) || !bears(load, at_level(from), at_level(to), edge == 0 ? 0 : volume(from, from)))
       return false;
   }
@@ -222,9 +219,9 @@ void Clearing::put_off(std::size_t number, std::size_t refused) {
   if (rest.row.points.size() > 1) turns_.push_back(std::move(rest));
 }
 
-/// The place abreast of `to` where the cutter takes off as much as it may: as far inside as it is allowed to be, or
-/// else as little farther out (constant engagement: Stori, Wright, "Constant engagement tool path generation for convex
-/// geometries", 2000). Nothing where it takes off too much everywhere.
+/// The place abreast of `to` where the cutter takes off as much as it may: as far inside or as little farther out
+/// (constant engagement: Stori, Wright, "Constant engagement tool path generation for convex geometries", 2000).
+/// Nothing where it takes off too much everywhere.
 std::optional<Point2> Clearing::keep_engagement(const Point2& from, const Point2& to, const RowField& field,
                                                 ChipLoad& load) const {
   const Point2 out = width_m_ / steps_a_width * field.outwards(to);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/verify/mill/chip_scale.hpp"
 
@@ -39,6 +42,43 @@ TEST(ChipLoad, ForgetsWhatWasBeforeTheRun) {
   }
   load.begin(0);
   EXPECT_TRUE(load.bears(2 * chip_m2 * 1e-3, 1e-3));
+}
+
+/// The heaviest stretch of edges (volumes, lengths) that ends with an edge and is no longer, all of its first one
+/// counted.
+double heaviest_m3(const std::vector<std::pair<double, double>>& edges, double window_m) {
+  double heaviest_m3 = 0;
+  for (std::size_t first = 0; first < edges.size(); ++first) {
+    double volume_m3 = edges[first].first, length_m = 0;
+    for (std::size_t last = first + 1; last < edges.size(); ++last) {
+      length_m += edges[last].second;
+      if (length_m >= window_m) break;
+      volume_m3 += edges[last].first;
+    }
+    heaviest_m3 = std::max(heaviest_m3, volume_m3);
+  }
+  return heaviest_m3;
+}
+
+TEST(ChipLoad, OverACountedWindowNoMoreThanAChip) {
+  const double voxel_m = 1e-3, window_m = counted_window_m(d12(), voxel_m);
+  EXPECT_DOUBLE_EQ(window_m, 20 * voxel_m);
+  EXPECT_DOUBLE_EQ(counted_window_m(d12(), 1e-4), 12e-3) << "a diameter";
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    ChipLoad load = counted_load(d12(), voxel_m);
+    std::vector<std::pair<double, double>> borne{{0.5 * chip_m2 * window_m, 0.0}};
+    load.begin(borne.front().first);
+    for (int edge = 0; edge < 300; ++edge) {
+      const double length_m = 3e-3 * uniform(random), most = edge % 2 == 0 ? 3 : 0.5;
+      const double volume_m3 = most * uniform(random) * chip_m2 * length_m;
+      if (load.bears(volume_m3, length_m)) borne.emplace_back(volume_m3, length_m);
+    }
+    EXPECT_GT(borne.size(), 100U) << "seed " << seed;
+    EXPECT_LE(heaviest_m3(borne, window_m), 1.1 * chip_m2 * window_m) << "seed " << seed;
+    EXPECT_GT(heaviest_m3(borne, window_m), 0.9 * chip_m2 * window_m) << "seed " << seed;
+  }
 }
 
 /// Whatever edges are borne, and however the arm cuts them up: a replay finds no chip too thick.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/core/mill/finish/quads.hpp"
@@ -64,6 +65,46 @@ TEST_F(OnASlab, ItIsRaisedNoMoreThanItMust) {
 TEST_F(OnASlab, NotWhereThatIsFar) {
   EXPECT_TRUE(way(0.028, 0.036, rest + 9e-3).empty());
   EXPECT_TRUE(way(0.015, 0.050, rest + 1e-3).empty());
+}
+
+/// A rib across the way, higher than the depth of cut: too much at once.
+TEST_F(OnASlab, WhatIsTooMuchAtOnceIsCutInLayers) {
+  MillTool big = tool;
+  big.cutter = {CutterKind::ball, 2 * radius, 2 * radius, 0.02};
+  big.max_depth_m = big.max_width_m = 2 * radius;
+  const SweptCutter big_swept(big.cutter, {0, 0, 1}, 2e-5);
+  VoxelSet rib(32);
+  for (int i = 14; i < 22; ++i)
+    for (int j = 0; j < 32; ++j)
+      for (int k = 16; k < 20; ++k) rib.insert({i, j, k});
+  const double voxel_m = edge / 32;
+  const auto quanta = [&](const Vec3& tip) { return quanta_of(frame.point(tip)); };
+  Contour contour;
+  for (int mm = 18; mm <= 52; ++mm) contour.push_back(at(mm / 1000.0));
+
+  SweptSet at_once(rib, slab.grid);
+  const std::uint32_t all = at_once.take(big_swept, quanta(contour.front()), quanta(contour.back()));
+  EXPECT_FALSE(counted_load(big, voxel_m).bears(all * std::pow(voxel_m, 3), 0.016));
+
+  ContourStrokes laid({site, envelope, big, big_swept, voxel_m, 2e-5, 0.05, rest}, SweptSet(rib, slab.grid), at(0.01));
+  laid.lay(contour, {}, {});
+  EXPECT_TRUE(laid.is_down());
+  EXPECT_EQ(laid.at(), contour.back());
+  SweptSet left(rib, slab.grid);
+  ChipLoad load = counted_load(big, voxel_m);
+  Vec3 tip = at(0.01);
+  double highest = 0;
+  for (const MillStroke& stroke : laid.strokes()) {
+    const Vec3 to = frame.of(stroke.tip_m);
+    if (stroke.cut) {
+      const std::uint32_t voxels = left.take(big_swept, quanta(tip), quanta(to));
+      EXPECT_TRUE(load.bears(voxels * std::pow(voxel_m, 3), (to - tip).norm()));
+      if (stroke.tip_m.x() > 0.02) highest = std::max(highest, to.z());
+    }
+    tip = to;
+  }
+  EXPECT_GT(highest, rest + 0.2 * big.max_depth_m);
+  EXPECT_EQ(left.voxels().size(), at_once.voxels().size()) << "as much as at once";
 }
 
 }  // namespace
