@@ -25,6 +25,8 @@ constexpr int samples_along = 64;
 /// Of a ball's depth of cut: what stands less above the lowest that it comes to is for finishing.
 constexpr double finished_share = 0.25;
 constexpr int max_failures = 12;
+/// Of a depth of cut: what is a large voxel.
+constexpr double large_voxel_share = 0.5;
 /// What is less uneven is flat.
 constexpr double flat_m = 1e-4;
 /// Of depth times width of cut, what a level must give: where no other tool comes after this one, and at most.
@@ -141,6 +143,14 @@ class RoughStage {
         tool().cutter, stray_m()};
   }
 
+  /// After rows as they were planned: what was cut may have been hollow below, and what two sweep by halves stands
+  /// after all. Where voxels are large that would be cut over and over.
+  StockTop surface_after(const Site& site, const StockTop& planned) const {
+    StockTop surface = surface_of(site);
+    if (job_.grid.voxel_m > large_voxel_share * tool().max_depth_m) surface.lower_to(planned.map());
+    return surface;
+  }
+
   /// Would the tool, if it came everywhere down to this height, take off enough for a pass?
   bool is_worth_it(const Site& site, const StockTop& surface, double height) const {
     double volume = 0;
@@ -196,7 +206,7 @@ class RoughStage {
       }
       const std::size_t done = carver_.carry_out(strokes);
       if (done == strokes.size()) {
-        surface = surface_of(site);  // what two sweep by halves stands after all
+        surface = surface_after(site, surface);
         ++rounds;
         continue;
       }

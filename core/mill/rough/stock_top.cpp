@@ -24,6 +24,11 @@ StockTop::StockTop(HeightMap stands, const Cutter& cutter, double less_m)
   max_off2_ = reach > 0 ? reach * reach : -1;
 }
 
+void StockTop::lower_to(const HeightMap& tops) {
+  for (std::size_t at = 0; at < map_.heights.size(); ++at)
+    map_.heights[at] = std::min(map_.heights[at], tops.heights[at]);
+}
+
 /// Calls `visit(index, heights)` for rows of cells around the way of which any is higher than its lowest place: the
 /// first cell, and what the cutter leaves of each.
 template <typename Visit>

@@ -16,6 +16,8 @@ class StockTop {
   StockTop(HeightMap stands, const Cutter& cutter, double less_m);
 
   const HeightMap& map() const { return map_; }
+  /// Nothing stands above these heights.
+  void lower_to(const HeightMap& tops);
   const Lattice& lattice() const { return map_.lattice; }
 
   /// Volume (m^3) that the cutter takes off on the way from one tip to the other (tool frame).
