@@ -11,8 +11,9 @@ namespace sculpt {
 
 /// What a stretch of a run, begun and ended anywhere within edges, may take off.
 struct ChipLimit {
-  double chip_m2 = 0, burst_m3 = 0;    ///< no more than `chip_m2` times its length and `burst_m3`
-  double window_m = 0, window_m2 = 0;  ///< where it is `window_m` long, no more than `window_m2` times its length
+  double chip_m2 = 0, burst_m3 = 0;  ///< no more than `chip_m2` times its length and `burst_m3`
+  /// Where it is `window_m` long and ends with an edge, no more than `window_m2` times its length.
+  double window_m = 0, window_m2 = 0;
 };
 
 /// Of edges one after the other.
